@@ -1,0 +1,113 @@
+"""reflines: shape optimization using reflection lines. numpy in, numpy out, no Blender needed.
+
+Names and shapes: V (#V x 3) vertex positions, F (#F x 3) triangles of the region to optimize, view_direction v (3, from the
+surface towards the viewer), line_direction a (3, along the line lights). Angles are radians, lengths are those of V.
+"""
+from typing import Literal, Sequence
+import numpy as np
+
+Border = Literal["free", "fixed", "clamped"]
+Stencil = Literal["averaged", "quadratic", "hybrid", "consistent"]
+Strategy = Literal["adaptive", "linearized", "gauss_newton", "newton"]
+LinearSolver = Literal["cholmod", "umfpack"]
+
+class InvalidInput(ValueError):
+    """The arrays cannot be used. The text is one sentence: what, how many, what to do."""
+
+class SolverFailure(RuntimeError):
+    """A numerical breakdown; nothing was changed."""
+
+class Progress:
+    """Shared by the thread that solves and the thread that watches. Thread safe."""
+    fraction: float  # read only, 0..1
+    stage: str       # read only, e.g. "factorizing"
+    cancelled: bool  # read only
+    def __init__(self) -> None: ...
+    def cancel(self) -> None: ...
+
+class Region:
+    """What became of the faces and vertices that were handed in. Counts; `messages` are sentences for the user."""
+    triangles: int
+    free: int
+    fixed: int
+    clamped: int
+    pieces: int        # height-field pieces, each solved on its own
+    silhouettes: int   # triangles with |n.v| < 0.02, their vertices held
+    turned_away: int   # triangles with n.v <= 0, their vertices held
+    unused_pieces: int # pieces without a free vertex
+    messages: list[str]
+
+class Target:
+    """One wanted gradient of theta and one weight per triangle, for one family of lines."""
+    gradient: np.ndarray  # #F x 2, image plane, radians / length
+    weight: np.ndarray    # #F, >= 0
+    theta: np.ndarray     # #F wanted theta for a value fit (eq. 3), empty for a gradient fit (eq. 4)
+    family: int           # which of the optimizer's line directions
+    def __init__(self, gradient: np.ndarray, weight: np.ndarray | None = None, *, theta: np.ndarray | None = None,
+                 family: int = 0) -> None: ...
+
+class Report:
+    """How a solve ended, and what it cost."""
+    termination: str   # "converged", "already_optimal", "no_progress", "iteration_limit", "cancelled"
+    converged: bool
+    message: str       # one sentence with the numbers compared
+    strategy: str
+    linear_solver: str
+    iterations: int
+    evaluations: int
+    assemblies: int
+    analyses: int
+    factorizations: int
+    solves: int
+    energy_before: float
+    energy_after: float
+    gradient_before: float
+    gradient_after: float
+    seconds: float
+    unknowns: int
+    largest_move: float   # along the view direction, scene units
+    residual_rms: float   # rms of |grad theta - target| over the region, radians / length
+
+class ShapeOptimizer:
+    """The live optimizer of one region seen from one view. Expensive to build, cheap to step.
+
+    Raises InvalidInput for data that cannot be used; never changes the arrays handed in.
+    """
+    region: Region
+    frame: np.ndarray      # 3 x 3, rows: image-plane x, y and z = view_direction, in world coordinates
+    heights: np.ndarray    # #V current heights along the view
+    positions: np.ndarray  # #V x 3; vertices that cannot move carry the bits they came with
+    free: np.ndarray       # #V bool
+    active: np.ndarray     # #F bool: triangles that belong to a height-field piece
+    def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
+                 line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
+                 border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped (border vertices)
+                 fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
+                 stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
+                 proximity: float = -1.0,                        # weight of staying near the start; -1: default
+                 progress: Progress | None = None) -> None: ...
+    def theta(self, family: int = 0) -> np.ndarray: ...           # #F, radians in (-pi, pi]
+    def field(self, family: int = 0) -> np.ndarray: ...           # #F x 2, the current grad theta
+    def energy(self, target: Target | list[Target]) -> float: ...
+    def residual(self, target: Target) -> np.ndarray: ...         # #F, |grad theta - target|
+    def score(self, length: float, family: int = 0) -> float: ... # wobble of the lines in degrees, see score.h
+    def solve(self, target: Target | list[Target], *, strategy: Strategy = "adaptive", gradient_tolerance: float = 1e-6,
+              max_iterations: int = 100, progress: Progress | None = None) -> Report: ...
+    def reset(self) -> None: ...                                  # back to the heights it was built with
+
+def smooth(optimizer: ShapeOptimizer, *, length: float, strength: float = 1.0, directional: bool = False,
+           family: int = 0) -> Target:
+    """The current field without its detail finer than `length` (scene units); see native/reflection/smooth.h."""
+
+class NormalFit:
+    """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""
+    def __init__(self, V: np.ndarray, F: np.ndarray, *, refit_angle: float = 0.35) -> None: ...
+    def normals(self, V: np.ndarray) -> np.ndarray: ...           # #V x 3, unit; isolated vertices (0, 0, 1)
+
+def image_plane(view_direction: Sequence[float], line_direction: Sequence[float]) -> np.ndarray:
+    """3 x 3, rows a_perp, a_v, v. InvalidInput where the two directions are parallel."""
+
+def theta(normals: np.ndarray, view_direction: np.ndarray, line_direction: Sequence[float]) -> np.ndarray:
+    """theta of #N x 3 normals (any length); view_direction is 3 or #N x 3."""
+
+__version__: str

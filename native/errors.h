@@ -1,0 +1,20 @@
+// The two kinds of failure. "Not converged" is neither: it is a value of Report::termination.
+#pragma once
+
+#include <stdexcept>
+
+namespace reflines {
+
+// The caller's data cannot be used. The text is one sentence: what, how many (or which index), what to do.
+class InvalidInput : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+// A numerical breakdown inside a solve (for instance a singular matrix); the caller's data are untouched.
+class SolverFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace reflines

@@ -1,0 +1,30 @@
+// What a minimizer sees: a smooth function of n unknowns with an analytic gradient and a sparse Hessian model of constant
+// pattern. It knows nothing of meshes; tests drive it with textbook functions.
+#pragma once
+
+#include "native/types.h"
+
+namespace reflines {
+
+// Which second-order model Problem::hessian returns. All are symmetric positive semi-definite.
+enum class HessianModel {
+  kLinearized,   // constant: the Hessian of the energy linearised about flat slopes (the paper, section 3.1)
+  kGaussNewton,  // J^T J at x
+  kNewton,       // full second derivatives at x, projected to positive semi-definite element by element
+};
+
+class Problem {
+ public:
+  virtual ~Problem() = default;
+
+  virtual int size() const = 0;  // #unknowns n
+
+  // E(x) and, where `gradient` is not null, dE/dx into it (already of length n: no allocation in the loop).
+  virtual double evaluate(const Vector& x, Vector* gradient) = 0;
+
+  // Lower triangle, n x n, compressed; the pattern is the same for every x and model, so that it is analysed once.
+  // The reference stays valid, and its values are overwritten, until the next call.
+  virtual const SparseMatrix& hessian(const Vector& x, HessianModel model) = 0;
+};
+
+}  // namespace reflines

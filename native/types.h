@@ -1,0 +1,20 @@
+// Scalar, index and array types used by every native room. One scalar (double), one index (int).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace reflines {
+
+using Vector = Eigen::VectorXd;                                                    // #V
+using Vector2 = Eigen::Vector2d;
+using Vector3 = Eigen::Vector3d;
+using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;       // V, #V x 3
+using PlanePositions = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  // xy, #V x 2
+using PlaneVectors = PlanePositions;                                               // one 2-vector a triangle, #F x 2
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;          // F, #F x 3
+using IndexVector = Eigen::VectorXi;
+using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+}  // namespace reflines
