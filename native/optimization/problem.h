@@ -1,5 +1,5 @@
-// What a minimizer sees: a smooth function of n unknowns with an analytic gradient and a sparse Hessian model of constant
-// pattern. It knows nothing of meshes; tests drive it with textbook functions.
+// What a minimizer sees: a smooth function of n unknowns with an analytic gradient and a sparse Hessian model of
+// constant pattern. It knows nothing of meshes; tests drive it with textbook functions.
 #pragma once
 
 #include "native/types.h"

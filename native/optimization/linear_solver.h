@@ -1,0 +1,54 @@
+// Sparse symmetric positive definite systems A x = b, solved directly: the one wall around SuiteSparse.
+#pragma once
+
+#include <memory>
+
+#include "native/types.h"
+
+namespace reflines {
+
+enum class LinearSolverKind {
+  kCholmod,  // supernodal L L^T
+  kUmfpack,  // multifrontal L U, symmetric strategy
+};
+const char* to_string(LinearSolverKind kind);  // "cholmod", "umfpack"
+
+// A matrix is handed over as its lower triangle (n x n, compressed, sorted columns); entries above the diagonal are an
+// error. The same input gives the same bits, whatever the number of threads.
+class LinearSolver {
+ public:
+  explicit LinearSolver(LinearSolverKind kind);
+  ~LinearSolver();
+  LinearSolver(const LinearSolver&) = delete;
+  LinearSolver& operator=(const LinearSolver&) = delete;
+
+  LinearSolverKind kind() const;
+
+  // True where `matrix` has the pattern last analysed: its factorization needs no new analysis.
+  bool has_pattern_of(const SparseMatrix& matrix) const;
+
+  // Chooses the elimination order for a pattern (the values do not matter). Drops a factor that is kept.
+  void analyze(const SparseMatrix& matrix);
+
+  // Numeric factorization; the pattern must be the one analysed. A positive semi-definite matrix that breaks down is
+  // tried again with a small multiple of its diagonal added (see diagonal_shift). SolverFailure where that does not
+  // help.
+  void factorize(const SparseMatrix& matrix);
+  bool has_factor() const;
+  double diagonal_shift() const;  // relative: A + shift * diag(A) is what is factored; 0 for a sound matrix
+
+  // x <- A^-1 x with the last factor. Allocates only in the first call after `analyze`.
+  void solve(Vector& x);
+
+ private:
+  class Backend;
+  class Cholmod;
+  class Umfpack;
+  struct Pattern;
+  LinearSolverKind kind_;
+  std::unique_ptr<Pattern> pattern_;
+  std::unique_ptr<Backend> backend_;
+  double diagonal_shift_ = 0.0;
+};
+
+}  // namespace reflines

@@ -1,0 +1,50 @@
+// How a solve ended, and what it cost.
+#pragma once
+
+#include <string>
+
+#include "native/optimization/linear_solver.h"
+#include "native/optimization/options.h"
+
+namespace reflines {
+
+enum class Termination {
+  kConverged,       // the gradient is down by the tolerance, or is as small as rounding lets it be
+  kAlreadyOptimal,  // the gradient was that small at the start; x was not touched
+  kNoProgress,      // no step along the last direction lowers the energy
+  kIterationLimit,  // max_iterations steps were taken
+  kCancelled,       // Progress::cancel was called; x was not touched
+};
+const char* to_string(Termination termination);  // "converged", "already_optimal", "no_progress", ...
+
+struct Report {
+  Termination termination = Termination::kIterationLimit;
+  std::string message;  // one sentence for the user, with the two numbers compared
+  Strategy strategy = Strategy::kAdaptive;
+  LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
+
+  // Counts.
+  int unknowns = 0;
+  int iterations = 0;      // accepted steps
+  int evaluations = 0;     // of the energy, with or without gradient
+  int assemblies = 0;      // of a Hessian
+  int analyses = 0;        // symbolic
+  int factorizations = 0;  // numeric
+  int solves = 0;          // with a factor
+
+  double energy_before = 0.0;
+  double energy_after = 0.0;
+  double gradient_before = 0.0;  // Euclidean norms
+  double gradient_after = 0.0;
+  double seconds = 0.0;
+
+  // Filled in by the owner of the geometry: the minimizer knows of neither.
+  double largest_move = 0.0;  // along the view direction, scene units
+  double residual_rms = 0.0;  // of |grad theta - target| over the region, radians / length
+
+  bool converged() const {
+    return termination == Termination::kConverged || termination == Termination::kAlreadyOptimal;
+  }
+};
+
+}  // namespace reflines
