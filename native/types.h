@@ -6,7 +6,7 @@
 
 namespace reflines {
 
-using Vector = Eigen::VectorXd;                                                    // #V
+using Vector = Eigen::VectorXd;  // #V
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;       // V, #V x 3

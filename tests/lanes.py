@@ -1,0 +1,207 @@
+"""Runs the test lanes and adds their counts up; the last line is always "N passed, N failed, N skipped".
+
+A lane is one way of running tests: native executables, Python without Blender, Blender in the background, Blender in a
+window, the rules of the house. A lane that crashes before its counts can be read counts as one failure.
+"""
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+OUT = ROOT / "build" / "tests"
+PYTHON = "/usr/bin/python3"
+BLENDER = "/usr/bin/blender"
+COUNTS_LINE = re.compile(r"^(\d+) passed, (\d+) failed, (\d+) skipped\s*$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Counts:
+    passed: int = 0
+    failed: int = 0
+    skipped: int = 0
+
+    def __add__(self, other: "Counts") -> "Counts":
+        return Counts(self.passed + other.passed, self.failed + other.failed, self.skipped + other.skipped)
+
+    def __str__(self) -> str:
+        return f"{self.passed} passed, {self.failed} failed, {self.skipped} skipped"
+
+
+CRASHED = Counts(failed=1)
+
+
+def junit_counts(path: Path) -> Counts:
+    """The counts of a JUnit file, as both GoogleTest and pytest write it."""
+    cases = list(ElementTree.parse(path).getroot().iter("testcase"))
+    failed = sum(1 for case in cases if case.find("failure") is not None or case.find("error") is not None)
+    skipped = sum(1 for case in cases if case.find("skipped") is not None or case.get("status") == "notrun")
+    return Counts(len(cases) - failed - skipped, failed, skipped)
+
+
+def judged(counts: Counts, code: int, what: str) -> Counts:
+    """A non-zero exit without a counted failure is a failure all the same."""
+    if code != 0 and counts.failed == 0:
+        print(f"{what}: exit code {code} although no test is counted as failed")
+        return counts + CRASHED
+    return counts
+
+
+def run_with_junit(command: Sequence[str], report: Path, env: dict[str, str] | None = None,
+                   timeout: int = 1500) -> Counts:
+    """Runs a command that writes a JUnit report."""
+    report.parent.mkdir(parents=True, exist_ok=True)
+    report.unlink(missing_ok=True)
+    try:
+        code = subprocess.run(command, cwd=ROOT, env=env, timeout=timeout).returncode
+    except subprocess.TimeoutExpired:
+        print(f"{command[0]}: no end after {timeout} s")
+        return CRASHED
+    if not report.is_file():
+        print(f"{command[0]}: exit code {code} and no report")
+        return CRASHED
+    return judged(junit_counts(report), code, command[0])
+
+
+def pytest_lane(folder: str) -> Counts:
+    env = os.environ | {"PYTHONPATH": str(ROOT / "addon")}
+    report = OUT / f"{folder}.xml"
+    command = [PYTHON, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", f"--junitxml={report}", f"tests/{folder}"]
+    return run_with_junit(command, report, env)
+
+
+def native_lane() -> Counts:
+    total = Counts()
+    for room in sorted(path.name for path in (ROOT / "tests/native").iterdir() if path.is_dir()):
+        report = OUT / f"native_{room}.xml"
+        command = [str(ROOT / f"build/release/test_{room}"), "--gtest_brief=1", f"--gtest_output=xml:{report}"]
+        total += run_with_junit(command, report)
+    return total
+
+
+def blender_environment() -> dict[str, str]:
+    """A Blender that sees no user's settings; they start empty each time."""
+    user = OUT / "blender_user"
+    shutil.rmtree(user, ignore_errors=True)
+    user.mkdir(parents=True)
+    return os.environ | {"BLENDER_USER_RESOURCES": str(user), "LIBGL_ALWAYS_SOFTWARE": "1"}
+
+
+def run_blender(command: Sequence[str], timeout: int) -> Counts:
+    """Runs tests inside Blender: they print the line of counts themselves."""
+    process = subprocess.Popen(command, cwd=ROOT, env=blender_environment(), text=True, errors="replace",
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+    try:
+        output, _ = process.communicate(timeout=timeout)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, 9)
+        output, _ = process.communicate()
+        print(output)
+        print(f"{command[-1]}: no end after {timeout} s")
+        return CRASHED
+    print(output, end="")
+    found = COUNTS_LINE.findall(output)
+    if not found:
+        print(f"{command[-1]}: exit code {process.returncode} and no line of counts")
+        return CRASHED
+    return judged(Counts(*map(int, found[-1])), process.returncode, command[-1])
+
+
+def addon_lane() -> Counts:
+    command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "--python", "tests/addon/run.py"]
+    return run_blender(command, 1500)
+
+
+def ui_lane() -> Counts:
+    """Every file in a Blender of its own, in a window of a virtual screen, with simulated mouse and keys."""
+    screen = ["xvfb-run", "-a", "-s", "-screen 0 1280x900x24"]
+    window = [BLENDER, "--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", "1280", "900"]
+    total = Counts()
+    for path in sorted((ROOT / "tests/ui").glob("test_*.py")):
+        total += run_blender([*screen, *window, "--python-exit-code", "1", "--python", str(path)], 600)
+    return total
+
+
+@dataclass(frozen=True)
+class Lane:
+    run: Callable[[], Counts]
+    built: bool               # needs the native build
+    rooms: tuple[str, ...]    # a change below one of these calls for the lane
+
+
+SHARED = ("CMakeLists.txt", "CMakePresets.json", "tests/lanes.py", "run", ".ci/")
+LANES = {
+    "rules": Lane(lambda: pytest_lane("rules"), False, ("",)),
+    "native": Lane(native_lane, True, ("native/", "tests/native/", *SHARED)),
+    "bindings": Lane(lambda: pytest_lane("bindings"), True, ("native/", "tests/bindings/", *SHARED)),
+    "addon": Lane(addon_lane, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
+    "ui": Lane(ui_lane, True, ("addon/", "tests/ui/", *SHARED)),
+}
+
+
+def git_lines(*arguments: str) -> list[str]:
+    return subprocess.run(["git", *arguments], cwd=ROOT, text=True, stdout=subprocess.PIPE).stdout.splitlines()
+
+
+def changed_files() -> list[str]:
+    """Files that differ from where this branch left main, uncommitted ones among them."""
+    base = git_lines("merge-base", "HEAD", "main") or ["HEAD"]
+    return git_lines("diff", "--name-only", base[0]) + git_lines("ls-files", "--others", "--exclude-standard")
+
+
+def chosen_lanes(names: Sequence[str], only_changed: bool) -> list[str]:
+    present = [name for name in LANES if (ROOT / "tests" / name).is_dir()]
+    if only_changed:
+        files = changed_files()
+        return [name for name in present if any(file.startswith(LANES[name].rooms) for file in files)]
+    unknown = [name for name in names if name not in present]
+    if unknown:
+        sys.exit(f"no test lane {', '.join(unknown)}; there are {', '.join(present)}")
+    return list(names) or present
+
+
+def succeeds(*command: str) -> bool:
+    return subprocess.run(command, cwd=ROOT).returncode == 0
+
+
+def configured() -> bool:
+    return (ROOT / "build/release/build.ninja").is_file() or succeeds("cmake", "--preset", "release")
+
+
+def run_lanes(names: Sequence[str]) -> Counts:
+    total = Counts()
+    built = configured()  # the rules read the compile commands
+    if any(LANES[name].built for name in names):
+        built = built and succeeds("cmake", "--build", "--preset", "release")
+    for name in names:
+        print(f"== {name}", flush=True)
+        start = time.monotonic()
+        if LANES[name].built and not built:
+            print("the native build failed, so this lane cannot run")
+            counts = CRASHED
+        else:
+            counts = LANES[name].run()
+        print(f"== {name}: {counts} ({time.monotonic() - start:.0f} s)", flush=True)
+        total += counts
+    return total
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="./run test", description=__doc__)
+    parser.add_argument("lanes", nargs="*", metavar="LANE", help=", ".join(LANES))
+    parser.add_argument("--changed", action="store_true", help="only the lanes that changes touch")
+    arguments = parser.parse_args()
+    total = run_lanes(chosen_lanes(arguments.lanes, arguments.changed))
+    print(total)
+    return 0 if total.failed == 0 and total.passed > 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,71 @@
+"""The layout and the names of the C++ code, judged by clang-format and clang-tidy."""
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from tree import ROOT, cpp_files
+
+BUILD = ROOT / "build/release"
+JUDGED = ROOT / "build/rules/tidy"
+OWN_INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+
+def needed(tool: str) -> str:
+    path = shutil.which(tool)
+    if path is None:
+        pytest.skip(f"{tool} is not installed")
+    return path
+
+
+def test_clang_format() -> None:
+    command = [needed("clang-format"), "--dry-run", "-Werror", *map(str, cpp_files())]
+    result = subprocess.run(command, cwd=ROOT, text=True, stderr=subprocess.PIPE)
+    wrong = sorted(set(re.findall(r"^(\S+?):\d+:\d+: error", result.stderr, re.MULTILINE)))
+    assert result.returncode == 0, f"./run format would change {wrong}\n{result.stderr[:2000]}"
+
+
+def with_own_headers(file: Path, seen: set[Path]) -> set[Path]:
+    """The file and every header of the project that it includes, near or far."""
+    if file not in seen and (ROOT / file).is_file():
+        seen.add(file)
+        for included in OWN_INCLUDE.findall((ROOT / file).read_text()):
+            with_own_headers(Path(included), seen)
+    return seen
+
+
+def fingerprint(file: Path, version: bytes) -> str:
+    """What clang-tidy's verdict on a translation unit depends on."""
+    digest = hashlib.sha256(version + (ROOT / ".clang-tidy").read_bytes())
+    for part in sorted(with_own_headers(file, set())):
+        digest.update(str(part).encode() + (ROOT / part).read_bytes())
+    return digest.hexdigest()
+
+
+def verdict(tidy: str, file: Path) -> str:
+    """clang-tidy's complaints about one translation unit; empty when it has none."""
+    command = ["nice", tidy, "--quiet", "-p", str(BUILD), str(file)]
+    result = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    return "" if result.returncode == 0 else result.stdout
+
+
+def test_names() -> None:
+    """Only translation units that changed since they were last found good are judged again."""
+    tidy = needed("clang-tidy")
+    if not (BUILD / "compile_commands.json").is_file():
+        pytest.skip("build/release is not configured: ./run build")
+    compiled = (BUILD / "compile_commands.json").read_text()
+    version = subprocess.run([tidy, "--version"], check=True, stdout=subprocess.PIPE).stdout
+    stamps = {JUDGED / fingerprint(file, version): file for file in cpp_files(".cpp") if f"{file}\"" in compiled}
+    pending = {stamp: file for stamp, file in stamps.items() if not stamp.exists()}
+    JUDGED.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        verdicts = dict(zip(pending, pool.map(lambda file: verdict(tidy, file), pending.values()), strict=True))
+    for stamp, complaints in verdicts.items():
+        if not complaints:
+            stamp.touch()
+    assert not any(verdicts.values()), "\n".join(filter(None, verdicts.values()))
