@@ -1,0 +1,42 @@
+"""Reflection Lines: shape optimization of car panels through their reflection lines (Tosun et al., SGP 2007).
+
+Modules stand in the order of their dependencies; `register` walks the list forwards, `unregister` backwards.
+"""
+import importlib
+
+from . import native
+from .bridge import refusal, versions, view, region, gather, apply, surface
+from . import properties, session
+from .overlay import stripes, shader, draw
+from .operators import add_light_direction, add_view_camera, smooth
+from . import preferences, panels
+
+bl_info = {
+    "name": "Reflection Lines",
+    "author": "The Reflection Lines authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "3D View > Sidebar > Reflection",
+    "description": "Optimize the shape of a panel through its reflection lines",
+    "category": "Mesh",
+}
+
+MODULES = (native, refusal, versions, view, region, gather, apply, surface, properties, session, stripes, shader, draw,
+           add_light_direction, add_view_camera, smooth, preferences, panels)
+
+if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.
+    for module in MODULES:
+        importlib.reload(module)
+REGISTERED_BEFORE = True
+
+
+def register() -> None:
+    for module in MODULES:
+        if hasattr(module, "register"):
+            module.register()
+
+
+def unregister() -> None:
+    for module in reversed(MODULES):
+        if hasattr(module, "unregister"):
+            module.unregister()

@@ -1,0 +1,1 @@
+"""Between Blender and numpy: the only readers and writers of mesh data."""

@@ -1,0 +1,147 @@
+"""From a Blender mesh to the arrays of one region, in world space and double precision."""
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from . import region, versions
+from .refusal import Refusal
+
+
+@dataclass(frozen=True)
+class Panel:
+    """The region of one object as the solver takes it, and the way back."""
+    name: str            # of the object
+    faces: np.ndarray    # #mesh faces, bool: the region
+    index: np.ndarray    # #V: the mesh vertex behind each vertex of the region
+    local: np.ndarray    # #V x 3, object space
+    V: np.ndarray        # #V x 3, world space
+    F: np.ndarray        # #F x 3, oriented so that normals point outwards in world space
+    matrix: np.ndarray   # 4 x 4, object to world
+
+    @property
+    def center(self) -> np.ndarray:
+        """Of the bounding box: unlike the mean of the vertices it does not lean to where the mesh is dense."""
+        return 0.5 * (self.V.min(axis=0) + self.V.max(axis=0))
+
+    @property
+    def local_center(self) -> np.ndarray:
+        return np.linalg.solve(self.matrix, np.append(self.center, 1.0))[:3]
+
+    @property
+    def diagonal(self) -> float:
+        return float(np.linalg.norm(self.V.max(axis=0) - self.V.min(axis=0)))
+
+
+def subjects(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The objects an operator works on: all meshes in Edit Mode that have selected faces, else the active mesh."""
+    active = context.view_layer.objects.active
+    if active is None or active.mode != 'EDIT':
+        return [active]
+    editing = {ob.data: ob for ob in context.view_layer.objects if ob.mode == 'EDIT' and ob.type == 'MESH'}
+    chosen = [ob for ob in editing.values() if ob.data.total_face_sel > 0]
+    if not chosen:
+        loose = sum(ob.data.total_vert_sel for ob in editing.values())
+        also = f" (the {loose} selected vertices span no face)" if loose else ""
+        raise Refusal(f"No faces are selected{also}: select the faces of the panel")
+    return chosen
+
+
+def gather(ob: bpy.types.Object) -> Panel:
+    refuse_unusable(ob)
+    mesh = ob.data
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    faces = region.selected(mesh) if ob.mode == 'EDIT' else region.stored(mesh)
+    if not faces.any():
+        raise Refusal(f"{ob.name} has no stored region: "
+                      "select the faces of the panel in Edit Mode and run the tool there once")
+    local = coordinates(ob)
+    refuse_broken(ob.name, mesh, faces, local)
+    index, F = region_triangles(mesh, faces)
+    matrix = np.array(ob.matrix_world, dtype=np.float64)
+    if np.linalg.det(matrix[:3, :3]) < 0.0:
+        F = F[:, ::-1]  # a mirroring transform turns triangles over, but not what Blender calls their front
+    local = local[index]
+    V = local @ matrix[:3, :3].T + matrix[:3, 3]
+    return Panel(ob.name, faces, index, local, V, np.ascontiguousarray(F), matrix)
+
+
+def refuse_unusable(ob: bpy.types.Object) -> None:
+    mesh, keys = ob.data, ob.data.shape_keys
+    if ob.library is not None or mesh.library is not None:
+        raise Refusal(f"{ob.name} is linked from another file and cannot be changed here: make it local")
+    if ob.mode != 'EDIT' and keys is not None:
+        raise Refusal(f"{ob.name} has shape keys: enter Edit Mode on the key that is to be changed")
+    others = mesh.users - mesh.use_fake_user - 1
+    if ob.mode != 'EDIT' and others > 0:
+        raise Refusal(f"{ob.name} shares its mesh with {others} other objects: "
+                      "make it single-user, or work in Edit Mode")
+    if keys is not None and versions.shape_is_locked(ob.active_shape_key):
+        raise Refusal(f"The shape key {ob.active_shape_key.name} of {ob.name} is locked: unlock it, or choose another")
+    scale = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
+    if not np.isfinite(scale).all() or np.linalg.matrix_rank(scale) < 3:
+        raise Refusal(f"{ob.name} is scaled to nothing in one direction: give it a scale other than zero")
+
+
+def refuse_broken(name: str, mesh: bpy.types.Mesh, faces: np.ndarray, local: np.ndarray) -> None:
+    """Coordinates that are no numbers must not reach Blender's triangulation of n-gons."""
+    vertices = face_vertices(mesh, faces)
+    broken = np.unique(vertices[~np.isfinite(local[vertices]).all(axis=1)])
+    if len(broken):
+        raise Refusal(f"{name} has {len(broken)} vertices in the region whose coordinates are no numbers, "
+                      f"the first is {broken[0]}: delete or move them")
+
+
+def mean_normal(ob: bpy.types.Object) -> np.ndarray:
+    """World direction of the selected faces, else of the stored region, else of all; +Z for a closed body."""
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    mesh = ob.data
+    faces = region.selected(mesh) if ob.mode == 'EDIT' else region.stored(mesh)
+    areas, directions = np.empty(len(mesh.polygons)), np.empty(3 * len(mesh.polygons))
+    mesh.polygons.foreach_get("area", areas)
+    mesh.polygons.foreach_get("normal", directions)
+    chosen = faces if faces.any() else np.ones(len(faces), dtype=bool)
+    total = areas[chosen] @ directions.reshape(-1, 3)[chosen]
+    matrix = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
+    if np.linalg.norm(total) < 1e-3 * areas[chosen].sum() or np.linalg.matrix_rank(matrix) < 3 or not len(areas):
+        return np.array([0.0, 0.0, 1.0])
+    normal = np.linalg.solve(matrix.T, total)
+    return normal / np.linalg.norm(normal)
+
+
+def face_vertices(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
+    """The vertices of the chosen faces, corner by corner."""
+    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
+    corners = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    mesh.loops.foreach_get("vertex_index", corners)
+    return corners[np.repeat(faces, sizes)]
+
+
+def coordinates(ob: bpy.types.Object) -> np.ndarray:
+    """#vertices x 3, object space. In Edit Mode the mesh keeps the basis; what is edited is the active shape key."""
+    points = ob.data.vertices if ob.data.shape_keys is None else ob.active_shape_key.data
+    values = np.empty(3 * len(points), dtype=np.float64)
+    points.foreach_get("co", values)
+    return values.reshape(-1, 3)
+
+
+def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (#triangles x 3) and face (#triangles) of Blender's own triangulation."""
+    mesh.calc_loop_triangles()
+    count = len(mesh.loop_triangles)
+    vertices, polygons = np.empty(3 * count, dtype=np.int32), np.empty(count, dtype=np.int32)
+    mesh.loop_triangles.foreach_get("vertices", vertices)
+    mesh.loop_triangles.foreach_get("polygon_index", polygons)
+    return vertices.reshape(-1, 3), polygons
+
+
+def region_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    vertices, polygons = triangles(mesh)
+    chosen = vertices[faces[polygons]]
+    used = np.zeros(len(mesh.vertices), dtype=bool)
+    used[chosen] = True
+    compact = np.cumsum(used, dtype=np.int32) - 1
+    return np.flatnonzero(used), compact[chosen]

@@ -1,0 +1,42 @@
+"""Add Light Direction."""
+import bpy
+from mathutils import Matrix, Vector
+
+from ..bridge import view
+
+
+class REFLINES_OT_add_light_direction(bpy.types.Operator):
+    """Add an arrow that shows the direction of the line lights, at first along the horizontal of the view.
+
+Turn the arrow to turn the reflection lines; it must not point along the view"""
+    bl_idname = "reflines.add_light_direction"
+    bl_label = "Add Light Direction"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    # Hidden: in Edit Mode undo does not take the arrow away, so a redo would add a second one.
+    direction: bpy.props.FloatVectorProperty(
+        name="Direction", subtype='XYZ', options={'HIDDEN', 'SKIP_SAVE'},
+        description="In world space; zero takes the horizontal of the view")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        settings = context.scene.reflection_lines
+        frame = self.frame(context, settings)
+        direction = Vector(self.direction) if any(self.direction) else frame.col[0]
+        center, size = view.extent(context.view_layer.objects.active)
+        arrow = bpy.data.objects.new("Light Direction", None)
+        arrow.empty_display_type = 'SINGLE_ARROW'
+        arrow.empty_display_size = 0.3 * size
+        place = Matrix.Translation(center + 0.3 * size * frame.col[2])
+        arrow.matrix_world = place @ view.frame_towards(direction).to_4x4()
+        context.collection.objects.link(arrow)
+        settings.light = arrow
+        return {'FINISHED'}
+
+    def frame(self, context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> Matrix:
+        """Of the view that counts: the view camera's; without one the viewport's; in background from above."""
+        if settings.present(settings.camera):
+            return settings.camera.matrix_world.to_3x3().normalized()
+        return view.viewport_frame(context) or Matrix.Identity(3)
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_add_light_direction])

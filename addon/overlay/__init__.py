@@ -1,0 +1,1 @@
+"""What the artist sees: stripes over the shaded model, drawn from the reflection function that the solver optimizes."""

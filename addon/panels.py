@@ -1,0 +1,104 @@
+"""The sidebar tab "Reflection", top to bottom as the work goes: view and light, region and border, tool, result."""
+import bpy
+
+
+class ReflinesPanel:
+    """What all panels of the tab share."""
+    bl_space_type = 'VIEW_3D'
+    bl_region_type = 'UI'
+    bl_category = "Reflection"
+
+
+class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
+    bl_label = "View and Light"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reflection_lines
+        layout = self.layout
+        self.draw_problem(layout, context.window_manager.reflection_lines)
+        column = layout.column()
+        column.prop(settings, "camera", text="View", icon='CAMERA_DATA')
+        if not settings.present(settings.camera):
+            column.operator("reflines.add_view_camera", icon='ADD')
+        elif settings.is_perspective():
+            column.label(text="Perspective camera: its direction to", icon='INFO')
+            column.label(text="the panel's centre is used.", icon='BLANK1')
+        column = layout.column()
+        column.prop(settings, "light", icon='EMPTY_SINGLE_ARROW')
+        if not settings.present(settings.light):
+            column.operator("reflines.add_light_direction", icon='ADD')
+
+    def draw_problem(self, layout: bpy.types.UILayout, session: bpy.types.PropertyGroup) -> None:
+        if session.problem:
+            box = layout.box()
+            box.alert = True
+            box.label(text=session.problem, icon='ERROR')
+            box.label(text=session.remedy, icon='BLANK1')
+
+
+class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Region and Border"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.label(text=self.region_text(context.view_layer.objects.active), icon='FACESEL')
+        layout.row().prop(context.scene.reflection_lines, "border", expand=True)
+
+    def region_text(self, ob: bpy.types.Object | None) -> str:
+        if ob is None or ob.type != 'MESH':
+            return "Make the panel's mesh active"
+        if ob.mode == 'EDIT':
+            return f"{ob.data.total_face_sel} selected faces"
+        return "Faces of the last run" if ob.reflection_lines.report.termination else "Select faces in Edit Mode"
+
+
+class VIEW3D_PT_reflines_smooth(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Smooth"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reflection_lines
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(settings, "length", text="Length" if settings.length else "Length (automatic)")
+        layout.prop(settings, "strength")
+        layout.operator("reflines.smooth", icon='MOD_SMOOTH')
+
+
+class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Result"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = context.view_layer.objects.active
+        return ob is not None and ob.reflection_lines.report.termination != ""
+
+    def draw(self, context: bpy.types.Context) -> None:
+        report = context.view_layer.objects.active.reflection_lines.report
+        column = self.layout.column(align=True)
+        column.label(text=f"{report.termination.replace('_', ' ').capitalize()}, {report.iterations} iterations, "
+                          f"{report.seconds:.2f} s", icon='CHECKMARK' if report.termination == "converged" else 'INFO')
+        column.label(text=f"Wobble {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
+        move = bpy.utils.units.to_string(context.scene.unit_settings.system, 'LENGTH', report.largest_move, precision=5)
+        column.label(text=f"Largest move {move}")
+        for note in report.notes.splitlines():
+            column.label(text=note, icon='ERROR')
+
+
+class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Stripes"
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.scene.reflection_lines.stripes, "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        stripes = context.scene.reflection_lines.stripes
+        layout = self.layout
+        layout.use_property_split = True
+        layout.active = stripes.show
+        for name in ("eye", "count", "width", "softness", "color", "gap_color", "opacity"):
+            layout.prop(stripes, name)
+
+
+register, unregister = bpy.utils.register_classes_factory([
+    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_result,
+    VIEW3D_PT_reflines_stripes])

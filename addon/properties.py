@@ -1,0 +1,130 @@
+"""What is saved in the .blend file: settings on the scene, the last result on the object."""
+import bpy
+from bpy.props import (BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty,
+                       StringProperty)
+
+BORDERS = (
+    ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly"),
+    ('fixed', "Fixed", "Border vertices stay; the slope across the border may change"),
+    ('free', "Free", "Border vertices may move along the view, as the rest does"),
+)
+EYES = (
+    ('CAMERA', "View Camera", "Stripes as the solver sees them: from the view camera's direction"),
+    ('VIEWPORT', "Viewport", "Stripes slide over the panel as you orbit around it"),
+)
+
+
+def length_property(**options: object) -> object:
+    return FloatProperty(
+        name="Length", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **options,
+        description="Detail of the lines finer than this is removed; 0 takes a sixth of the panel's diagonal")
+
+
+def strength_property(**options: object) -> object:
+    return FloatProperty(name="Strength", default=1.0, min=0.0, max=1.0, subtype='FACTOR', **options,
+                         description="How much of that detail is removed: 0 leaves the panel as it is")
+
+
+def border_property(**options: object) -> object:
+    return EnumProperty(name="Border", items=BORDERS, default='clamped', **options,
+                        description="What happens at the border of the region")
+
+
+def color_property(name: str, default: tuple[float, float, float, float]) -> object:
+    return FloatVectorProperty(name=name, subtype='COLOR', size=4, min=0.0, max=1.0, default=default)
+
+
+class ReflinesReport(bpy.types.PropertyGroup):
+    """How the last solve of an object ended."""
+    termination: StringProperty(name="Termination")
+    message: StringProperty(name="Message")
+    notes: StringProperty(name="Notes", description="What was held fixed or left out, one sentence a line")
+    iterations: IntProperty(name="Iterations")
+    seconds: FloatProperty(name="Time", unit='NONE')
+    unknowns: IntProperty(name="Free Vertices")
+    length: FloatProperty(name="Length", unit='LENGTH', precision=4)
+    score_before: FloatProperty(name="Wobble Before", description="Wobble of the reflection lines, in degrees")
+    score_after: FloatProperty(name="Wobble After", description="Wobble of the reflection lines, in degrees")
+    largest_move: FloatProperty(name="Largest Move", unit='LENGTH', precision=6)
+
+    def fill(self, solution: object) -> None:
+        """Takes over a finished `session.Solution`."""
+        for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move"):
+            setattr(self, name, getattr(solution.report, name))
+        for name in ("length", "score_before", "score_after"):
+            setattr(self, name, getattr(solution, name))
+        self.notes = "\n".join(solution.notes)
+
+    def summary(self) -> str:
+        return (f"{self.termination.replace('_', ' ')} after {self.iterations} iterations in {self.seconds:.2f} s, "
+                f"wobble {self.score_before:.4g} -> {self.score_after:.4g} degrees at length {self.length:.4g}")
+
+
+class ReflinesObject(bpy.types.PropertyGroup):
+    report: PointerProperty(type=ReflinesReport)
+    center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
+
+
+class ReflinesStripes(bpy.types.PropertyGroup):
+    show: BoolProperty(name="Show Stripes", description="Draw the reflection of line lights over the active mesh")
+    eye: EnumProperty(name="Seen From", items=EYES, default='CAMERA')
+    count: IntProperty(name="Count", default=60, min=1, soft_max=200, max=2000,
+                       description="Line lights in a full turn around the light direction")
+    width: FloatProperty(name="Width", default=0.5, min=0.0, max=1.0, subtype='FACTOR',
+                         description="Share of the distance between two line lights that is light")
+    softness: FloatProperty(name="Soft Edge", default=0.1, min=0.0, max=1.0, subtype='FACTOR',
+                            description="Blur of the edges of the stripes, as a share of their width")
+    color: color_property("Light", (0.9, 0.93, 1.0, 1.0))
+    gap_color: color_property("Gap", (0.01, 0.012, 0.016, 1.0))
+    opacity: FloatProperty(name="Opacity", default=0.9, min=0.0, max=1.0, subtype='FACTOR')
+
+
+def is_camera(_: object, ob: bpy.types.Object) -> bool:
+    return ob.type == 'CAMERA'
+
+
+def is_empty(_: object, ob: bpy.types.Object) -> bool:
+    return ob.type == 'EMPTY'
+
+
+class ReflinesScene(bpy.types.PropertyGroup):
+    camera: PointerProperty(name="View Camera", type=bpy.types.Object, poll=is_camera,
+                            description="The view that the reflection lines are judged from")
+    light: PointerProperty(name="Light Direction", type=bpy.types.Object, poll=is_empty,
+                           description="An empty whose local Z axis is the direction of the line lights")
+    length: length_property()
+    strength: strength_property()
+    border: border_property()
+    stripes: PointerProperty(type=ReflinesStripes)
+
+    def missing(self) -> str:
+        """What must be there before any tool can run, as a sentence; empty where nothing is missing."""
+        if not self.present(self.camera):
+            return "No view camera: press Add View Camera, or pick one in the sidebar's Reflection tab"
+        if not self.present(self.light):
+            return "No light direction: press Add Light Direction, or pick an empty in the sidebar's Reflection tab"
+        return ""
+
+    def present(self, ob: bpy.types.Object | None) -> bool:
+        """A deleted object can still be pointed at; it is no longer in the scene."""
+        return ob is not None and self.id_data.objects.get(ob.name) == ob
+
+    def is_perspective(self) -> bool:
+        return self.present(self.camera) and self.camera.data.type != 'ORTHO'
+
+
+CLASSES = (ReflinesReport, ReflinesObject, ReflinesStripes, ReflinesScene)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.reflection_lines = PointerProperty(type=ReflinesScene)
+    bpy.types.Object.reflection_lines = PointerProperty(type=ReflinesObject)
+
+
+def unregister() -> None:
+    del bpy.types.Object.reflection_lines
+    del bpy.types.Scene.reflection_lines
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,157 @@
+"""The live optimizers: what is expensive to build and can be rebuilt at any time from the mesh and the properties.
+
+Nothing here is saved, and nothing here knows Blender's mesh data: panels come in as arrays, solutions go out as arrays.
+"""
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+from bpy.props import PointerProperty, StringProperty
+
+from . import native
+from .bridge import surface, view
+from .bridge.gather import Panel
+from .bridge.refusal import Refusal
+from .bridge.view import View
+
+AUTOMATIC_LENGTH = 1.0 / 6.0  # of the panel's diagonal
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the artist chose for a solve. Lengths are world units; length 0 is a share of the panel's size."""
+    length: float
+    strength: float
+    border: str
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A finished solve of one panel. `report` is the native Report; scores are degrees."""
+    panel: Panel
+    positions: np.ndarray  # #V x 3, world space
+    report: object
+    length: float
+    score_before: float
+    score_after: float
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Live:
+    """An optimizer with what it was built from; usable as long as nothing of that changed."""
+    panel: Panel
+    view: View
+    border: str
+    optimizer: object
+
+    def suits(self, panel: Panel, view: View, border: str) -> bool:
+        return (self.border == border
+                and np.array_equal(self.view.view_direction, view.view_direction)
+                and np.array_equal(self.view.line_direction, view.line_direction)
+                and np.array_equal(self.panel.V, panel.V) and np.array_equal(self.panel.F, panel.F))
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A quadratic normal fit with the triangles it was built for."""
+    F: np.ndarray
+    normal_fit: object
+
+
+_live: dict[str, Live] = {}
+_fits: dict[str, Fit] = {}
+
+
+def obstacle(scene: bpy.types.Scene) -> str:
+    """Why no tool can run now, as a sentence; empty where they can."""
+    return native.STATE.problem or scene.reflection_lines.missing()
+
+
+def optimizer_of(panel: Panel, seen: View, border: str) -> object:
+    """At the heights of `panel`. Built anew only if the panel, the view, the light or the border changed."""
+    live = _live.get(panel.name)
+    if live is None or not live.suits(panel, seen, border):
+        optimizer = native.reflines.ShapeOptimizer(
+            panel.V, panel.F, view_direction=seen.view_direction, line_direction=seen.line_direction, border=border)
+        live = _live[panel.name] = Live(panel, seen, border, optimizer)
+    live.optimizer.reset()
+    return live.optimizer
+
+
+def smooth(panel: Panel, seen: View, settings: Settings) -> Solution:
+    """Raises Refusal, with the object's name, where the solver cannot use the panel or breaks down."""
+    length = settings.length or AUTOMATIC_LENGTH * panel.diagonal
+    try:
+        optimizer = optimizer_of(panel, seen, settings.border)
+        target = native.reflines.smooth(optimizer, length=length, strength=settings.strength)
+        return solve(panel, optimizer, target, length)
+    except (native.InvalidInput, native.SolverFailure) as error:
+        raise Refusal(f"{panel.name}: {error}") from error
+
+
+def solve(panel: Panel, optimizer: object, target: object, length: float) -> Solution:
+    before = optimizer.score(length)
+    report = optimizer.solve(target)
+    return Solution(panel, optimizer.positions, report, length, before, optimizer.score(length),
+                    tuple(optimizer.region.messages))
+
+
+def view_of(scene: bpy.types.Scene, center: np.ndarray) -> View:
+    """As the solver uses it for a panel whose centre (world space) is given."""
+    settings = scene.reflection_lines
+    return view.view_of(settings.camera, settings.light, center)
+
+
+def shown_directions(scene: bpy.types.Scene, ob: bpy.types.Object) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """View and line direction for the stripes on an object, the solver's where it has run; None for what is missing."""
+    settings, stored = scene.reflection_lines, ob.reflection_lines
+    center = ob.matrix_world @ stored.center if stored.report.termination else view.extent(ob)[0]
+    try:
+        seen = view.direction_to(settings.camera, np.array(center)) if settings.present(settings.camera) else None
+        return seen, view.axis_z(settings.light) if settings.present(settings.light) else None
+    except Refusal:
+        return None, None
+
+
+def shown_surface(ob: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> surface.Surface:
+    """What the viewport shows of an object, in object space, with fitted normals where they can be had."""
+    shown = surface.read(ob, depsgraph)
+    if not native.STATE.usable or not len(shown.F):
+        return shown
+    try:
+        return replace(shown, normals=fitted_normals(ob.name, shown.V, shown.F))
+    except (native.InvalidInput, native.SolverFailure):
+        return shown  # Blender's own normals: a mesh too broken to be fitted is still to be seen
+
+
+def fitted_normals(name: str, V: np.ndarray, F: np.ndarray) -> np.ndarray:
+    fit = _fits.get(name)
+    if fit is None or not np.array_equal(fit.F, F):
+        fit = _fits[name] = Fit(F, native.reflines.NormalFit(V, F))
+    return fit.normal_fit.normals(V)
+
+
+@bpy.app.handlers.persistent
+def forget(*_: object) -> None:
+    _live.clear()
+    _fits.clear()
+
+
+class ReflinesSession(bpy.types.PropertyGroup):
+    """What panels show of the session; on the window manager, so never saved."""
+    problem: StringProperty(get=lambda _: native.STATE.problem)
+    remedy: StringProperty(get=lambda _: native.STATE.remedy)
+
+
+def register() -> None:
+    bpy.utils.register_class(ReflinesSession)
+    bpy.types.WindowManager.reflection_lines = PointerProperty(type=ReflinesSession)
+    bpy.app.handlers.load_pre.append(forget)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_pre.remove(forget)
+    forget()
+    del bpy.types.WindowManager.reflection_lines
+    bpy.utils.unregister_class(ReflinesSession)
