@@ -1,0 +1,90 @@
+"""Every sample opens with the numbers of its row in README.md, ready for one press of the button."""
+import pathlib
+import sys
+
+import bpy
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SAMPLES = ROOT / "blend_samples"
+sys.path.insert(0, str(SAMPLES))
+
+import hood_shape  # noqa: E402  (a module of the samples' scripts, found through the line above)
+
+
+def rows() -> dict[str, list[str]]:
+    """The cells of README.md's table of samples by file."""
+    lines = [line for line in (ROOT / "README.md").read_text().splitlines() if ".blend` |" in line]
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    return {row[0].strip("`"): row for row in cells}
+
+
+def count(text: str) -> int:
+    return int(text.replace(",", ""))
+
+
+def opened(name: str) -> bpy.types.Object:
+    """The active object of a sample just opened, its mesh data up to date."""
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / name), load_ui=False)
+    panel = bpy.context.view_layer.objects.active
+    panel.update_from_editmode()
+    return panel
+
+
+def positions(panel: bpy.types.Object) -> np.ndarray:
+    panel.update_from_editmode()
+    V = np.empty(3 * len(panel.data.vertices), np.float32)
+    panel.data.vertices.foreach_get("co", V)
+    return V.reshape(-1, 3)
+
+
+def selected(panel: bpy.types.Object) -> np.ndarray:
+    """#faces bool."""
+    flags = np.empty(len(panel.data.polygons), bool)
+    panel.data.polygons.foreach_get("select", flags)
+    return flags
+
+
+def test_every_sample_has_its_row() -> None:
+    assert sorted(rows()) == sorted(path.name for path in SAMPLES.glob("*.blend"))
+
+
+@pytest.mark.parametrize("name", sorted(rows()))
+def test_opens_with_its_numbers(name: str) -> None:
+    panel, row = opened(name), rows()[name]
+    assert panel.mode == 'EDIT'
+    assert len(panel.data.polygons) == count(row[3])
+    assert selected(panel).sum() == count(row[4])
+    settings = bpy.context.scene.reflection_lines
+    assert settings.missing() == ""
+    assert settings.camera == bpy.context.scene.camera and settings.stripes.show
+
+
+def test_hood_is_the_analytic_panel_with_its_wobble() -> None:
+    V = positions(opened("hood.blend")).astype(float)
+    x, y, z = V.T
+    assert 1.4 < np.ptp(x) < 1.6 and 1.1 < np.ptp(y) < 1.3
+    clean = hood_shape.clean_height(x, y)
+    # Plan and height are stored in single precision (6e-8 of up to 0.7), and slopes stay below 1.
+    assert np.abs(z - clean - hood_shape.wobble(x, y)).max() < 2e-7
+    assert 1e-3 < np.abs(z - clean).max() < 3e-3
+
+
+def test_clean_panel_is_mirrored_to_the_last_bit() -> None:
+    V, quads = hood_shape.panel(136, 110)
+    grid = V.reshape(111, 137, 3)
+    assert np.array_equal(grid[:, ::-1] * (-1.0, 1.0, 1.0), grid)
+    assert len(quads) == 14960
+
+
+def test_hood_is_smoothed_by_one_call() -> None:
+    panel = opened("hood.blend")
+    before, inside = positions(panel), selected(panel)
+    assert bpy.ops.reflines.smooth() == {'FINISHED'}
+    after, report = positions(panel), panel.reflection_lines.report
+    assert report.termination == "converged"
+    assert report.score_after < 0.2 * report.score_before
+    corners = np.array([tuple(face.vertices) for face in panel.data.polygons])
+    outside = np.setdiff1d(np.arange(len(before)), corners[inside])
+    assert np.array_equal(before[outside], after[outside])
