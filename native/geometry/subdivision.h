@@ -1,0 +1,50 @@
+// Subdivision surfaces as matrices: refined or limit positions and limit tangents of a cage, each a sparse matrix times
+// the cage's vertices. The one door to OpenSubdiv. Rules are those of Blender's Subdivision Surface modifier.
+#pragma once
+
+#include "native/geometry/cage.h"
+#include "native/types.h"
+
+namespace reflines {
+
+enum class SubdivisionScheme {
+  kCatmullClark,  // any polygons
+  kLoop,          // triangles only
+};
+
+// The modifier's Boundary Smooth.
+enum class SubdivisionBoundary {
+  kAll,              // the border is a smooth curve through its corners, too
+  kPreserveCorners,  // vertices of a single face stay where they are
+};
+
+inline constexpr int kMaxSubdivisionLevel = 6;
+
+struct SubdivisionOptions {
+  SubdivisionScheme scheme = SubdivisionScheme::kCatmullClark;
+  SubdivisionBoundary boundary = SubdivisionBoundary::kAll;
+  int level = 2;      // 1 .. kMaxSubdivisionLevel
+  bool limit = true;  // positions on the limit surface; false: those of the refined polygons
+};
+
+// Rows of `positions` sum to 1, those of the tangents to 0. Refined vertices: first the images of the cage's vertices,
+// in their order (so does Blender's evaluated mesh), then those the first level adds (of faces, then of edges), then
+// those of the second, ...: the vertices of level k are the first ones of level k + 1. Beyond the cage's own vertices
+// Blender numbers otherwise. A cage vertex in no face keeps its place and has zero tangents.
+struct Subdivision {
+  SparseMatrix positions;  // S, #refined x #V
+  SparseMatrix tangent_u;  // #refined x #V; tangent_u x tangent_v points outside where the cage's faces are
+  SparseMatrix tangent_v;  //   counter-clockwise, length without meaning; one side's tangents on a sharp crease
+  Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> faces;  // #faces x 4, Loop: x 3
+  IndexVector face_parent;                                                    // #faces: the cage's face
+};
+
+// The cage's topology, refined uniformly. Throws InvalidInput: what check_cage refuses, a level out of range, a result
+// of more than 8 million faces, Loop with other faces than triangles, topology that OpenSubdiv refuses.
+Subdivision subdivide(const Cage& cage, const SubdivisionOptions& options);
+
+// Unit limit normals, #refined x 3, of the cage with these positions (#V x 3); (0, 0, 1) where the tangents are
+// parallel.
+Positions limit_normals(const Subdivision& subdivision, const Positions& cage_positions);
+
+}  // namespace reflines
