@@ -10,6 +10,8 @@ Border = Literal["free", "fixed", "clamped"]
 Stencil = Literal["averaged", "quadratic", "hybrid", "consistent"]
 Strategy = Literal["adaptive", "linearized", "gauss_newton", "newton"]
 LinearSolver = Literal["cholmod", "umfpack"]
+Scheme = Literal["catmull_clark", "loop"]
+Boundary = Literal["all", "preserve_corners"]
 
 class InvalidInput(ValueError):
     """The arrays cannot be used. The text is one sentence: what, how many, what to do."""
@@ -103,6 +105,23 @@ class NormalFit:
     """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""
     def __init__(self, V: np.ndarray, F: np.ndarray, *, refit_angle: float = 0.35) -> None: ...
     def normals(self, V: np.ndarray) -> np.ndarray: ...           # #V x 3, unit; isolated vertices (0, 0, 1)
+
+class Subdivision:
+    """A cage under a Subdivision Surface, with the modifier's rules: refined vertices are a matrix S times the cage's vertices.
+
+    Face f has the vertices face_vertices[face_offsets[f]:face_offsets[f + 1]]. Sharpness is 0 (smooth) to 10 (sharp): a crease
+    c of Blender is 10 c^2. The first refined vertices are the cage's own in their order; see native/geometry/subdivision.h.
+    """
+    faces: np.ndarray        # #refined faces x 4 (loop: x 3)
+    face_parent: np.ndarray  # #refined faces: the cage's face
+    def __init__(self, face_offsets: np.ndarray, face_vertices: np.ndarray, *, vertices: int, level: int = 2,
+                 scheme: Scheme = "catmull_clark", boundary: Boundary = "all",    # boundary: Blender's boundary_smooth
+                 creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,   # #C x 2 vertices of edges, #C
+                 corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,   # #K vertices, #K
+                 limit: bool = True) -> None: ...                                 # on the limit surface, or refined only
+    def positions(self, V: np.ndarray) -> np.ndarray: ...                         # #refined x 3 of #V x 3
+    def normals(self, V: np.ndarray) -> np.ndarray: ...                           # unit limit normals, #refined x 3
+    def matrix(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]: ...            # S as CSR: data, indices, indptr
 
 def image_plane(view_direction: Sequence[float], line_direction: Sequence[float]) -> np.ndarray:
     """3 x 3, rows a_perp, a_v, v. InvalidInput where the two directions are parallel."""
