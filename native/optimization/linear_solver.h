@@ -13,8 +13,8 @@ enum class LinearSolverKind {
 };
 const char* to_string(LinearSolverKind kind);  // "cholmod", "umfpack"
 
-// A matrix is handed over as its lower triangle (n x n, compressed, sorted columns); entries above the diagonal are an
-// error. The same input gives the same bits, whatever the number of threads.
+// A matrix is handed over as its lower triangle: n x n, compressed, sorted columns, every diagonal entry present.
+// The same input gives the same bits, whatever the number of threads.
 class LinearSolver {
  public:
   explicit LinearSolver(LinearSolverKind kind);
@@ -48,6 +48,7 @@ class LinearSolver {
   LinearSolverKind kind_;
   std::unique_ptr<Pattern> pattern_;
   std::unique_ptr<Backend> backend_;
+  bool has_factor_ = false;
   double diagonal_shift_ = 0.0;
 };
 

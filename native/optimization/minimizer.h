@@ -11,6 +11,8 @@
 
 namespace reflines {
 
+struct Workspace;
+
 // Keeps the symbolic analysis, the last factor and its work space between solves, so that the next target of a dragged
 // handle costs a few back substitutions. A changed size or pattern of the Hessian is noticed and analysed anew.
 class Minimizer {
@@ -26,8 +28,7 @@ class Minimizer {
   Report minimize(Problem& problem, Vector& x, const MinimizerOptions& options = {}, Progress* progress = nullptr);
 
  private:
-  class State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<Workspace> workspace_;
 };
 
 }  // namespace reflines

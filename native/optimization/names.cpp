@@ -1,0 +1,36 @@
+#include "native/optimization/options.h"
+#include "native/optimization/report.h"
+
+namespace reflines {
+
+const char* to_string(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::kAdaptive:
+      return "adaptive";
+    case Strategy::kLinearized:
+      return "linearized";
+    case Strategy::kGaussNewton:
+      return "gauss_newton";
+    case Strategy::kNewton:
+      return "newton";
+  }
+  return "";
+}
+
+const char* to_string(Termination termination) {
+  switch (termination) {
+    case Termination::kConverged:
+      return "converged";
+    case Termination::kAlreadyOptimal:
+      return "already_optimal";
+    case Termination::kNoProgress:
+      return "no_progress";
+    case Termination::kIterationLimit:
+      return "iteration_limit";
+    case Termination::kCancelled:
+      return "cancelled";
+  }
+  return "";
+}
+
+}  // namespace reflines

@@ -1,0 +1,105 @@
+// What a solve costs, in counts: the regression gate for speed, the same on every machine.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "least_squares.h"
+#include "native/optimization/minimizer.h"
+
+// Every heap allocation of the program passes here, the libraries' own included (AddressSanitizer brings its own
+// malloc).
+#if !defined(__SANITIZE_ADDRESS__)
+extern "C" void* __libc_malloc(std::size_t size);
+static std::atomic<long> allocations{0};
+extern "C" void* malloc(std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+#else
+static std::atomic<long> allocations{0};
+#endif
+
+namespace reflines {
+namespace {
+
+class CostTest : public testing::Test {
+ protected:
+  CostTest() : problem_(300, 0.2), x_(problem_.wave(0.9)) { problem_.set_minimum(problem_.wave(1.0)); }
+
+  Chain problem_;
+  Vector x_;
+  Minimizer minimizer_;
+};
+
+TEST_F(CostTest, AnEasyProblemIsFactoredOnceAndEveryStepIsOneEvaluationAndOneSolve) {
+  const Report report = minimizer_.minimize(problem_, x_);
+  ASSERT_TRUE(report.converged()) << report.message;
+  EXPECT_EQ(report.analyses, 1);
+  EXPECT_EQ(report.assemblies, 1);
+  EXPECT_EQ(report.factorizations, 1);
+  EXPECT_EQ(report.solves, report.iterations);
+  EXPECT_EQ(report.evaluations, report.iterations + 1);
+}
+
+TEST_F(CostTest, AWarmSolveReusesAnalysisAndFactor) {
+  minimizer_.minimize(problem_, x_);
+  problem_.set_minimum(problem_.wave(1.02));
+  const Report warm = minimizer_.minimize(problem_, x_);
+  ASSERT_TRUE(warm.converged()) << warm.message;
+  EXPECT_EQ(warm.analyses, 0);
+  EXPECT_EQ(warm.assemblies, 0);
+  EXPECT_EQ(warm.factorizations, 0);
+}
+
+TEST_F(CostTest, AnotherSizeOrStrategyIsNoticed) {
+  minimizer_.minimize(problem_, x_);
+  Chain longer(400, 0.2);
+  longer.set_minimum(longer.wave(1.0));
+  Vector x = longer.wave(0.9);
+  const Report report = minimizer_.minimize(longer, x);
+  EXPECT_TRUE(report.converged()) << report.message;
+  EXPECT_EQ(report.analyses, 1);
+  MinimizerOptions options;
+  options.strategy = Strategy::kNewton;
+  x = longer.wave(0.9);
+  const Report newton = minimizer_.minimize(longer, x, options);
+  EXPECT_TRUE(newton.converged()) << newton.message;
+  EXPECT_EQ(newton.analyses, 0);
+  EXPECT_EQ(newton.factorizations, newton.iterations);
+}
+
+TEST_F(CostTest, AFactorThatMisleadsIsRenewedAtOnce) {
+  Rosenbrock valley(50);
+  Vector x = valley.start();
+  MinimizerOptions options;
+  options.max_iterations = 1000;
+  const Report report = minimizer_.minimize(valley, x, options);
+  ASSERT_TRUE(report.converged()) << report.message;
+  EXPECT_GT(report.factorizations, 1);
+  EXPECT_EQ(report.analyses, 1);
+}
+
+TEST_F(CostTest, StepsAllocateNothing) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the sanitizer owns malloc";
+#endif
+  minimizer_.minimize(problem_, x_);
+  long used[2];
+  for (int run = 0; run < 2; ++run) {
+    problem_.set_minimum(problem_.wave(1.1));
+    x_ = problem_.wave(0.9);
+    MinimizerOptions options;
+    options.gradient_tolerance = 0.0;
+    options.max_iterations = run == 0 ? 1 : 5;
+    const long before = allocations.load();
+    const Report report = minimizer_.minimize(problem_, x_, options);
+    used[run] = allocations.load() - before;
+    ASSERT_EQ(report.iterations, options.max_iterations) << report.message;
+    ASSERT_EQ(report.factorizations, 0);
+  }
+  EXPECT_EQ(used[0], used[1]);
+}
+
+}  // namespace
+}  // namespace reflines

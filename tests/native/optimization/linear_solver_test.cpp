@@ -1,0 +1,113 @@
+// Both back ends solve what dense algebra solves, and say so where nothing can be solved.
+#include "native/optimization/linear_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <random>
+
+#include "native/errors.h"
+
+namespace reflines {
+namespace {
+
+class LinearSolverTest : public testing::TestWithParam<LinearSolverKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Backends, LinearSolverTest,
+                         testing::Values(LinearSolverKind::kCholmod, LinearSolverKind::kUmfpack),
+                         [](const auto& info) { return std::string(to_string(info.param)); });
+
+Eigen::MatrixXd random_symmetric(int n, int columns, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const Eigen::MatrixXd factor = Eigen::MatrixXd::NullaryExpr(n, columns, [&]() { return uniform(random); });
+  Eigen::MatrixXd banded = factor * factor.transpose();
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      if (std::abs(i - j) > 4) banded(i, j) = 0.0;
+    }
+  }
+  return banded + Eigen::MatrixXd::Identity(n, n) * n;
+}
+
+SparseMatrix lower_of(const Eigen::MatrixXd& dense) {
+  SparseMatrix lower = dense.triangularView<Eigen::Lower>().toDenseMatrix().sparseView();
+  lower.makeCompressed();
+  return lower;
+}
+
+TEST_P(LinearSolverTest, AgreesWithDenseCholesky) {
+  const Eigen::MatrixXd dense = random_symmetric(60, 60, 1);
+  LinearSolver solver(GetParam());
+  solver.analyze(lower_of(dense));
+  solver.factorize(lower_of(dense));
+  Vector x = Vector::LinSpaced(60, -1.0, 2.0);
+  const Vector expected = dense.llt().solve(x);
+  solver.solve(x);
+  EXPECT_EQ(solver.diagonal_shift(), 0.0);
+  EXPECT_LT((x - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST_P(LinearSolverTest, OneAnalysisServesAllValuesOfAPattern) {
+  LinearSolver solver(GetParam());
+  solver.analyze(lower_of(random_symmetric(40, 40, 1)));
+  for (unsigned seed = 2; seed < 5; ++seed) {
+    const Eigen::MatrixXd dense = random_symmetric(40, 40, seed);
+    ASSERT_TRUE(solver.has_pattern_of(lower_of(dense)));
+    solver.factorize(lower_of(dense));
+    Vector x = Vector::Ones(40);
+    solver.solve(x);
+    EXPECT_LT((dense * x - Vector::Ones(40)).norm(), 1e-12);
+  }
+  EXPECT_FALSE(solver.has_pattern_of(lower_of(random_symmetric(41, 41, 1))));
+  EXPECT_FALSE(solver.has_pattern_of(lower_of(Eigen::MatrixXd::Identity(40, 40))));
+}
+
+// The Laplacian of a free chain is semi-definite: constants are its null space. The shift must leave a right side
+// without a constant part solved as by the pseudo-inverse.
+TEST_P(LinearSolverTest, ShiftsTheDiagonalOfASemiDefiniteMatrix) {
+  const int n = 50;
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 0; k + 1 < n; ++k) dense.block<2, 2>(k, k) += Eigen::Matrix2d{{1.0, -1.0}, {-1.0, 1.0}};
+  LinearSolver solver(GetParam());
+  solver.analyze(lower_of(dense));
+  solver.factorize(lower_of(dense));
+  EXPECT_GT(solver.diagonal_shift(), 0.0);
+  Vector right_side = Vector::Zero(n);
+  right_side[0] = 1.0;
+  right_side[n - 1] = -1.0;
+  Vector x = right_side;
+  solver.solve(x);
+  EXPECT_LT((dense * x - right_side).norm(), 1e-5);
+}
+
+TEST_P(LinearSolverTest, NearlySingularIsStillSolved) {
+  Eigen::MatrixXd dense = random_symmetric(30, 30, 7);
+  dense.row(3) *= 1e-6;
+  dense.col(3) *= 1e-6;
+  LinearSolver solver(GetParam());
+  solver.analyze(lower_of(dense));
+  solver.factorize(lower_of(dense));
+  EXPECT_EQ(solver.diagonal_shift(), 0.0);
+  Vector x = dense * Vector::Ones(30);
+  solver.solve(x);
+  EXPECT_LT((x - Vector::Ones(30)).norm(), 1e-9);
+}
+
+TEST_P(LinearSolverTest, IndefiniteOrEmptyIsAFailureInWords) {
+  for (const double diagonal : {-1.0, 0.0}) {
+    Eigen::MatrixXd dense = random_symmetric(20, 20, 3);
+    dense.row(5).setZero();
+    dense.col(5).setZero();
+    SparseMatrix lower = lower_of(dense);
+    lower.coeffRef(5, 5) = diagonal;
+    lower.makeCompressed();
+    LinearSolver solver(GetParam());
+    solver.analyze(lower);
+    EXPECT_THROW(solver.factorize(lower), SolverFailure);
+    EXPECT_FALSE(solver.has_factor());
+  }
+}
+
+}  // namespace
+}  // namespace reflines
