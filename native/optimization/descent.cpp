@@ -83,7 +83,7 @@ void Descent::evaluate_start(const Vector& x) {
   wanted_gradient_norm_ = options_.gradient_tolerance * gradient_norm_;
   if (!work_.has_factor_of(model_of(options_.strategy), x.size())) return;
   gradient_rounding_ = kEpsilon * work_.hessian_diagonal.cwiseProduct(work_.x).norm();
-  policy_.start(gradient_norm_, wanted_gradient_norm_);
+  policy_.start(gradient_norm_, std::max(wanted_gradient_norm_, gradient_rounding_));
 }
 
 void Descent::finish(Vector& x) {
@@ -128,7 +128,7 @@ bool Descent::renew_factor() {
   work_.memory.clear();
   factored_at_ = report_.iterations;
   factor_failed_ = false;
-  policy_.start(gradient_norm_, wanted_gradient_norm_);
+  policy_.start(gradient_norm_, std::max(wanted_gradient_norm_, gradient_rounding_));
   return !is_cancelled();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace reflines {
 
@@ -19,7 +20,7 @@ constexpr double kStepsAfterFactorization = 5.0;
 void RefactorPolicy::start(double gradient_norm, double target) {
   norms_.back() = gradient_norm;
   count_ = 1;
-  target_ = target;
+  target_ = std::max(target, std::numeric_limits<double>::epsilon() * gradient_norm);  // no solve gains more digits
 }
 
 void RefactorPolicy::observe(double gradient_norm) {

@@ -84,7 +84,8 @@ void LeastSquares::add(int index, const Eigen::Matrix3d& block) {
   }
 }
 
-Rosenbrock::Rosenbrock(int pairs) : LeastSquares(2 * pairs, rosenbrock_unknowns(pairs)) {}
+Rosenbrock::Rosenbrock(int pairs, double steepness)
+    : LeastSquares(2 * pairs, rosenbrock_unknowns(pairs)), steepness_(steepness) {}
 
 Vector Rosenbrock::start() const {
   Vector x(size());
@@ -99,9 +100,9 @@ Residual Rosenbrock::residual(int index, const Eigen::Vector3d& values) const {
     r.gradient[0] = -1.0;
     return r;
   }
-  r.value = 10.0 * (values[1] - values[0] * values[0]);
-  r.gradient << -20.0 * values[0], 10.0, 0.0;
-  r.second(0, 0) = -20.0;
+  r.value = steepness_ * (values[1] - values[0] * values[0]);
+  r.gradient << -2.0 * steepness_ * values[0], steepness_, 0.0;
+  r.second(0, 0) = -2.0 * steepness_;
   return r;
 }
 

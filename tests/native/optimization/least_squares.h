@@ -36,14 +36,16 @@ class LeastSquares : public Problem {
   SparseMatrix hessian_;
 };
 
-// The pairs (10 (b - a^2), 1 - a) of Rosenbrock: the minimum 0 at (1, ..., 1), at the end of a curved valley.
+// The pairs (steepness (b - a^2), 1 - a) of Rosenbrock: the minimum 0 at (1, ..., 1), at the end of a curved valley.
 class Rosenbrock final : public LeastSquares {
  public:
-  explicit Rosenbrock(int pairs);
+  explicit Rosenbrock(int pairs, double steepness = 10.0);
   Vector start() const;
 
  private:
   Residual residual(int index, const Eigen::Vector3d& values) const override;
+
+  double steepness_;
 };
 
 // A bent chain with held ends: second differences plus `bend` times the squared slope are to be what they are at
