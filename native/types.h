@@ -1,4 +1,4 @@
-// Scalar, index and array types used by every native room. One scalar (double), one index (int).
+// Scalar, index and array types, and the one word, used by every native room. One scalar (double), one index (int).
 #pragma once
 
 #include <Eigen/Core>
@@ -16,5 +16,12 @@ using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;       
 using IndexVector = Eigen::VectorXi;
 using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+// Second-order models of an energy, shared by those who assemble and those who minimise. All are positive semi-definite.
+enum class HessianModel {
+  kLinearized,   // constant: the Hessian of the energy linearised about flat slopes (the paper, section 3.1)
+  kGaussNewton,  // J^T J at x
+  kNewton,       // full second derivatives at x, projected to positive semi-definite element by element
+};
 
 }  // namespace reflines

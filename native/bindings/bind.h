@@ -1,10 +1,15 @@
-// The parts of the module `reflines`, one a file.
+// What each binding file adds to the module `reflines`. The Python names, shapes and units are in reflines.pyi.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
 namespace reflines {
 
+void bind_errors(pybind11::module_& module);
+void bind_geometry(pybind11::module_& module);
 void bind_subdivision(pybind11::module_& module);
+void bind_target(pybind11::module_& module);
+void bind_report(pybind11::module_& module);
+void bind_optimizer(pybind11::module_& module);
 
 }  // namespace reflines

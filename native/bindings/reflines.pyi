@@ -37,6 +37,8 @@ class Region:
     silhouettes: int   # triangles with |n.v| < 0.02, their vertices held
     turned_away: int   # triangles with n.v <= 0, their vertices held
     unused_pieces: int # pieces without a free vertex
+    hidden: int        # triangles of less weight: the reflected ray is nearly parallel to the lines
+    closed: bool       # the region has no border edge
     messages: list[str]
 
 class Target:
@@ -87,7 +89,7 @@ class ShapeOptimizer:
                  fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
                  proximity: float = -1.0,                        # weight of staying near the start; -1: default
-                 progress: Progress | None = None) -> None: ...
+                 ) -> None: ...
     def theta(self, family: int = 0) -> np.ndarray: ...           # #F, radians in (-pi, pi]
     def field(self, family: int = 0) -> np.ndarray: ...           # #F x 2, the current grad theta
     def energy(self, target: Target | list[Target]) -> float: ...

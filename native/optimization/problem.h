@@ -6,13 +6,6 @@
 
 namespace reflines {
 
-// Which second-order model Problem::hessian returns. All are symmetric positive semi-definite.
-enum class HessianModel {
-  kLinearized,   // constant: the Hessian of the energy linearised about flat slopes (the paper, section 3.1)
-  kGaussNewton,  // J^T J at x
-  kNewton,       // full second derivatives at x, projected to positive semi-definite element by element
-};
-
 class Problem {
  public:
   virtual ~Problem() = default;

@@ -1,0 +1,56 @@
+#include <pybind11/eigen.h>
+
+#include "native/bindings/bind.h"
+#include "native/errors.h"
+#include "native/geometry/image_plane.h"
+#include "native/geometry/normals.h"
+#include "native/reflection/reflection_function.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+Eigen::Matrix3d image_plane(const Vector3& view_direction, const Vector3& line_direction) {
+  const ImagePlane frame(view_direction, line_direction);
+  Eigen::Matrix3d rows;
+  rows << frame.x().transpose(), frame.y().transpose(), frame.z().transpose();
+  return rows;
+}
+
+double theta_of_normal(const ImagePlane& frame, const ReflectionFunction& reflection, const Vector3& normal) {
+  const Vector3 n = frame.to_frame(normal);
+  return reflection.theta(-n.x() / n.z(), -n.y() / n.z());
+}
+
+Vector theta(const Positions& normals, const Positions& views, const Vector3& line_direction) {
+  if (views.rows() != 1 && views.rows() != normals.rows()) {
+    throw InvalidInput("There are " + std::to_string(views.rows()) + " view directions for " + std::to_string(normals.rows()) +
+                       " normals; give one, or one for each.");
+  }
+  Vector result(normals.rows());
+  for (Eigen::Index k = 0; k < normals.rows(); ++k) {
+    const Vector3 view = views.row(views.rows() == 1 ? 0 : k);
+    const ImagePlane frame(view, line_direction);
+    result(k) = theta_of_normal(frame, ReflectionFunction(frame, view, line_direction), normals.row(k));
+  }
+  return result;
+}
+
+}  // namespace
+
+void bind_geometry(py::module_& module) {
+  module.def("image_plane", &image_plane, py::arg("view_direction"), py::arg("line_direction"));
+  module.def("theta", &theta, py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
+  module.def(
+      "theta",
+      [](const Positions& normals, const Vector3& view, const Vector3& line) { return theta(normals, view.transpose(), line); },
+      py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
+  py::class_<NormalFit>(module, "NormalFit")
+      .def(py::init<const Positions&, const Triangles&, double>(), py::arg("V"), py::arg("F"), py::kw_only(),
+           py::arg("refit_angle") = 0.35, py::call_guard<py::gil_scoped_release>())
+      .def("normals", &NormalFit::normals, py::arg("V"), py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("refit_count", &NormalFit::refit_count);
+}
+
+}  // namespace reflines

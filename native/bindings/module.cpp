@@ -1,0 +1,21 @@
+#include "native/bindings/bind.h"
+#include "native/errors.h"
+
+namespace reflines {
+
+void bind_errors(pybind11::module_& module) {
+  pybind11::register_exception<InvalidInput>(module, "InvalidInput", PyExc_ValueError);
+  pybind11::register_exception<SolverFailure>(module, "SolverFailure", PyExc_RuntimeError);
+}
+
+}  // namespace reflines
+
+PYBIND11_MODULE(reflines, module) {
+  module.doc() = "Shape optimization using reflection lines: numpy in, numpy out (see reflines.pyi).";
+  module.attr("__version__") = REFLINES_VERSION;
+  reflines::bind_errors(module);
+  reflines::bind_geometry(module);
+  reflines::bind_target(module);
+  reflines::bind_report(module);
+  reflines::bind_optimizer(module);
+}

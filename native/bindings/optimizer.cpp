@@ -1,0 +1,147 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <optional>
+#include <variant>
+
+#include "native/bindings/bind.h"
+#include "native/errors.h"
+#include "native/optimization/progress.h"
+#include "native/reflection/smooth.h"
+#include "native/shape_optimizer.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+using Codes = Eigen::VectorXi;
+using Targets = std::variant<Target, std::vector<Target>>;
+
+// The enumerator of a name, or InvalidInput that lists the names.
+template <typename Enum>
+Enum named(const std::map<std::string, Enum>& names, const std::string& name, const std::string& what) {
+  const auto found = names.find(name);
+  if (found != names.end()) return found->second;
+  std::string list;
+  for (const auto& entry : names) list += (list.empty() ? "" : ", ") + entry.first;
+  throw InvalidInput("There is no " + what + " named '" + name + "'; choose one of " + list + ".");
+}
+
+const std::map<std::string, Border> kBorders = {
+    {"free", Border::kFree}, {"fixed", Border::kFixed}, {"clamped", Border::kClamped}};
+const std::map<std::string, StencilKind> kStencils = {{"averaged", StencilKind::kAveraged},
+                                                      {"quadratic", StencilKind::kQuadratic},
+                                                      {"hybrid", StencilKind::kHybrid},
+                                                      {"consistent", StencilKind::kConsistent}};
+const std::map<std::string, Strategy> kStrategies = {{"adaptive", Strategy::kAdaptive},
+                                                     {"linearized", Strategy::kLinearized},
+                                                     {"gauss_newton", Strategy::kGaussNewton},
+                                                     {"newton", Strategy::kNewton}};
+const std::map<std::string, LinearSolverKind> kSolvers = {{"cholmod", LinearSolverKind::kCholmod},
+                                                          {"umfpack", LinearSolverKind::kUmfpack}};
+
+std::vector<Border> border_codes(const std::variant<std::string, Codes>& border, Eigen::Index vertex_count) {
+  if (std::holds_alternative<std::string>(border)) {
+    return std::vector<Border>(vertex_count, named(kBorders, std::get<std::string>(border), "border"));
+  }
+  const Codes& codes = std::get<Codes>(border);
+  if (codes.size() > 0 && (codes.minCoeff() < 0 || codes.maxCoeff() > 2)) {
+    throw InvalidInput("Border codes are 0 (free), 1 (fixed) and 2 (clamped); one is " +
+                       std::to_string(codes.minCoeff() < 0 ? codes.minCoeff() : codes.maxCoeff()) + ".");
+  }
+  std::vector<Border> result;
+  for (int code : codes) result.push_back(static_cast<Border>(code));
+  return result;
+}
+
+// 3 numbers, or #families x 3.
+std::vector<Vector3> directions(const Eigen::MatrixXd& lines) {
+  const bool one = lines.cols() == 1 && lines.rows() == 3;
+  if (!one && lines.cols() != 3) throw InvalidInput("A line direction has three numbers; give 3, or #families x 3.");
+  std::vector<Vector3> result;
+  if (one) result.push_back(lines.col(0));
+  for (Eigen::Index k = 0; !one && k < lines.rows(); ++k) result.push_back(lines.row(k));
+  return result;
+}
+
+std::vector<Target> listed(const Targets& targets) {
+  if (std::holds_alternative<Target>(targets)) return {std::get<Target>(targets)};
+  return std::get<std::vector<Target>>(targets);
+}
+
+std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Triangles& F, const Vector3& view_direction,
+                                     const Eigen::MatrixXd& line_direction, const std::variant<std::string, Codes>& border,
+                                     const std::optional<Mask>& fixed, const std::string& stencil,
+                                     const std::string& linear_solver, double proximity) {
+  ShapeOptions options;
+  options.border = border_codes(border, V.rows());
+  if (fixed) options.held = *fixed;
+  options.stencil = named(kStencils, stencil, "stencil");
+  options.linear_solver = named(kSolvers, linear_solver, "linear solver");
+  options.proximity = proximity;
+  const std::vector<Vector3> lines = directions(line_direction);
+  const py::gil_scoped_release release;
+  return std::make_unique<ShapeOptimizer>(V, F, view_direction, lines, options);
+}
+
+Report solve(ShapeOptimizer& optimizer, const Targets& targets, const std::string& strategy, double gradient_tolerance,
+             int max_iterations, const std::shared_ptr<Progress>& progress) {
+  MinimizerOptions options;
+  options.strategy = named(kStrategies, strategy, "strategy");
+  options.gradient_tolerance = gradient_tolerance;
+  options.max_iterations = max_iterations;
+  const std::vector<Target> list = listed(targets);
+  const py::gil_scoped_release release;
+  return optimizer.solve(list, options, progress.get());
+}
+
+Eigen::Matrix3d frame_rows(const ShapeOptimizer& optimizer) {
+  Eigen::Matrix3d rows;
+  rows << optimizer.frame().x().transpose(), optimizer.frame().y().transpose(), optimizer.frame().z().transpose();
+  return rows;
+}
+
+int checked_family(const ShapeOptimizer& optimizer, int family) {
+  if (family >= 0 && family < optimizer.family_count()) return family;
+  throw InvalidInput("There is no family " + std::to_string(family) + " of light lines; there are " +
+                     std::to_string(optimizer.family_count()) + ".");
+}
+
+Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family) {
+  return optimizer.smooth_target({length, directional}, strength, checked_family(optimizer, family));
+}
+
+}  // namespace
+
+void bind_optimizer(py::module_& module) {
+  const MinimizerOptions minimizer;
+  const ShapeOptions shape;
+  const SmoothOptions smoothing;
+  using Release = py::call_guard<py::gil_scoped_release>;
+  py::class_<ShapeOptimizer>(module, "ShapeOptimizer")
+      .def(py::init(&make), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
+           py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("stencil") = "consistent",
+           py::arg("linear_solver") = "cholmod", py::arg("proximity") = shape.proximity)
+      .def_property_readonly("region", &ShapeOptimizer::region)
+      .def_property_readonly("frame", &frame_rows)
+      .def_property_readonly("heights", &ShapeOptimizer::heights)
+      .def_property_readonly("positions", &ShapeOptimizer::positions)
+      .def_property_readonly("free", &ShapeOptimizer::free)
+      .def_property_readonly("active", &ShapeOptimizer::active)
+      .def("theta", [](const ShapeOptimizer& o, int family) { return o.theta(checked_family(o, family)); }, py::arg("family") = 0)
+      .def("field", [](const ShapeOptimizer& o, int family) { return o.field(checked_family(o, family)); }, py::arg("family") = 0)
+      .def("energy", [](ShapeOptimizer& o, const Targets& targets) { return o.energy(listed(targets)); }, py::arg("target"))
+      .def("residual", &ShapeOptimizer::residual, py::arg("target"), Release())
+      .def("score", [](ShapeOptimizer& o, double length, int family) { return o.score(length, checked_family(o, family)); },
+           py::arg("length"), py::arg("family") = 0, Release())
+      .def("solve", &solve, py::arg("target"), py::kw_only(), py::arg("strategy") = to_string(minimizer.strategy),
+           py::arg("gradient_tolerance") = minimizer.gradient_tolerance, py::arg("max_iterations") = minimizer.max_iterations,
+           py::arg("progress") = py::none())
+      .def("reset", &ShapeOptimizer::reset);
+  module.def("smooth", &smooth, py::arg("optimizer"), py::kw_only(), py::arg("length"), py::arg("strength") = 1.0,
+             py::arg("directional") = smoothing.directional, py::arg("family") = 0, Release());
+}
+
+}  // namespace reflines

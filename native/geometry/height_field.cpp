@@ -1,0 +1,132 @@
+#include "native/geometry/height_field.h"
+
+#include <Eigen/Geometry>
+#include <numeric>
+#include <string>
+
+#include "native/errors.h"
+
+namespace reflines {
+namespace {
+
+enum class Facing { kViewer, kSilhouette, kAway };
+
+Facing facing(const Positions& V, const Triangles& F, int t, const Vector3& view) {
+  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
+  const double cosine = (b - a).cross(c - a).normalized().dot(view);
+  if (std::abs(cosine) < kSilhouette) return Facing::kSilhouette;
+  return cosine > 0 ? Facing::kViewer : Facing::kAway;
+}
+
+// Fills F, source and the counts; returns the vertices of the triangles that were left out.
+Mask keep_facing(const Positions& V, const Triangles& F, const Vector3& view, HeightField& field) {
+  Mask left_out = Mask::Constant(V.rows(), false);
+  field.F.resize(F.rows(), 3);
+  for (int t = 0; t < F.rows(); ++t) {
+    const Facing side = facing(V, F, t, view);
+    if (side == Facing::kViewer) {
+      field.F.row(static_cast<int>(field.source.size())) = F.row(t);
+      field.source.push_back(t);
+      continue;
+    }
+    (side == Facing::kAway ? field.turned_away_count : field.silhouette_count) += 1;
+    for (int i = 0; i < 3; ++i) left_out(F(t, i)) = true;
+  }
+  field.F.conservativeResize(static_cast<int>(field.source.size()), 3);
+  return left_out;
+}
+
+void project(const Positions& V, const ImagePlane& frame, HeightField& field) {
+  Vector3 centroid = Vector3::Zero();
+  for (int k = 0; k < field.F.size(); ++k) centroid += V.row(field.F.data()[k]).transpose();
+  centroid /= static_cast<double>(field.F.size());
+  const Positions centred = V.rowwise() - centroid.transpose();
+  field.xy = frame.project(centred);
+  field.z = frame.heights(centred);
+  field.area.resize(field.F.rows());
+  for (int t = 0; t < field.F.rows(); ++t) {
+    const Vector2 a = field.xy.row(field.F(t, 0)), b = field.xy.row(field.F(t, 1)), c = field.xy.row(field.F(t, 2));
+    field.area(t) = 0.5 * ((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x());
+  }
+}
+
+void hold(std::vector<VertexRole>& role, int v, VertexRole how) {
+  if (role[v] == VertexRole::kFree) role[v] = how;
+}
+
+void assign_roles(const Triangles& F, const Triangles& neighbors, const Boundary& boundary, const Mask& left_out,
+                  HeightField& field) {
+  field.role.assign(field.vertex_count(), VertexRole::kUnused);
+  for (int k = 0; k < field.F.size(); ++k) field.role[field.F.data()[k]] = VertexRole::kFree;
+  const Incidence around = vertex_neighbors(F, vertex_triangles(F, field.vertex_count()));
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    if (left_out(v) || (boundary.held.size() > 0 && boundary.held(v))) hold(field.role, v, VertexRole::kFixed);
+  }
+  for (int t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (neighbors(t, i) >= 0) continue;
+      for (int v : {F(t, (i + 1) % 3), F(t, (i + 2) % 3)}) {
+        if (boundary.border[v] != Border::kFree) hold(field.role, v, VertexRole::kFixed);
+        if (boundary.border[v] != Border::kClamped) continue;
+        for (int k = around.begin(v); k < around.end(v); ++k) hold(field.role, around.items[k], VertexRole::kClamped);
+      }
+    }
+  }
+}
+
+int root(std::vector<int>& parent, int t) {
+  while (parent[t] != t) t = parent[t] = parent[parent[t]];
+  return t;
+}
+
+void find_pieces(const Mask& left_out, HeightField& field) {
+  std::vector<int> parent(field.triangle_count());
+  std::iota(parent.begin(), parent.end(), 0);
+  const Incidence& around = field.triangles_of_vertex;
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    if (left_out(v)) continue;
+    for (int k = around.begin(v) + 1; k < around.end(v); ++k) {
+      const int a = root(parent, around.items[k - 1]), b = root(parent, around.items[k]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<int> number(field.triangle_count(), -1);
+  field.piece.resize(field.triangle_count());
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    int& name = number[root(parent, t)];
+    if (name < 0) name = field.piece_count++;
+    field.piece[t] = name;
+  }
+}
+
+}  // namespace
+
+double HeightField::diagonal() const {
+  Vector2 low = xy.row(F(0, 0)), high = low;
+  for (int k = 0; k < F.size(); ++k) {
+    const Vector2 point = xy.row(F.data()[k]);
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return (high - low).norm();
+}
+
+HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame, const Boundary& boundary) {
+  HeightField field;
+  const Mask left_out = keep_facing(V, F, frame.z(), field);
+  if (field.F.rows() == 0) {
+    throw InvalidInput("All " + std::to_string(F.rows()) +
+                       " faces of the region turn away from the view or are seen edge on; look at the panel's outside, or flip "
+                       "its normals with Mesh > Normals > Recalculate Outside.");
+  }
+  const Triangles neighbors = edge_neighbors(F);
+  field.closed = neighbors.minCoeff() >= 0;
+  project(V, frame, field);
+  field.neighbors = edge_neighbors(field.F);
+  field.triangles_of_vertex = vertex_triangles(field.F, field.vertex_count());
+  assign_roles(F, neighbors, boundary, left_out, field);
+  find_pieces(left_out, field);
+  return field;
+}
+
+}  // namespace reflines

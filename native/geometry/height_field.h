@@ -1,0 +1,60 @@
+// A region of a mesh as height-field pieces over the image plane, and what each of its vertices may do (paper, section 3).
+#pragma once
+
+#include <vector>
+
+#include "native/geometry/image_plane.h"
+#include "native/geometry/mesh.h"
+#include "native/types.h"
+
+namespace reflines {
+
+// What holds at a border vertex of the region.
+enum class Border : signed char {
+  kFree = 0,     // it moves like any other
+  kFixed = 1,    // it stays
+  kClamped = 2,  // it and the vertices one edge away stay: position and tangent are kept
+};
+
+// What a vertex may do in a solve.
+enum class VertexRole : signed char {
+  kUnused,   // touches no triangle of a height-field piece
+  kFree,     // moves along the view
+  kFixed,    // stays, by a border, a silhouette or the caller's wish
+  kClamped,  // stays because a clamped border vertex is one edge away
+};
+
+struct Boundary {
+  std::vector<Border> border;  // #V, read at border vertices only
+  Mask held;                   // #V, or empty: vertices that stay whatever the border says
+};
+
+// Triangles whose unit normal n has |n.v| below this are silhouettes: nothing seen there can be controlled by heights.
+constexpr double kSilhouette = 0.02;
+
+struct HeightField {
+  Triangles F;                    // #T x 3: the triangles that face the viewer, indices into the region's vertices
+  std::vector<int> source;        // #T: which triangle of the region each one is
+  Triangles neighbors;            // #T x 3: the one across the edge opposite each corner, or -1
+  Vector area;                    // #T: projected area, > 0
+  PlanePositions xy;              // #V x 2, from the region's centroid
+  Vector z;                       // #V, from the region's centroid
+  Incidence triangles_of_vertex;  // among F
+  std::vector<VertexRole> role;   // #V
+  std::vector<int> piece;         // #T: 0 .. piece_count - 1
+  int piece_count = 0;
+  int silhouette_count = 0;   // triangles left out: |n.v| < kSilhouette
+  int turned_away_count = 0;  // triangles left out: n.v < 0, turned away or folded over
+  bool closed = false;        // the region has no border edge
+
+  int vertex_count() const { return static_cast<int>(xy.rows()); }
+  int triangle_count() const { return static_cast<int>(F.rows()); }
+  double diagonal() const;  // of the bounding box of the used vertices in the image plane
+};
+
+// Splits a checked region (see check_surface) at its silhouettes. Vertices of triangles left out are fixed. Pieces are
+// coupled sets: triangles that share a vertex which is not on a triangle left out belong to one piece.
+// Throws InvalidInput where no triangle faces the viewer.
+HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame, const Boundary& boundary);
+
+}  // namespace reflines

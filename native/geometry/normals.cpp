@@ -1,0 +1,117 @@
+#include "native/geometry/normals.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "native/errors.h"
+
+namespace reflines {
+namespace {
+
+// Singular values below this share of the largest are treated as zero: the fit is then the one of smallest coefficients.
+constexpr double kRank = 1e-6;
+
+std::vector<int> fit_vertices(const Triangles& F, const Triangles& neighbors, const Incidence& triangles_of_vertex, int v) {
+  std::vector<int> around;
+  for (int k = triangles_of_vertex.begin(v); k < triangles_of_vertex.end(v); ++k) {
+    const int t = triangles_of_vertex.items[k];
+    for (int i = 0; i < 3; ++i) {
+      around.push_back(F(t, i));
+      for (int j = 0; j < 3 && neighbors(t, i) >= 0; ++j) around.push_back(F(neighbors(t, i), j));
+    }
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  around.erase(std::remove(around.begin(), around.end(), v), around.end());
+  if (!around.empty()) around.insert(around.begin(), v);
+  return around;
+}
+
+// Sum of the normals of the triangles around v, each by its angle at v.
+Vector3 angle_weighted_normal(const Positions& V, const Triangles& F, const Incidence& triangles_of_vertex, int v) {
+  Vector3 sum = Vector3::Zero();
+  for (int k = triangles_of_vertex.begin(v); k < triangles_of_vertex.end(v); ++k) {
+    const int t = triangles_of_vertex.items[k];
+    const int i = F(t, 0) == v ? 0 : F(t, 1) == v ? 1 : 2;
+    const Vector3 a = (V.row(F(t, (i + 1) % 3)) - V.row(v)).transpose(), b = (V.row(F(t, (i + 2) % 3)) - V.row(v)).transpose();
+    const Vector3 n = a.cross(b);
+    if (n.norm() > 0) sum += std::atan2(n.norm(), a.dot(b)) * n.normalized();
+  }
+  return sum.norm() > 0 ? sum.normalized() : Vector3::UnitZ();
+}
+
+}  // namespace
+
+NormalFit::NormalFit(const Positions& V, const Triangles& F, double refit_angle) : F_(F), cosine_(std::cos(refit_angle)) {
+  if (F.size() > 0 && (F.minCoeff() < 0 || F.maxCoeff() >= V.rows())) {
+    throw InvalidInput("The triangles name vertices beyond the " + std::to_string(V.rows()) + " given; pass indices from 0 to #V - 1.");
+  }
+  triangles_of_vertex_ = vertex_triangles(F, static_cast<int>(V.rows()));
+  const Triangles neighbors = edge_neighbors(F);
+  stencil_.offset.push_back(0);
+  for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
+    const std::vector<int> own = fit_vertices(F, neighbors, triangles_of_vertex_, v);
+    stencil_.items.insert(stencil_.items.end(), own.begin(), own.end());
+    stencil_.offset.push_back(static_cast<int>(stencil_.items.size()));
+  }
+  fits_.resize(V.rows());
+#pragma omp parallel for schedule(dynamic, 256)
+  for (int v = 0; v < static_cast<int>(V.rows()); ++v) fit(V, v);
+}
+
+void NormalFit::fit(const Positions& V, int v) {
+  Fit& fit = fits_[v];
+  fit.initial = angle_weighted_normal(V, F_, triangles_of_vertex_, v);
+  fit.e1 = fit.initial.unitOrthogonal();
+  fit.e2 = fit.initial.cross(fit.e1);
+  const int K = stencil_.end(v) - stencil_.begin(v);
+  fit.slopes.setZero(2, K);
+  if (K < 3) return;
+  Eigen::Matrix<double, Eigen::Dynamic, 5> M(K - 1, 5);  // the quadratic passes through v itself
+  double size = 0;
+  for (int k = 1; k < K; ++k) size = std::max(size, (V.row(stencil_.items[stencil_.begin(v) + k]) - V.row(v)).norm());
+  for (int k = 1; k < K; ++k) {
+    const Vector3 d = (V.row(stencil_.items[stencil_.begin(v) + k]) - V.row(v)).transpose() / size;
+    const double x = d.dot(fit.e1), y = d.dot(fit.e2);
+    M.row(k - 1) << x, y, x * x, x * y, y * y;
+  }
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  svd.setThreshold(kRank);
+  const Eigen::MatrixXd coefficients = svd.solve(Eigen::MatrixXd::Identity(K - 1, K - 1));
+  fit.slopes.rightCols(K - 1) = coefficients.topRows<2>() / size;
+}
+
+Vector3 NormalFit::normal(const Positions& V, int v) const {
+  const Fit& fit = fits_[v];
+  Vector2 slope = Vector2::Zero();
+  for (int k = 1; k < static_cast<int>(fit.slopes.cols()); ++k) {
+    const Vector3 d = V.row(stencil_.items[stencil_.begin(v) + k]) - V.row(v);
+    slope += fit.slopes.col(k) * d.dot(fit.initial);
+  }
+  return (fit.initial - slope.x() * fit.e1 - slope.y() * fit.e2).normalized();
+}
+
+Positions NormalFit::normals(const Positions& V) {
+  if (V.rows() != static_cast<Eigen::Index>(fits_.size())) {
+    throw InvalidInput("There are " + std::to_string(V.rows()) + " vertices but the fit was made for " +
+                       std::to_string(fits_.size()) + "; make a new one.");
+  }
+  Positions N(V.rows(), 3);
+  int refitted = 0;
+#pragma omp parallel for schedule(dynamic, 1024) reduction(+ : refitted)
+  for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
+    Vector3 n = normal(V, v);
+    if (n.dot(fits_[v].initial) < cosine_ && stencil_.end(v) > stencil_.begin(v)) {
+      fit(V, v);
+      n = normal(V, v);
+      ++refitted;
+    }
+    N.row(v) = n;
+  }
+  refit_count_ += refitted;
+  return N;
+}
+
+}  // namespace reflines

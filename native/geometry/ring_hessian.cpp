@@ -1,0 +1,66 @@
+// Second derivatives from all vertices of the triangles that touch T: the weights of smallest norm that are exact on
+// quadratics. Defined wherever the ring does not lie on a conic: on borders, at valence three, on unstable six-point stencils.
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "native/geometry/stencil.h"
+
+namespace reflines {
+namespace {
+
+// Ratio of the smallest to the largest pivot of the moment matrix below which the ring is (nearly) on a conic. The matrix
+// holds squares, so this is a ratio of 1e-5 between the points' own singular values.
+constexpr double kOnConic = 1e-10;
+
+std::vector<int> ring(const HeightField& field, int t) {
+  std::vector<int> around;
+  for (int i = 0; i < 3; ++i) {
+    const int corner = field.F(t, i);
+    const Incidence& triangles = field.triangles_of_vertex;
+    for (int k = triangles.begin(corner); k < triangles.end(corner); ++k) {
+      for (int j = 0; j < 3; ++j) around.push_back(field.F(triangles.items[k], j));
+    }
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  std::vector<int> vertex = {field.F(t, 0), field.F(t, 1), field.F(t, 2)};
+  for (int v : around) {
+    if (std::find(vertex.begin(), vertex.begin() + 3, v) == vertex.begin() + 3) vertex.push_back(v);
+  }
+  return vertex;
+}
+
+// Rows 1, x, y, x^2/2, xy, y^2/2 at the ring's points, from T's centre in units of `size`.
+Eigen::Matrix<double, 6, Eigen::Dynamic> monomials(const HeightField& field, int t, const std::vector<int>& vertex,
+                                                   double& size) {
+  Vector2 centre = Vector2::Zero();
+  for (int i = 0; i < 3; ++i) centre += field.xy.row(field.F(t, i)).transpose() / 3.0;
+  size = 0;
+  for (int v : vertex) size = std::max(size, (field.xy.row(v).transpose() - centre).norm());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> P(6, vertex.size());
+  for (size_t k = 0; k < vertex.size(); ++k) {
+    const Vector2 p = (field.xy.row(vertex[k]).transpose() - centre) / size;
+    P.col(k) << 1.0, p.x(), p.y(), 0.5 * p.x() * p.x(), p.x() * p.y(), 0.5 * p.y() * p.y();
+  }
+  return P;
+}
+
+}  // namespace
+
+HessianStencil ring_hessian(const HeightField& field, int t) {
+  HessianStencil stencil;
+  const std::vector<int> vertex = ring(field, t);
+  if (vertex.size() < 6) return stencil;
+  double size = 0;
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> P = monomials(field, t, vertex, size);
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> moments(P * P.transpose());
+  const auto pivots = moments.vectorD();
+  if (pivots.minCoeff() < kOnConic * pivots.maxCoeff()) return stencil;
+  Eigen::Matrix<double, 6, 3> wanted = Eigen::Matrix<double, 6, 3>::Zero();
+  wanted.bottomRows<3>().setIdentity();
+  stencil.weight = (P.transpose() * moments.solve(wanted)).transpose() / (size * size);
+  stencil.vertex = vertex;
+  return stencil;
+}
+
+}  // namespace reflines

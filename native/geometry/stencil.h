@@ -1,0 +1,50 @@
+// Triangle-centred first and second derivatives of heights over the image plane (paper, section 3 and appendix).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "native/geometry/height_field.h"
+#include "native/types.h"
+
+namespace reflines {
+
+// How the Hessian of a triangle is read from the heights around it.
+enum class StencilKind {
+  kAveraged,    // eq. 6 as re-derived: jumps of the gradient over the three edges; consistent on regular meshes only
+  kQuadratic,   // the quadratic through the six points (appendix); throws where they lie on a conic or are fewer
+  kHybrid,      // the paper's: kQuadratic, and kAveraged where a coefficient exceeds 5 / l_max^2
+  kConsistent,  // kQuadratic, and where that is unstable the minimum-norm weights over the ring of triangles touching T
+};
+
+// Derivatives as weights on heights. For triangle t the entries e = offset[t] .. offset[t + 1] - 1 name the vertices; the
+// first three are the triangle's own corners, which alone carry the gradient.
+struct Stencils {
+  std::vector<int> offset;                                              // #T + 1
+  std::vector<int> vertex;                                              // #entries
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> hessian;    // #entries x 3: weights of f_xx, f_xy, f_yy
+  Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> gradient;   // #T x 6: weights of (f_x, f_y) for each corner
+  int fallback_count = 0;  // triangles where the six-point quadratic was not used though asked for
+
+  int triangle_count() const { return static_cast<int>(offset.size()) - 1; }
+};
+
+// One triangle's Hessian weights before they are packed.
+struct HessianStencil {
+  std::vector<int> vertex;             // the triangle's corners first
+  Eigen::Matrix3Xd weight;             // 3 x #vertex
+  bool empty() const { return vertex.empty(); }
+};
+
+// Stencils of the triangles of `field` in its order. Throws InvalidInput for kQuadratic where some triangle has none.
+Stencils make_stencils(const HeightField& field, StencilKind kind);
+
+// The single discretizations. Each returns an empty stencil where it is not defined.
+HessianStencil averaged_hessian(const HeightField& field, int t);
+HessianStencil quadratic_hessian(const HeightField& field, int t);
+HessianStencil ring_hessian(const HeightField& field, int t);
+
+// Largest |weight| times l_max^2, l_max the longest edge of the six-point stencil: the paper's measure of instability.
+double stencil_magnitude(const HeightField& field, const HessianStencil& stencil);
+
+}  // namespace reflines

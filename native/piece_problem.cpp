@@ -1,0 +1,150 @@
+#include "native/piece_problem.h"
+
+#include <algorithm>
+
+namespace reflines {
+namespace {
+
+// A free border leaves the profile along the lines undetermined (theta ~ f_x: any g(y) is free; null space 9 on a free 8 x 8
+// grid). A second family across the first, asked to stay as it is, leaves only affine functions; the proximity holds those. Of
+// the two, the second family is blind to position and bends nothing, so it may be the stronger one.
+constexpr double kCrossingWeight = 1e-3;
+constexpr double kFreeBorderProximity = 1e-6;
+
+Mask free_mask(const Piece& piece) {
+  Mask is_free(piece.field.vertex_count());
+  for (int v = 0; v < piece.field.vertex_count(); ++v) is_free(v) = piece.field.role[v] == VertexRole::kFree;
+  return is_free;
+}
+
+bool has_free_border(const HeightField& field) {
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (field.neighbors(t, i) >= 0) continue;
+      for (int j = 1; j < 3; ++j) {
+        if (field.role[field.F(t, (i + j) % 3)] == VertexRole::kFree) return true;
+      }
+    }
+  }
+  return false;
+}
+
+double default_proximity(double proximity, bool free_border) {
+  if (proximity >= 0) return proximity;
+  return free_border ? kFreeBorderProximity : 0.0;
+}
+
+}  // namespace
+
+PieceProblem::PieceProblem(Piece piece, StencilKind stencil, std::vector<ReflectionFunction> families, double proximity,
+                           LinearSolverKind solver)
+    : piece_(std::move(piece)),
+      stencils_(make_stencils(piece_.field, stencil)),
+      families_(std::move(families)),
+      free_border_(has_free_border(piece_.field)),
+      unknowns_(Unknowns::free_vertices(free_mask(piece_), piece_.field.z)),
+      energy_(piece_.field, stencils_, default_proximity(proximity, free_border_)),
+      minimizer_(solver),
+      solver_(solver),
+      x_(unknowns_.start()),
+      z_(piece_.field.z) {
+  find_hidden();
+}
+
+void PieceProblem::find_hidden() {
+  for (size_t k = 0; k < families_.size(); ++k) {
+    visible_.push_back(field(static_cast<int>(k)).visibility.unaryExpr(&visibility_weight));
+  }
+  for (int t = 0; t < stencils_.triangle_count(); ++t) {
+    bool hidden = false;
+    for (size_t k = 0; k + 1 < families_.size(); ++k) hidden = hidden || visible_[k](t) < 1;
+    hidden_count_ += hidden;
+  }
+}
+
+void PieceProblem::set_heights(const Vector& x) {
+  x_ = x;
+  unknowns_.heights(x_, z_);
+}
+
+ReflectionField PieceProblem::field(int family) const {
+  TriangleDerivatives u;
+  apply_stencils(stencils_, z_, u);
+  return reflection_field(families_[family], u);
+}
+
+EnergyTerm PieceProblem::term(const Target& target) const {
+  const HeightField& field = piece_.field;
+  EnergyTerm term{families_[target.family], {}, {}, Vector(field.triangle_count())};
+  const bool by_value = target.theta.size() > 0;
+  term.gradient.resize(by_value ? 0 : field.triangle_count(), 2);
+  term.theta.resize(by_value ? field.triangle_count() : 0);
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    const int row = field.source[t];
+    const double wanted_weight = target.weight.size() > 0 ? target.weight(row) : 1.0;
+    term.weight(t) = wanted_weight * field.area(t) * visible_[target.family](t);
+    if (by_value) {
+      term.theta(t) = target.theta(row);
+    } else {
+      term.gradient.row(t) = target.gradient.row(row);
+    }
+  }
+  return term;
+}
+
+EnergyTerm PieceProblem::crossing_term() const {
+  const int last = static_cast<int>(families_.size()) - 1;
+  TriangleDerivatives u;
+  apply_stencils(stencils_, piece_.field.z, u);
+  return {families_[last], reflection_field(families_[last], u).gradient, {},
+          (kCrossingWeight * piece_.field.area.array() * visible_[last].array()).matrix()};
+}
+
+void PieceProblem::set_targets(const std::vector<Target>& targets) {
+  std::vector<EnergyTerm> terms;
+  for (const Target& target : targets) terms.push_back(term(target));
+  if (free_border_) terms.push_back(crossing_term());
+  energy_.set_terms(std::move(terms));
+}
+
+Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progress) {
+  Vector x = x_;
+  const Report report = minimizer_.minimize(*this, x, options, progress);
+  set_heights(x);
+  return report;
+}
+
+PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options, const PlaneVectors& along) {
+  const bool same = smoother_ && options.length == smoother_options_.length &&
+                    options.directional == smoother_options_.directional && (!options.directional || along == smoother_along_);
+  if (!same) {
+    const SpdFactorize factorize = [this](const SparseMatrix& matrix) -> SpdSolve {
+      auto solver = std::make_shared<LinearSolver>(solver_);
+      solver->analyze(matrix);
+      solver->factorize(matrix);
+      return [solver](Vector& x) { solver->solve(x); };
+    };
+    smoother_ = std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, factorize);
+    smoother_options_ = options;
+    smoother_along_ = along;
+  }
+  return smoother_->smooth(gradient);
+}
+
+double PieceProblem::evaluate(const Vector& x, Vector* gradient) {
+  unknowns_.heights(x, trial_z_);
+  if (!gradient) return energy_.evaluate(trial_z_, nullptr);
+  const double energy = energy_.evaluate(trial_z_, &gradient_z_);
+  unknowns_.pull_back(gradient_z_, *gradient);
+  return energy;
+}
+
+const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
+  if (!assembly_) {
+    assembly_ = std::make_unique<HessianAssembly>(stencils_, energy_.entries(), unknowns_.column(), unknowns_.size());
+  }
+  unknowns_.heights(x, trial_z_);
+  return assembly_->assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
+}
+
+}  // namespace reflines

@@ -1,0 +1,67 @@
+// One height-field piece as a Problem: geometry and reflection on one side, the minimizer on the other.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "native/geometry/pieces.h"
+#include "native/optimization/minimizer.h"
+#include "native/optimization/unknowns.h"
+#include "native/reflection/energy.h"
+#include "native/reflection/field.h"
+#include "native/reflection/hessian_assembly.h"
+#include "native/reflection/smooth.h"
+#include "native/reflection/target.h"
+
+namespace reflines {
+
+class PieceProblem : public Problem {
+ public:
+  PieceProblem(Piece piece, StencilKind stencil, std::vector<ReflectionFunction> families, double proximity,
+               LinearSolverKind solver);
+
+  const Piece& piece() const { return piece_; }
+  const Stencils& stencils() const { return stencils_; }
+  const Vector& heights() const { return z_; }  // #V of the piece
+  int hidden_count() const { return hidden_count_; }
+
+  void set_heights(const Vector& x);
+  void reset() { set_heights(unknowns_.start()); }
+  const Vector& unknowns() const { return x_; }
+
+  // Rows of the targets follow the region's triangles.
+  void set_targets(const std::vector<Target>& targets);
+  double energy() { return energy_.evaluate(z_, nullptr); }
+  Report minimize(const MinimizerOptions& options, Progress* progress);
+
+  ReflectionField field(int family) const;
+  PlaneVectors smoothed(const PlaneVectors& gradient, const SmoothOptions& options, const PlaneVectors& along);
+
+  int size() const override { return unknowns_.size(); }
+  double evaluate(const Vector& x, Vector* gradient) override;
+  const SparseMatrix& hessian(const Vector& x, HessianModel model) override;
+
+ private:
+  EnergyTerm term(const Target& target) const;
+  EnergyTerm crossing_term() const;
+  void find_hidden();
+
+  Piece piece_;
+  Stencils stencils_;
+  std::vector<ReflectionFunction> families_;  // the last one, crossing the first, is for free borders only
+  bool free_border_;
+  Unknowns unknowns_;
+  Energy energy_;
+  std::unique_ptr<HessianAssembly> assembly_;  // made when first asked for
+  Minimizer minimizer_;
+  LinearSolverKind solver_;
+  std::unique_ptr<FieldSmoother> smoother_;  // the last one used: a drag of the strength needs no new factor
+  SmoothOptions smoother_options_;
+  PlaneVectors smoother_along_;
+  std::vector<Vector> visible_;  // per family #T: weight by visibility at the start
+  int hidden_count_ = 0;         // triangles with less than full weight
+  Vector x_, z_;                 // current unknowns and heights
+  Vector trial_z_, gradient_z_;  // work space
+};
+
+}  // namespace reflines

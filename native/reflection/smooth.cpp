@@ -1,0 +1,77 @@
+#include "native/reflection/smooth.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "native/errors.h"
+#include "native/reflection/hessian_assembly.h"
+
+namespace reflines {
+namespace {
+
+// What directional smoothing keeps of the isotropic one: without it nothing couples a line with its neighbours, and the system
+// is singular wherever a line crosses fewer than three triangles.
+constexpr double kAcrossLines = 1e-3;
+
+// The region's stencils with the mean over the triangle in the place of f_x, and nothing in that of f_y.
+Stencils with_means(Stencils stencils) {
+  stencils.gradient.setZero();
+  for (int i = 0; i < 3; ++i) stencils.gradient.col(2 * i).setConstant(1.0 / 3.0);
+  return stencils;
+}
+
+// |f_xx|^2 + 2 |f_xy|^2 + |f_yy|^2, or the square of the second derivative along the level lines of `gradient`.
+Eigen::Matrix3d second_order_energy(bool directional, const Vector2& gradient) {
+  const Eigen::Matrix3d isotropic = Vector3(1, 2, 1).asDiagonal();
+  if (!directional || gradient.norm() == 0) return isotropic;
+  const Vector2 along = Vector2(-gradient.y(), gradient.x()).normalized();
+  const Vector3 c(along.x() * along.x(), 2 * along.x() * along.y(), along.y() * along.y());
+  return c * c.transpose() + kAcrossLines * isotropic;
+}
+
+Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& options, const PlaneVectors& along) {
+  const double stiffness = std::pow(options.length / (2 * std::numbers::pi), 4);
+  Energy::ElementHessians result = Energy::ElementHessians::Zero(field.triangle_count(), 15);
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    const Eigen::Matrix3d K =
+        field.area(t) * stiffness * second_order_energy(options.directional, options.directional ? Vector2(along.row(t)) : Vector2());
+    // Upper triangle of a 5 x 5 matrix row by row: 0 is the mean's, 9 .. 14 are those of f_xx, f_xy, f_yy.
+    result(t, 0) = field.area(t);
+    result.row(t).tail<6>() << K(0, 0), K(0, 1), K(0, 2), K(1, 1), K(1, 2), K(2, 2);
+  }
+  return result;
+}
+
+}  // namespace
+
+FieldSmoother::FieldSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
+                             const PlaneVectors& along, const SpdFactorize& factorize)
+    : field_(field) {
+  if (!(options.length > 0) || !std::isfinite(options.length)) {
+    throw InvalidInput("The smoothing length must be a positive length in scene units, not " + std::to_string(options.length) + ".");
+  }
+  const Stencils means = with_means(stencils);
+  const StencilEntries entries(means, field.vertex_count());
+  std::vector<int> column(field.vertex_count());
+  std::iota(column.begin(), column.end(), 0);
+  HessianAssembly assembly(means, entries, column, field.vertex_count());
+  solve_ = factorize(assembly.assemble(elements(field, options, along), {}));
+}
+
+PlaneVectors FieldSmoother::smooth(const PlaneVectors& gradient) const {
+  PlaneVectors result(field_.triangle_count(), 2);
+  for (int component = 0; component < 2; ++component) {
+    Vector G = Vector::Zero(field_.vertex_count());
+    for (int t = 0; t < field_.triangle_count(); ++t) {
+      for (int i = 0; i < 3; ++i) G(field_.F(t, i)) += field_.area(t) / 3.0 * gradient(t, component);
+    }
+    solve_(G);
+    for (int t = 0; t < field_.triangle_count(); ++t) {
+      result(t, component) = (G(field_.F(t, 0)) + G(field_.F(t, 1)) + G(field_.F(t, 2))) / 3.0;
+    }
+  }
+  return result;
+}
+
+}  // namespace reflines

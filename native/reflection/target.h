@@ -1,0 +1,17 @@
+// What a tool asks of the reflection lines: one wanted gradient (or value) of theta and one weight per triangle.
+#pragma once
+
+#include "native/types.h"
+
+namespace reflines {
+
+// Rows follow the triangles of the region that was handed in (#F), also those that are no part of a height-field piece:
+// there they are not read. Every tool of the add-on is a builder of this one struct; the energy knows no tools.
+struct Target {
+  PlaneVectors gradient;  // #F x 2: wanted grad theta in the image plane, radians / length (eq. 4)
+  Vector weight;          // #F, >= 0; empty: 1 everywhere
+  Vector theta;           // #F: wanted theta, radians. If not empty, values are fitted (eq. 3) and `gradient` is not read
+  int family = 0;         // which of the optimizer's families of light lines
+};
+
+}  // namespace reflines
