@@ -15,6 +15,7 @@ PYBIND11_MODULE(reflines, module) {
   module.attr("__version__") = REFLINES_VERSION;
   reflines::bind_errors(module);
   reflines::bind_geometry(module);
+  reflines::bind_subdivision(module);
   reflines::bind_target(module);
   reflines::bind_report(module);
   reflines::bind_optimizer(module);
