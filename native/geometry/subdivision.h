@@ -27,10 +27,13 @@ struct SubdivisionOptions {
   bool limit = true;  // positions on the limit surface; false: those of the refined polygons
 };
 
-// Rows of `positions` sum to 1, those of the tangents to 0. Refined vertices: first the images of the cage's vertices,
-// in their order (so does Blender's evaluated mesh), then those the first level adds (of faces, then of edges), then
-// those of the second, ...: the vertices of level k are the first ones of level k + 1. Beyond the cage's own vertices
-// Blender numbers otherwise. A cage vertex in no face keeps its place and has zero tangents.
+// Rows of `positions` sum to 1, those of the tangents to 0.
+// Refined vertices: first the images of the cage's vertices, in their order (so does Blender's evaluated mesh, which
+// numbers the others otherwise), then those the first level adds, of faces, then of edges, then those of the second,
+// ...: the vertices of level k are the first ones of level k + 1. A cage vertex in no face keeps its place. It and
+// vertices that are not manifold have zero tangents. A crease sharper than the level counts as sharp for ever, and the
+// limit at the end of a sharp crease is that of a smooth vertex, both as OpenSubdiv has it: off by 1e-4 of the size on
+// a car with creases of sharpness 6 at level 3.
 struct Subdivision {
   SparseMatrix positions;  // S, #refined x #V
   SparseMatrix tangent_u;  // #refined x #V; tangent_u x tangent_v points outside where the cage's faces are

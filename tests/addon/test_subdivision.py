@@ -144,8 +144,8 @@ def test_refined_positions(name: str, level: int, boundary: str) -> None:
     assert_same_surface(SMALL[name], level, False, boundary)
 
 
-# Not asked of other cages: at soft creases sharper than the modifier's quality, at ends of creases and at corners of sheets
-# that are smoothed, patches only approximate the limit (a cube's edge with crease 0.8 at quality 3: by 3e-2 of the size).
+# Not asked of other cages: at soft creases sharper than the modifier's quality, at ends of creases and at corners of
+# sheets that are smoothed, its patches only approximate the limit (a crease of 0.8 at quality 3: by 3e-2 of the size).
 @pytest.mark.parametrize("name", ["cube", "cube, sharp creases", "triangles", "n-gons"])
 def test_limit_positions_of_closed_cages(name: str) -> None:
     assert_same_surface(SMALL[name], 3, True, 'ALL')

@@ -167,6 +167,16 @@ TEST(Subdivision, VerticesInNoFaceStay) {
   }
 }
 
+TEST(Subdivision, MiddlesOfFacesFollowTheVerticesOfTheCage) {
+  const PlacedCage placed = pentagonal_prism();
+  const Positions V = subdivide(placed.cage, with(1, false)).positions * placed.V;
+  for (int f = 0; f < 7; ++f) {
+    const int begin = placed.cage.face_offsets[f], size = placed.cage.face_offsets[f + 1] - begin;
+    const IndexVector corners = placed.cage.face_vertices.segment(begin, size);
+    EXPECT_LT((V.row(10 + f) - placed.V(corners, Eigen::all).colwise().mean()).norm(), 1e-15);
+  }
+}
+
 TEST(Subdivision, LevelTwoIsLevelOneOfLevelOne) {
   for (const PlacedCage& placed : {grid(3, 2), cube(), pentagonal_prism(), star(5, 2)}) {
     const Positions V = bumpy(placed.V);
