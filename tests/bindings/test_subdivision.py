@@ -1,0 +1,70 @@
+"""reflines.Subdivision as Python sees it: what it computes is tested natively and against Blender's modifier."""
+import numpy as np
+import pytest
+import reflines
+
+V = np.array([[x, y, np.sin(x + 2.0 * y)] for y in range(4) for x in range(4)], float)
+CORNERS = [4 * y + x for y in range(3) for x in range(3)]
+FACES = np.array([[a, a + 1, a + 5, a + 4] for a in CORNERS])
+OFFSETS = np.arange(0, 37, 4)
+
+
+def grid(**settings: object) -> reflines.Subdivision:
+    return reflines.Subdivision(OFFSETS, FACES.ravel(), **{"vertices": 16} | settings)
+
+
+def test_shapes_and_defaults() -> None:
+    result = grid()
+    assert result.faces.shape == (9 * 16, 4)
+    assert np.array_equal(np.bincount(result.face_parent), np.full(9, 16))
+    assert result.positions(V).shape == result.normals(V).shape == (13 * 13, 3)
+    assert np.allclose(np.linalg.norm(result.normals(V), axis=1), 1)
+    assert result.faces.max() == 13 * 13 - 1
+
+
+def test_positions_are_the_matrix_times_the_cage() -> None:
+    result = grid(level=3, limit=False)
+    data, indices, indptr = result.matrix()
+    S = np.zeros((len(indptr) - 1, 16))
+    S[np.repeat(np.arange(len(S)), np.diff(indptr)), indices] = data
+    assert np.allclose(S @ V, result.positions(V), rtol=0, atol=1e-14)
+    assert np.allclose(S.sum(axis=1), 1, rtol=0, atol=1e-14)
+
+
+def test_any_integers_and_reals_will_do() -> None:
+    expected = grid(creases=[[0, 1]], crease_sharpness=[2]).positions(V)
+    result = reflines.Subdivision(OFFSETS.tolist(), FACES.ravel().astype(np.uint16), vertices=16,
+                                  creases=np.array([[0, 1]], np.int64), crease_sharpness=np.array([2], np.float32))
+    assert np.array_equal(result.positions(np.asfortranarray(V)), expected)
+
+
+def test_creases_corners_scheme_and_boundary_arrive() -> None:
+    smooth = grid().positions(V)
+    assert not np.allclose(grid(creases=[[5, 6]], crease_sharpness=[10.0]).positions(V)[5], smooth[5])
+    assert np.allclose(grid(corners=[5], corner_sharpness=[10.0]).positions(V)[5], V[5])
+    assert np.allclose(grid(boundary="preserve_corners").positions(V)[0], V[0])
+    triangles = np.concatenate([FACES[:, :3], FACES[:, [0, 2, 3]]])
+    loop = reflines.Subdivision(np.arange(0, 55, 3), triangles.ravel(), vertices=16, scheme="loop")
+    assert loop.faces.shape == (18 * 16, 3)
+
+
+@pytest.mark.parametrize(("settings", "said"), [
+    ({"level": 0}, "level is 0"),
+    ({"vertices": 15}, "names vertex 15"),
+    ({"scheme": "loop"}, "9 faces"),
+    ({"scheme": "bilinear"}, "'bilinear'"),
+    ({"boundary": "none"}, "'none'"),
+    ({"creases": [[0, 1]], "crease_sharpness": [np.nan]}, "nan"),
+    ({"creases": [0, 1], "crease_sharpness": [1.0]}, "2 columns"),
+])
+def test_unusable_input_gets_one_sentence(settings: dict, said: str) -> None:
+    with pytest.raises(reflines.InvalidInput) as caught:
+        grid(**settings)
+    assert said in str(caught.value)
+    assert str(caught.value).count("\n") == 0
+
+
+@pytest.mark.parametrize("wrong", [V[:-1], V[:, :2], V.ravel()])
+def test_positions_must_fit_the_cage(wrong: np.ndarray) -> None:
+    with pytest.raises(reflines.InvalidInput, match="16 rows"):
+        grid().positions(wrong)
