@@ -1,5 +1,15 @@
 """The sidebar tab "Reflection", top to bottom as the work goes: view and light, region and border, tool, result."""
+import textwrap
+
 import bpy
+
+
+def paragraph(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
+    """A sentence over as many lines as the sidebar's width asks for."""
+    letters = max(20, int((context.region.width - 60) / (6.5 * context.preferences.system.ui_scale)))
+    column = layout.column(align=True)
+    for number, line in enumerate(textwrap.wrap(text, letters)):
+        column.label(text=line, icon='BLANK1' if number else icon)
 
 
 class ReflinesPanel:
@@ -15,25 +25,25 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reflection_lines
         layout = self.layout
-        self.draw_problem(layout, context.window_manager.reflection_lines)
+        self.draw_problem(layout, context)
         column = layout.column()
         column.prop(settings, "camera", text="View", icon='CAMERA_DATA')
         if not settings.present(settings.camera):
             column.operator("reflines.add_view_camera", icon='ADD')
         elif settings.is_perspective():
-            column.label(text="Perspective camera: its direction to", icon='INFO')
-            column.label(text="the panel's centre is used.", icon='BLANK1')
+            paragraph(column, context, "Perspective camera: its direction to the panel's centre is used", 'INFO')
         column = layout.column()
         column.prop(settings, "light", icon='EMPTY_SINGLE_ARROW')
         if not settings.present(settings.light):
             column.operator("reflines.add_light_direction", icon='ADD')
 
-    def draw_problem(self, layout: bpy.types.UILayout, session: bpy.types.PropertyGroup) -> None:
+    def draw_problem(self, layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+        session = context.window_manager.reflection_lines
         if session.problem:
             box = layout.box()
             box.alert = True
-            box.label(text=session.problem, icon='ERROR')
-            box.label(text=session.remedy, icon='BLANK1')
+            paragraph(box, context, session.problem, 'ERROR')
+            paragraph(box, context, session.remedy, 'BLANK1')
 
 
 class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
@@ -81,7 +91,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         move = bpy.utils.units.to_string(context.scene.unit_settings.system, 'LENGTH', report.largest_move, precision=5)
         column.label(text=f"Largest move {move}")
         for note in report.notes.splitlines():
-            column.label(text=note, icon='ERROR')
+            paragraph(column, context, note, 'ERROR')
 
 
 class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
@@ -95,7 +105,7 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.active = stripes.show
-        for name in ("eye", "count", "width", "softness", "color", "gap_color", "opacity"):
+        for name in ("eye", "cage_on_top", "count", "width", "softness", "color", "gap_color", "opacity"):
             layout.prop(stripes, name)
 
 

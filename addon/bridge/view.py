@@ -50,8 +50,11 @@ def viewport_frame(context: bpy.types.Context) -> Matrix | None:
 
 
 def frame_towards(direction: Vector) -> Matrix:
-    """Columns right, up, `direction`; up as near to world Z as can be."""
-    return direction.to_track_quat('Z', 'Y').to_matrix()
+    """Columns right, up, `direction`; up is as near to world Z as can be, and +Y for a view from above."""
+    z = direction.normalized()
+    right = Vector((-z.y, z.x, 0.0))
+    right = right.normalized() if right.length > 1e-3 else Vector((1.0, 0.0, 0.0))
+    return Matrix((right, z.cross(right), z)).transposed()
 
 
 def extent(ob: bpy.types.Object | None) -> tuple[Vector, float]:

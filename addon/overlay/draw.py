@@ -63,7 +63,8 @@ def uniforms(context: bpy.types.Context, ob: bpy.types.Object) -> np.ndarray | N
         return None
     region_3d = context.region_data
     return stripes.uniforms(model=array(ob.matrix_world), view_matrix=array(region_3d.view_matrix),
-                            projection=array(region_3d.window_matrix), eye=eye, axes=axes, look=look(settings))
+                            projection=array(region_3d.window_matrix), eye=eye, axes=axes,
+                            look=look(settings, ob.mode))
 
 
 def array(matrix: object) -> np.ndarray:
@@ -75,9 +76,10 @@ def viewport_eye(region_3d: bpy.types.RegionView3D) -> stripes.Eye:
     return stripes.Eye(back[:3, 2], back[:3, 3] if region_3d.is_perspective else None)
 
 
-def look(settings: bpy.types.PropertyGroup) -> stripes.Look:
+def look(settings: bpy.types.PropertyGroup, mode: str) -> stripes.Look:
+    offset = stripes.ABOVE_CAGE if mode == 'EDIT' and not settings.cage_on_top else stripes.BELOW_CAGE
     return stripes.Look(settings.count, settings.width, settings.softness,
-                        tuple(settings.color), tuple(settings.gap_color), settings.opacity)
+                        tuple(settings.color), tuple(settings.gap_color), settings.opacity, offset)
 
 
 def refresh(ob: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> None:

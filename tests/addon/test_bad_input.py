@@ -1,0 +1,231 @@
+"""Bad input gets one clear sentence, and the mesh stays as it was, bit by bit."""
+from collections.abc import Callable
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from mathutils import Vector
+
+import scenes
+
+
+def refused(ob: bpy.types.Object, sentence: str) -> None:
+    """The operator refuses with a sentence of this pattern and changes nothing."""
+    before = scenes.fingerprint(ob)
+    with pytest.raises(RuntimeError, match=sentence) as failure:
+        scenes.smooth()
+    assert "Traceback" not in str(failure.value)
+    assert scenes.fingerprint(ob) == before
+
+
+def edited(change: Callable[[bmesh.types.BMesh], None], height: scenes.Height = scenes.rippled) -> bpy.types.Object:
+    """A panel seen from above, all of it selected, after a change of its edit mesh."""
+    ob = scenes.panel(height=height)
+    scenes.look_from_above()
+    scenes.edit(ob)
+    mesh = bmesh.from_edit_mesh(ob.data)
+    mesh.verts.ensure_lookup_table()
+    mesh.faces.ensure_lookup_table()
+    change(mesh)
+    bpy.ops.mesh.select_all(action='SELECT')
+    bmesh.update_edit_mesh(ob.data)
+    return ob
+
+
+def nothing(_: bmesh.types.BMesh) -> None:
+    """The panel as it is."""
+
+
+def test_no_camera() -> None:
+    ob = scenes.panel()
+    bpy.ops.reflines.add_light_direction()
+    scenes.edit_inner(ob)
+    refused(ob, "No view camera: press Add View Camera")
+
+
+def test_no_light() -> None:
+    ob = scenes.panel()
+    bpy.ops.reflines.add_view_camera()
+    scenes.edit_inner(ob)
+    refused(ob, "No light direction: press Add Light Direction")
+
+
+@pytest.mark.parametrize(("which", "sentence"), [("camera", "No view camera"), ("light", "No light direction")])
+def test_deleted_camera_or_light(which, sentence) -> None:
+    ob = edited(nothing)
+    bpy.context.scene.collection.objects.unlink(getattr(bpy.context.scene.reflection_lines, which))
+    refused(ob, sentence)
+
+
+def test_light_parallel_to_the_view() -> None:
+    ob = scenes.panel()
+    scenes.look_from_above(light_degrees=0.0)
+    scenes.edit_inner(ob)
+    refused(ob, "parallel to the view")
+
+
+def test_light_without_direction() -> None:
+    ob = edited(nothing)
+    bpy.context.scene.reflection_lines.light.scale = (0.0, 0.0, 0.0)
+    refused(ob, "Light Direction has no direction")
+
+
+def test_no_mesh() -> None:
+    bpy.ops.reflines.add_light_direction()
+    with pytest.raises(RuntimeError, match="Make the panel's mesh the active object"):
+        scenes.smooth()
+
+
+def test_nothing_selected() -> None:
+    ob = edited(nothing)
+    bpy.ops.mesh.select_all(action='DESELECT')
+    refused(ob, "No faces are selected: select the faces of the panel")
+
+
+def test_only_vertices_selected() -> None:
+    ob = edited(nothing)
+    bpy.ops.mesh.select_all(action='DESELECT')
+    mesh = bmesh.from_edit_mesh(ob.data)
+    mesh.verts.ensure_lookup_table()
+    mesh.verts[5].select_set(True)
+    refused(ob, "the 1 selected vertices span no face")
+
+
+def test_no_stored_region() -> None:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    refused(ob, "Panel has no stored region: select the faces of the panel in Edit Mode")
+
+
+def test_closed_body() -> None:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
+    ob = bpy.context.object
+    scenes.look_from_above()
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    refused(ob, "closed body")
+
+
+def test_all_faces_turned_away() -> None:
+    ob = edited(nothing)
+    bpy.ops.mesh.flip_normals()
+    refused(ob, "All 512 faces of the region turn away")
+
+
+def one_face_flipped(mesh: bmesh.types.BMesh) -> None:
+    mesh.faces[8 * 16 + 8].normal_flip()
+
+
+def folded(mesh: bmesh.types.BMesh) -> None:
+    mesh.verts[8 * 17 + 8].co.x += 0.2  # beyond its neighbour, whose distance is 0.125
+
+
+def steep(mesh: bmesh.types.BMesh) -> None:
+    for vertex in mesh.verts:
+        if vertex.co.y > 0.5:
+            vertex.co.z -= 1e6 * (vertex.co.y - 0.5)
+
+
+@pytest.mark.parametrize(("change", "sentence"), [
+    (one_face_flipped, "turn away"), (folded, "turn away from the view or fold over"), (steep, "edge on"),
+])
+def test_some_faces_cannot_be_used_and_are_held(change, sentence) -> None:
+    ob = edited(change)
+    ob.update_from_editmode()
+    before = scenes.positions(ob)
+    assert scenes.smooth() == {'FINISHED'}
+    assert sentence in ob.reflection_lines.report.notes
+    assert (scenes.positions(ob) != before).any()
+
+
+def test_held_vertices_stay() -> None:
+    ob = edited(one_face_flipped)
+    before = scenes.positions(ob)
+    scenes.smooth()
+    corners = list(ob.data.polygons[8 * 16 + 8].vertices)
+    assert np.array_equal(scenes.positions(ob)[corners], before[corners])
+
+
+def zero_area(mesh: bmesh.types.BMesh) -> None:
+    mesh.verts[8 * 17 + 8].co = mesh.verts[8 * 17 + 9].co.copy()
+
+
+def not_a_number(mesh: bmesh.types.BMesh) -> None:
+    mesh.verts[100].co.z = float("nan")
+    mesh.verts[120].co.x = float("inf")
+
+
+def doubled(mesh: bmesh.types.BMesh) -> None:
+    """A second face on the corners of another, as a glued-on copy leaves it: same vertices, turned over."""
+    mesh.faces.new(tuple(reversed(tuple(mesh.faces[100].verts[:3]))))
+
+
+def fin(mesh: bmesh.types.BMesh) -> None:
+    a, b = mesh.verts[8 * 17 + 8], mesh.verts[8 * 17 + 9]
+    mesh.faces.new((a, b, mesh.verts.new(a.co + Vector((0.05, 0.0, 0.5)))))
+
+
+@pytest.mark.parametrize(("change", "sentence"), [
+    (zero_area, "zero area"),
+    (not_a_number, "Panel has 2 vertices in the region whose coordinates are no numbers, the first is 100"),
+    (doubled, "doubled|more than two faces"),
+    (fin, "1 edge of the region has more than two faces"),
+])
+def test_broken_mesh(change, sentence) -> None:
+    refused(edited(change), sentence)
+
+
+def test_a_broken_mesh_outside_the_region_does_not_matter() -> None:
+    ob = edited(lambda mesh: setattr(mesh.verts[0].co, "z", float("nan")))
+    scenes.select_faces(ob, scenes.inner())
+    assert scenes.smooth() == {'FINISHED'}
+
+
+def test_loose_vertices_are_ignored() -> None:
+    ob = edited(lambda mesh: mesh.verts.new((0.0, 0.0, 3.0)))
+    assert scenes.smooth() == {'FINISHED'}
+    assert scenes.positions(ob)[-1].tolist() == [0.0, 0.0, 3.0]
+
+
+def test_one_triangle() -> None:
+    ob = scenes.linked("Panel", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    scenes.look_from_above()
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    refused(ob, "No vertex of the region is free to move")
+
+
+def test_no_free_vertex() -> None:
+    ob = edited(nothing)
+    scenes.select_faces(ob, lambda face: face < 16)
+    refused(ob, "No vertex of the region is free to move")
+
+
+def test_scaled_to_nothing() -> None:
+    ob = edited(nothing)
+    ob.scale = (1.0, 0.0, 1.0)
+    refused(ob, "scaled to nothing")
+
+
+def test_a_shared_mesh_in_object_mode() -> None:
+    ob = edited(nothing)
+    scenes.smooth(strength=0.0)
+    scenes.object_mode()
+    bpy.data.objects.new("Twin", ob.data)
+    refused(ob, "shares its mesh with 1 other objects: make it single-user")
+
+
+def test_a_linked_object(tmp_path) -> None:
+    edited(nothing)
+    scenes.smooth(strength=0.0)
+    scenes.object_mode()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        wanted.objects = ["Panel"]
+    ob = wanted.objects[0]
+    bpy.context.collection.objects.link(ob)
+    scenes.activate(ob)
+    scenes.look_from_above()
+    refused(ob, "Panel is linked from another file")

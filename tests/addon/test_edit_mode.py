@@ -1,0 +1,146 @@
+"""Several objects, shape keys and hidden faces do what a Blender user expects."""
+import bmesh
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+
+
+def two_panels() -> tuple[bpy.types.Object, bpy.types.Object]:
+    left, right = scenes.panel("Left"), scenes.panel("Right", lambda x, y: scenes.rippled(0.8 * x, y))
+    right.location.x = 3.0
+    scenes.look_from_above()
+    scenes.edit(left, right)
+    return left, right
+
+
+def test_every_object_with_selected_faces_is_solved() -> None:
+    objects = two_panels()
+    for ob in objects:
+        scenes.select_faces(ob, scenes.inner())
+    before = [scenes.positions(ob) for ob in objects]
+    scenes.smooth()
+    assert all((scenes.positions(ob) != old).any() for ob, old in zip(objects, before, strict=True))
+    assert all(ob.reflection_lines.report.termination for ob in objects)
+
+
+def test_objects_without_selected_faces_are_left_alone() -> None:
+    left, right = two_panels()
+    scenes.select_faces(left, scenes.inner())
+    scenes.select_faces(right, lambda _: False)
+    before = scenes.fingerprint(right)
+    scenes.smooth()
+    assert scenes.fingerprint(right) == before
+    assert not right.reflection_lines.report.termination
+
+
+def test_all_or_nothing() -> None:
+    left, right = two_panels()
+    scenes.select_faces(left, scenes.inner())
+    scenes.select_faces(right, lambda face: face == 40)
+    before = [scenes.fingerprint(ob) for ob in (left, right)]
+    with pytest.raises(RuntimeError, match="Right: No vertex of the region is free"):
+        scenes.smooth()
+    assert [scenes.fingerprint(ob) for ob in (left, right)] == before
+
+
+def test_one_undo_step_for_all() -> None:
+    objects = two_panels()
+    for ob in objects:
+        scenes.select_faces(ob, scenes.inner())
+    bpy.ops.ed.undo_push(message="start")
+    before = [scenes.fingerprint(ob) for ob in objects]
+    scenes.smooth()
+    bpy.ops.ed.undo()
+    assert [scenes.fingerprint(bpy.data.objects[name]) for name in ("Left", "Right")] == before
+
+
+def keyed_panel() -> bpy.types.Object:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    ob.shape_key_add(name="Basis")
+    ob.shape_key_add(name="Bulge")
+    bulge = ob.data.shape_keys.key_blocks["Bulge"]
+    for point in bulge.data:
+        point.co.z += 0.1 * (1.0 - point.co.x ** 2) + 0.003 * np.sin(11.0 * point.co.x)
+    return ob
+
+
+def key_positions(ob: bpy.types.Object, name: str) -> np.ndarray:
+    return np.array([point.co for point in ob.data.shape_keys.key_blocks[name].data], dtype=np.float32)
+
+
+def test_edits_go_to_the_active_shape_key() -> None:
+    ob = keyed_panel()
+    ob.active_shape_key_index = 1
+    basis, bulge = key_positions(ob, "Basis"), key_positions(ob, "Bulge")
+    scenes.edit_inner(ob)
+    scenes.smooth()
+    scenes.object_mode()
+    assert np.array_equal(key_positions(ob, "Basis"), basis)
+    moved = key_positions(ob, "Bulge") - bulge
+    assert np.abs(moved[:, 2]).max() > 1e-3
+    assert np.array_equal(key_positions(ob, "Bulge")[:, :2], bulge[:, :2])
+
+
+def test_a_shape_key_is_solved_like_the_mesh_it_shows() -> None:
+    ob = keyed_panel()
+    shown = key_positions(ob, "Bulge")
+    ob.active_shape_key_index = 1
+    scenes.edit_inner(ob)
+    scenes.smooth(length=0.5)
+    scenes.object_mode()
+    plain = scenes.panel("Plain")
+    plain.data.vertices.foreach_set("co", shown.ravel())
+    bpy.data.objects["Panel"].select_set(False)
+    scenes.edit_inner(plain)
+    scenes.smooth(length=0.5)
+    assert np.array_equal(scenes.positions(plain), key_positions(ob, "Bulge"))
+
+
+def test_shape_keys_in_object_mode_are_refused() -> None:
+    ob = keyed_panel()
+    scenes.edit_inner(ob)
+    scenes.smooth(strength=0.0)
+    scenes.object_mode()
+    before = scenes.fingerprint(ob)
+    with pytest.raises(RuntimeError, match="Panel has shape keys: enter Edit Mode"):
+        scenes.smooth()
+    assert scenes.fingerprint(ob) == before
+
+
+def hide_a_block(ob: bpy.types.Object) -> np.ndarray:
+    """Hides 3 x 3 faces in the middle; returns their vertices."""
+    scenes.select_faces(ob, lambda face: all(6 <= k < 9 for k in divmod(face, 16)))
+    hidden = [vertex.index for vertex in bmesh.from_edit_mesh(ob.data).verts if vertex.select]
+    bpy.ops.mesh.hide(unselected=False)
+    return np.array(hidden)
+
+
+def test_hidden_faces_are_no_part_of_the_region() -> None:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit(ob)
+    hidden = hide_a_block(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    before = scenes.positions(ob)
+    scenes.smooth()
+    moved = (scenes.positions(ob) != before).any(axis=1)
+    assert moved.any()
+    assert not moved[hidden].any()
+
+
+def test_faces_hidden_after_the_region_was_stored_stay() -> None:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    scenes.smooth(strength=0.0)
+    hidden = hide_a_block(ob)
+    scenes.object_mode()
+    before = scenes.positions(ob)
+    scenes.smooth()
+    moved = (scenes.positions(ob) != before).any(axis=1)
+    assert moved.any()
+    assert not moved[hidden].any()

@@ -1,0 +1,122 @@
+"""Enabling, disabling, reloading; and an add-on whose native module is missing or does not fit."""
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import pytest
+
+import installation
+import scenes
+
+COPY = "reflection_lines_copy"
+
+
+def enable(name: str = installation.NAME) -> None:
+    assert bpy.ops.preferences.addon_enable(module=name) == {'FINISHED'}
+
+
+def disable(name: str = installation.NAME) -> None:
+    assert bpy.ops.preferences.addon_disable(module=name) == {'FINISHED'}
+
+
+def works() -> bool:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit_inner(ob)
+    return scenes.smooth() == {'FINISHED'}
+
+
+def test_disabled_it_leaves_nothing_behind() -> None:
+    disable()
+    try:
+        assert not hasattr(bpy.types.Scene, "reflection_lines")
+        assert not hasattr(bpy.types.Object, "reflection_lines")
+        assert not [name for name in dir(bpy.types) if "reflines" in name.lower()]
+        assert not [handler for kind in (bpy.app.handlers.load_pre, bpy.app.handlers.depsgraph_update_post)
+                    for handler in kind if handler.__module__.startswith(installation.NAME)]
+    finally:
+        enable()
+
+
+def test_it_can_be_disabled_and_enabled_again_and_again() -> None:
+    for _ in range(3):
+        disable()
+        enable()
+    assert works()
+
+
+def test_it_works_after_all_scripts_were_reloaded() -> None:
+    for _ in range(2):
+        bpy.ops.script.reload()
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        assert works()
+
+
+def test_a_changed_file_is_read_again(monkeypatch) -> None:
+    """As after an update of the add-on while Blender runs: Blender itself reloads __init__.py only."""
+    operator = sys.modules[installation.NAME + ".operators.smooth"].REFLINES_OT_smooth
+    disable()
+    monkeypatch.setattr(sys.modules[installation.NAME], "__time__", 0.0)  # as if the file were newer
+    enable()
+    assert sys.modules[installation.NAME + ".operators.smooth"].REFLINES_OT_smooth is not operator
+    assert works()
+
+
+def test_settings_survive_disabling() -> None:
+    bpy.context.scene.reflection_lines.length = 0.25
+    disable()
+    enable()
+    assert bpy.context.scene.reflection_lines.length == 0.25
+
+
+@pytest.fixture
+def copy(tmp_path) -> Iterator[Path]:
+    """A copy of the add-on without its native module, which the test may put back in some other form, then enable."""
+    folder = tmp_path / COPY
+    shutil.copytree(installation.ROOT / "addon", folder, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    sys.path.append(str(tmp_path))
+    disable()
+    yield folder
+    disable(COPY)
+    sys.path.remove(str(tmp_path))
+    for name in [name for name in sys.modules if name.split(".")[0] == COPY]:
+        del sys.modules[name]
+    enable()
+
+
+def native_module() -> Path:
+    return next((installation.ROOT / "addon").glob("reflines*.so"))
+
+
+def stays_enabled_and_says(problem: str, remedy: str) -> None:
+    enable(COPY)
+    session = bpy.context.window_manager.reflection_lines
+    assert problem in session.problem
+    assert remedy in session.remedy
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit_inner(ob)
+    with pytest.raises(RuntimeError, match="The native solver"):
+        scenes.smooth()
+
+
+def test_a_missing_module(copy) -> None:
+    stays_enabled_and_says("The native solver is missing", "Install the add-on from its zip package")
+
+
+def test_a_module_for_another_python(copy) -> None:
+    shutil.copy(native_module(), copy / "reflines.cpython-399-x86_64-linux-gnu.so")
+    stays_enabled_and_says("is for another Python than this Blender's", "Install the package of the add-on")
+
+
+def test_a_module_that_does_not_load(copy) -> None:
+    (copy / native_module().name).write_bytes(b"this is no library")
+    stays_enabled_and_says("The native solver cannot be loaded", "install the add-on's zip package again")
+
+
+def test_with_its_module_a_copy_works(copy) -> None:
+    shutil.copy(native_module(), copy)
+    enable(COPY)
+    assert bpy.context.window_manager.reflection_lines.problem == ""

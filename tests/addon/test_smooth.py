@@ -1,0 +1,166 @@
+"""Smooth Reflection Lines, through the user's door."""
+import bpy
+import numpy as np
+import pytest
+from reflection_lines.native import reflines
+
+import scenes
+
+CELLS = 16
+
+
+@pytest.fixture
+def panel() -> bpy.types.Object:
+    ob = scenes.panel(cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, CELLS)
+    return ob
+
+
+def region_arrays(ob: bpy.types.Object, cells: int, margin: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(indices, V, F) of the inner faces, with Blender's triangulation, made without the add-on's code."""
+    ob.update_from_editmode()
+    ob.data.calc_loop_triangles()
+    inside = scenes.inner(cells, margin)
+    corners = [list(t.vertices) for t in ob.data.loop_triangles if inside(t.polygon_index)]
+    index, F = np.unique(np.array(corners), return_inverse=True)
+    return index, scenes.world(ob)[index], F.reshape(-1, 3).astype(np.int32)
+
+
+def solved(V: np.ndarray, F: np.ndarray, length: float, strength: float, border: str) -> np.ndarray:
+    settings = bpy.context.scene.reflection_lines
+    v, a = (np.array(ob.matrix_world)[:3, 2] for ob in (settings.camera, settings.light))
+    optimizer = reflines.ShapeOptimizer(V, F, view_direction=v, line_direction=a / np.linalg.norm(a), border=border)
+    optimizer.solve(reflines.smooth(optimizer, length=length, strength=strength))
+    return optimizer.positions
+
+
+@pytest.mark.parametrize(("length", "strength", "border"), [(0.5, 1.0, 'clamped'), (0.3, 0.5, 'fixed')])
+def test_the_operator_equals_the_numpy_call(panel, length, strength, border) -> None:
+    index, V, F = region_arrays(panel, CELLS)
+    assert scenes.smooth(length=length, strength=strength, border=border) == {'FINISHED'}
+    expected = solved(V, F, length, strength, border)
+    assert np.abs(scenes.world(panel)[index] - expected).max() <= 2e-7  # one rounding to float32 of coordinates near 1
+    assert np.abs(expected - V).max() > 1e-3
+
+
+def test_border_and_outside_are_bit_identical(panel) -> None:
+    before = scenes.positions(panel)
+    scenes.smooth()
+    moved = (scenes.positions(panel) != before).any(axis=1)
+    inside = (np.abs(before[:, :2]) < 1.0 - 1.5 / CELLS * 2.0).all(axis=1)
+    assert moved.any()
+    assert not moved[~inside].any()
+
+
+def test_vertices_move_along_the_view_only(panel) -> None:
+    before = scenes.positions(panel)
+    scenes.smooth()
+    assert np.array_equal(scenes.positions(panel)[:, :2], before[:, :2])
+
+
+def test_lines_become_smoother_and_the_report_says_so(panel) -> None:
+    scenes.smooth()
+    report = panel.reflection_lines.report
+    assert report.termination == "converged"
+    assert report.score_after < 0.2 * report.score_before
+    assert report.iterations > 0
+    assert report.seconds > 0.0
+    assert report.unknowns > 0
+
+
+def test_undo_gives_back_the_identical_mesh_and_redo_the_result(panel) -> None:
+    bpy.ops.ed.undo_push(message="start")
+    before = scenes.fingerprint(panel)
+    scenes.smooth()
+    after = scenes.fingerprint(bpy.context.view_layer.objects.active)
+    assert after != before
+    bpy.ops.ed.undo()
+    assert scenes.fingerprint(bpy.context.view_layer.objects.active) == before
+    bpy.ops.ed.redo()
+    assert scenes.fingerprint(bpy.context.view_layer.objects.active) == after
+
+
+def test_settings_are_the_scenes_unless_given(panel) -> None:
+    settings = bpy.context.scene.reflection_lines
+    settings.length, settings.strength, settings.border = 0.4, 0.6, 'fixed'
+    before = scenes.positions(panel)
+    bpy.ops.ed.undo_push(message="start")
+    scenes.smooth()
+    from_scene = scenes.positions(panel)
+    bpy.ops.ed.undo()
+    panel = bpy.context.view_layer.objects.active
+    assert np.array_equal(scenes.positions(panel), before)
+    scenes.smooth(length=0.4, strength=0.6, border='fixed')
+    assert np.array_equal(scenes.positions(panel), from_scene)
+
+
+def test_strength_zero_moves_nothing(panel) -> None:
+    before = scenes.positions(panel)
+    assert scenes.smooth(strength=0.0) == {'FINISHED'}
+    assert np.array_equal(scenes.positions(panel), before)
+
+
+def test_object_mode_takes_the_stored_region(panel) -> None:
+    before = scenes.positions(panel)
+    bpy.ops.ed.undo_push(message="start")
+    scenes.smooth(strength=0.0)  # stores the region and moves nothing
+    scenes.object_mode()
+    assert np.array_equal(scenes.positions(panel), before)
+    index, V, F = region_arrays(panel, CELLS)
+    scenes.smooth(length=0.5, strength=1.0, border='clamped')
+    assert np.abs(scenes.world(panel)[index] - solved(V, F, 0.5, 1.0, 'clamped')).max() <= 2e-7
+    moved = (scenes.positions(panel) != before).any(axis=1)
+    assert not np.delete(moved, index).any()
+
+
+def test_object_mode_undo(panel) -> None:
+    scenes.smooth(strength=0.0)
+    scenes.object_mode()
+    bpy.ops.ed.undo_push(message="start")
+    before = scenes.fingerprint(panel)
+    scenes.smooth()
+    assert scenes.fingerprint(panel) != before
+    bpy.ops.ed.undo()
+    assert scenes.fingerprint(bpy.context.view_layer.objects.active) == before
+
+
+def test_the_stored_region_survives_saving(panel, tmp_path) -> None:
+    scenes.smooth(strength=0.0)
+    scenes.object_mode()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "panel.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "panel.blend"))
+    panel = bpy.data.objects["Panel"]
+    before = scenes.positions(panel)
+    assert scenes.smooth() == {'FINISHED'}
+    assert not np.array_equal(scenes.positions(panel), before)
+
+
+def test_quads_and_ngons_stay() -> None:
+    ob = scenes.panel(cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit(ob)
+    scenes.select_faces(ob, lambda face: face in (5 * CELLS + 5, 5 * CELLS + 6, 8 * CELLS + 8, 9 * CELLS + 8))
+    bpy.ops.mesh.dissolve_faces()
+    bpy.ops.mesh.select_all(action='SELECT')
+    ob.update_from_editmode()
+    before = [tuple(polygon.vertices) for polygon in ob.data.polygons]
+    assert {len(corners) for corners in before} == {4, 6}
+    scenes.smooth()
+    ob.update_from_editmode()
+    assert [tuple(polygon.vertices) for polygon in ob.data.polygons] == before
+
+
+def test_a_perspective_camera_is_taken_at_the_panels_centre(panel) -> None:
+    camera = bpy.context.scene.reflection_lines.camera
+    camera.data.type = 'PERSP'
+    camera.location = (1.0, 2.0, 8.0)
+    before = scenes.world(panel)
+    scenes.smooth()
+    region = before[region_arrays(panel, CELLS)[0]]
+    center = (region.min(axis=0) + region.max(axis=0)) / 2.0
+    towards = np.array(camera.location) - center
+    moves = scenes.world(panel) - before
+    longest = moves[np.argmax(np.linalg.norm(moves, axis=1))]
+    along = abs(longest @ towards) / np.linalg.norm(longest) / np.linalg.norm(towards)
+    assert along == pytest.approx(1.0, abs=1e-6)

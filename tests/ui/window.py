@@ -1,0 +1,72 @@
+"""Drives Blender in a real window: a test is a generator that types, moves the mouse and yields the seconds to wait."""
+import os
+import sys
+import traceback
+from collections.abc import Callable, Generator
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "addon"))
+
+import installation  # noqa: E402  (found through the line above)
+
+Test = Callable[["Window"], Generator[float, None, None]]
+
+
+class Window:
+    """The one window, its 3D view, and the simulated mouse and keyboard."""
+
+    def __init__(self) -> None:
+        self.window = bpy.context.window_manager.windows[0]
+        self.x = self.y = 0
+
+    def area(self, kind: str = 'VIEW_3D') -> bpy.types.Area:
+        return next(area for area in self.window.screen.areas if area.type == kind)
+
+    def region(self, kind: str = 'WINDOW') -> bpy.types.Region:
+        return next(region for region in self.area().regions if region.type == kind)
+
+    def region_3d(self) -> bpy.types.RegionView3D:
+        return self.area().spaces.active.region_3d
+
+    def override(self) -> object:
+        return bpy.context.temp_override(window=self.window, area=self.area(), region=self.region())
+
+    def move(self, x: float, y: float) -> None:
+        """In pixels of the 3D view's region."""
+        self.x, self.y = self.region().x + int(x), self.region().y + int(y)
+        self.event('MOUSEMOVE')
+
+    def event(self, kind: str, value: str = 'NOTHING', **modifiers: bool) -> None:
+        self.window.event_simulate(type=kind, value=value, x=self.x, y=self.y, **modifiers)
+
+    def key(self, kind: str, **modifiers: bool) -> None:
+        self.event(kind, 'PRESS', **modifiers)
+        self.event(kind, 'RELEASE', **modifiers)
+
+    def redraw(self) -> None:
+        for area in self.window.screen.areas:
+            area.tag_redraw()
+
+
+def run(*tests: Test) -> None:
+    """Runs the tests one after the other from a timer, prints the line of counts, and ends Blender."""
+    bpy.context.preferences.view.show_splash = False
+    installation.install()
+    steps = all_steps(tests)
+    bpy.app.timers.register(lambda: next(steps), first_interval=1.0)
+
+
+def all_steps(tests: tuple[Test, ...]) -> Generator[float, None, None]:
+    passed = 0
+    for test in tests:
+        try:
+            yield from test(Window())
+            passed += 1
+        except BaseException:  # whatever it is must end this Blender, which would wait for a user for ever
+            traceback.print_exc()
+            print(f"FAILED {test.__name__}")
+    print(f"{passed} passed, {len(tests) - passed} failed, 0 skipped")
+    sys.stdout.flush()
+    os._exit(0 if passed == len(tests) else 1)
