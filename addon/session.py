@@ -15,6 +15,7 @@ from .bridge.refusal import Refusal
 from .bridge.view import View
 
 AUTOMATIC_LENGTH = 1.0 / 6.0  # of the panel's diagonal
+REFIT_ANGLE = 0.005  # radians a normal may turn before its fit is made anew: a twentieth of the usual stripes' period
 
 
 @dataclass(frozen=True)
@@ -84,10 +85,18 @@ def smooth(panel: Panel, seen: View, settings: Settings) -> Solution:
     length = settings.length or AUTOMATIC_LENGTH * panel.diagonal
     try:
         optimizer = optimizer_of(panel, seen, settings.border)
+        refuse_closed(panel.name, optimizer.region)
         target = native.reflines.smooth(optimizer, length=length, strength=settings.strength)
         return solve(panel, optimizer, target, length)
     except (native.InvalidInput, native.SolverFailure) as error:
         raise Refusal(f"{panel.name}: {error}") from error
+
+
+def refuse_closed(name: str, region: object) -> None:
+    """The solver takes a closed body apart at its silhouettes, but a panel is never meant to be all of one."""
+    if region.closed:
+        raise Refusal(f"{name}: the {region.triangles} triangles are all of a closed body, which has no border: "
+                      "select only the faces of the panel")
 
 
 def solve(panel: Panel, optimizer: object, target: object, length: float) -> Solution:
@@ -128,7 +137,7 @@ def shown_surface(ob: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> surfa
 def fitted_normals(name: str, V: np.ndarray, F: np.ndarray) -> np.ndarray:
     fit = _fits.get(name)
     if fit is None or not np.array_equal(fit.F, F):
-        fit = _fits[name] = Fit(F, native.reflines.NormalFit(V, F))
+        fit = _fits[name] = Fit(F, native.reflines.NormalFit(V, F, refit_angle=REFIT_ANGLE))
     return fit.normal_fit.normals(V)
 
 

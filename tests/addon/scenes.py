@@ -16,8 +16,9 @@ def crown(x: float, y: float) -> float:
 
 
 def rippled(x: float, y: float) -> float:
-    """The clean panel with dents of 2/1000 of its size."""
-    return crown(x, y) + 0.004 * np.sin(9.0 * x + 1.0) * np.cos(8.0 * y)
+    """The clean panel with dents of 2/1000 of its size, which fade towards the border."""
+    fade = (1.0 - x * x) ** 2 * (1.0 - y * y) ** 2
+    return crown(x, y) + 0.004 * fade * np.sin(9.0 * x + 1.0) * np.cos(8.0 * y)
 
 
 def panel(name: str = "Panel", height: Height = rippled, cells: int = 16) -> bpy.types.Object:

@@ -114,9 +114,3 @@ def test_a_module_for_another_python(copy) -> None:
 def test_a_module_that_does_not_load(copy) -> None:
     (copy / native_module().name).write_bytes(b"this is no library")
     stays_enabled_and_says("The native solver cannot be loaded", "install the add-on's zip package again")
-
-
-def test_with_its_module_a_copy_works(copy) -> None:
-    shutil.copy(native_module(), copy)
-    enable(COPY)
-    assert bpy.context.window_manager.reflection_lines.problem == ""

@@ -60,7 +60,7 @@ def test_vertices_move_along_the_view_only(panel) -> None:
 
 
 def test_lines_become_smoother_and_the_report_says_so(panel) -> None:
-    scenes.smooth()
+    scenes.smooth(length=1.0)
     report = panel.reflection_lines.report
     assert report.termination == "converged"
     assert report.score_after < 0.2 * report.score_before

@@ -25,6 +25,7 @@ def prepare(driver: window.Window, ob: bpy.types.Object) -> None:
     """Black and white stripes, nothing else drawn, and the viewport looking as the view camera does."""
     stripes = bpy.context.scene.reflection_lines.stripes
     stripes.show, stripes.count, stripes.width, stripes.softness, stripes.opacity = True, COUNT, WIDTH, 1.0, 1.0
+    stripes.eye, stripes.cage_on_top = 'CAMERA', False
     stripes.color, stripes.gap_color = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 1.0)
     driver.area().spaces.active.overlay.show_overlays = False
     region_3d = driver.region_3d()
@@ -34,11 +35,13 @@ def prepare(driver: window.Window, ob: bpy.types.Object) -> None:
     region_3d.view_distance = 2.0
 
 
-def fresh_panel(driver: window.Window, **options: object) -> bpy.types.Object:
+def fresh_panel(driver: window.Window, name: str) -> bpy.types.Object:
     with driver.override():
-        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    with driver.override():
-        ob = scenes.panel(cells=CELLS, **options)
+        if bpy.context.mode != 'OBJECT':
+            bpy.ops.object.mode_set(mode='OBJECT')
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+        ob = scenes.panel(name, cells=CELLS)
         scenes.look_from_above(light_degrees=60.0)
         bpy.context.view_layer.update()
     return ob
@@ -113,13 +116,13 @@ def agrees_with_theta(driver: window.Window, ob: bpy.types.Object, share: float 
 
 
 def test_pixels_in_object_mode(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver)
+    ob = fresh_panel(driver, "Object Mode")
     prepare(driver, ob)
     yield from agrees_with_theta(driver, ob)
 
 
 def test_pixels_of_a_turned_scaled_and_mirrored_object(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver)
+    ob = fresh_panel(driver, "Mirrored")
     # The normals are fitted in object space, so only a similarity leaves them the same to the last bit.
     similar = scenes.TRANSFORMS["turned"] @ scenes.TRANSFORMS["mirrored"] * 0.4
     similar[3][3] = 1.0
@@ -129,7 +132,7 @@ def test_pixels_of_a_turned_scaled_and_mirrored_object(driver: window.Window) ->
 
 
 def test_pixels_in_edit_mode_while_the_mesh_changes(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver)
+    ob = fresh_panel(driver, "Edit Mode")
     prepare(driver, ob)
     with driver.override():
         scenes.edit(ob)
@@ -143,7 +146,7 @@ def test_pixels_in_edit_mode_while_the_mesh_changes(driver: window.Window) -> St
 
 
 def test_pixels_over_the_edit_cage(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver)
+    ob = fresh_panel(driver, "Cage")
     prepare(driver, ob)
     with driver.override():
         scenes.edit(ob)
@@ -157,7 +160,7 @@ def builds() -> int:
 
 
 def test_settings_view_and_light_rebuild_no_batch(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver)
+    ob = fresh_panel(driver, "Settings")
     prepare(driver, ob)
     yield from captured(driver)
     before = builds()
@@ -177,7 +180,7 @@ def test_settings_view_and_light_rebuild_no_batch(driver: window.Window) -> Step
 
 
 def test_a_moved_vertex_rebuilds_one_batch(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver)
+    ob = fresh_panel(driver, "Moved")
     prepare(driver, ob)
     with driver.override():
         scenes.edit(ob)

@@ -1,0 +1,73 @@
+"""Every panel draws in every state of the work, and the sidebar tab is there. Blender prints a panel's exception only."""
+import os
+import sys
+import tempfile
+from collections.abc import Generator
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import window  # noqa: E402  (found through the line above)
+
+import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+
+Steps = Generator[float, None, None]
+
+
+def panels() -> list[str]:
+    return sorted(name for name in dir(bpy.types) if name.startswith("VIEW3D_PT_reflines"))
+
+
+def all_panels_draw(driver: window.Window) -> Steps:
+    """Opens each as a popover and reads what Blender wrote to the standard error meanwhile."""
+    assert len(panels()) >= 5
+    with tempfile.TemporaryFile(mode="w+") as errors:
+        kept = os.dup(2)
+        os.dup2(errors.fileno(), 2)
+        try:
+            for name in panels():
+                with driver.override():
+                    bpy.ops.wm.call_panel(name=name, keep_open=True)
+                yield 0.2
+                driver.key('ESC')
+                yield 0.1
+        finally:
+            os.dup2(kept, 2)
+        errors.seek(0)
+        written = errors.read()
+    assert "Traceback" not in written, written
+
+
+def test_panels_before_anything_is_there(driver: window.Window) -> Steps:
+    driver.move(400, 400)
+    with driver.override():
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+    yield from all_panels_draw(driver)
+
+
+def test_panels_with_view_light_and_result(driver: window.Window) -> Steps:
+    with driver.override():
+        ob = scenes.panel()
+        scenes.look_from_above()
+        scenes.edit_inner(ob)
+    yield from all_panels_draw(driver)
+    with driver.override():
+        scenes.smooth()
+        assert ob.reflection_lines.report.termination
+    yield from all_panels_draw(driver)
+    with driver.override():
+        scenes.object_mode()
+    yield from all_panels_draw(driver)
+
+
+def test_panels_with_a_perspective_camera_and_notes(driver: window.Window) -> Steps:
+    bpy.context.scene.reflection_lines.camera.data.type = 'PERSP'
+    bpy.data.objects["Panel"].reflection_lines.report.notes = "3 faces turn away from the view.\nAnother sentence."
+    yield from all_panels_draw(driver)
+
+
+window.run(test_panels_before_anything_is_there, test_panels_with_view_light_and_result,
+           test_panels_with_a_perspective_camera_and_notes)
