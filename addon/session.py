@@ -85,17 +85,17 @@ def smooth(panel: Panel, seen: View, settings: Settings) -> Solution:
     length = settings.length or AUTOMATIC_LENGTH * panel.diagonal
     try:
         optimizer = optimizer_of(panel, seen, settings.border)
-        refuse_closed(panel.name, optimizer.region)
+        refuse_closed(panel.name, int(panel.faces.sum()), optimizer.region.closed)
         target = native.reflines.smooth(optimizer, length=length, strength=settings.strength)
         return solve(panel, optimizer, target, length)
     except (native.InvalidInput, native.SolverFailure) as error:
         raise Refusal(f"{panel.name}: {error}") from error
 
 
-def refuse_closed(name: str, region: object) -> None:
+def refuse_closed(name: str, faces: int, closed: bool) -> None:
     """The solver takes a closed body apart at its silhouettes, but a panel is never meant to be all of one."""
-    if region.closed:
-        raise Refusal(f"{name}: the {region.triangles} triangles are all of a closed body, which has no border: "
+    if closed:
+        raise Refusal(f"{name}: the {faces} selected faces are all of a closed body, which has no border: "
                       "select only the faces of the panel")
 
 

@@ -67,6 +67,12 @@ void PieceProblem::set_heights(const Vector& x) {
   unknowns_.heights(x_, z_);
 }
 
+void PieceProblem::reset() {
+  set_heights(unknowns_.start());
+  // A kept factor makes the next solve 3 times faster at 100k, but its other path to the minimum ends 4e-9 beside it.
+  minimizer_.emplace(solver_);
+}
+
 ReflectionField PieceProblem::field(int family) const {
   TriangleDerivatives u;
   apply_stencils(stencils_, z_, u);
@@ -109,7 +115,7 @@ void PieceProblem::set_targets(const std::vector<Target>& targets) {
 
 Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progress) {
   Vector x = x_;
-  const Report report = minimizer_.minimize(*this, x, options, progress);
+  const Report report = minimizer_->minimize(*this, x, options, progress);
   set_heights(x);
   return report;
 }

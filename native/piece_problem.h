@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "native/geometry/pieces.h"
@@ -26,7 +27,7 @@ class PieceProblem : public Problem {
   int hidden_count() const { return hidden_count_; }
 
   void set_heights(const Vector& x);
-  void reset() { set_heights(unknowns_.start()); }
+  void reset();  // as built, also in what later solves see: the same target then gives the same bits
   const Vector& unknowns() const { return x_; }
 
   // Rows of the targets follow the region's triangles.
@@ -53,7 +54,7 @@ class PieceProblem : public Problem {
   Unknowns unknowns_;
   Energy energy_;
   std::unique_ptr<HessianAssembly> assembly_;  // made when first asked for
-  Minimizer minimizer_;
+  std::optional<Minimizer> minimizer_;  // always there; a new one after reset
   LinearSolverKind solver_;
   std::unique_ptr<FieldSmoother> smoother_;  // the last one used: a drag of the strength needs no new factor
   SmoothOptions smoother_options_;

@@ -104,7 +104,7 @@ def test_closed_body() -> None:
     scenes.look_from_above()
     scenes.edit(ob)
     bpy.ops.mesh.select_all(action='SELECT')
-    refused(ob, "Sphere: the 720 triangles are all of a closed body")
+    refused(ob, "Sphere: the 384 selected faces are all of a closed body")
 
 
 def test_all_faces_turned_away() -> None:
