@@ -5,6 +5,7 @@ import sys
 import bpy
 import numpy as np
 import pytest
+from reflection_lines import native
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "blend_samples"
@@ -46,6 +47,27 @@ def selected(panel: bpy.types.Object) -> np.ndarray:
     return flags
 
 
+def clean(V: np.ndarray) -> np.ndarray:
+    """The same vertices on the clean panel."""
+    return np.column_stack([V[:, :2], hood_shape.clean_height(V[:, 0], V[:, 1])])
+
+
+def region_triangles(panel: bpy.types.Object) -> np.ndarray:
+    """#F x 3, those of the selected faces."""
+    panel.data.calc_loop_triangles()
+    inside = selected(panel)
+    return np.array([triangle.vertices for triangle in panel.data.loop_triangles if inside[triangle.polygon_index]])
+
+
+def line_field(V: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """grad theta (#F x 2) in the scene's view and light."""
+    settings = bpy.context.scene.reflection_lines
+    view, line = [np.array(ob.matrix_world)[:3, 2] for ob in (settings.camera, settings.light)]
+    vertices, corners = np.unique(F, return_inverse=True)
+    return native.reflines.ShapeOptimizer(V[vertices], corners.reshape(-1, 3), view_direction=view,
+                                          line_direction=line).field()
+
+
 def test_every_sample_has_its_row() -> None:
     assert sorted(rows()) == sorted(path.name for path in SAMPLES.glob("*.blend"))
 
@@ -65,10 +87,10 @@ def test_hood_is_the_analytic_panel_with_its_wobble() -> None:
     V = positions(opened("hood.blend")).astype(float)
     x, y, z = V.T
     assert 1.4 < np.ptp(x) < 1.6 and 1.1 < np.ptp(y) < 1.3
-    clean = hood_shape.clean_height(x, y)
+    bump = z - hood_shape.clean_height(x, y)
     # Plan and height are stored in single precision (6e-8 of up to 0.7), and slopes stay below 1.
-    assert np.abs(z - clean - hood_shape.wobble(x, y)).max() < 2e-7
-    assert 1e-3 < np.abs(z - clean).max() < 3e-3
+    assert np.abs(bump - hood_shape.wobble(x, y)).max() < 2e-7
+    assert 1e-3 < np.abs(bump).max() < 3e-3
 
 
 def test_clean_panel_is_mirrored_to_the_last_bit() -> None:
@@ -88,3 +110,25 @@ def test_hood_is_smoothed_by_one_call() -> None:
     corners = np.array([tuple(face.vertices) for face in panel.data.polygons])
     outside = np.setdiff1d(np.arange(len(before)), corners[inside])
     assert np.array_equal(before[outside], after[outside])
+
+
+def test_smoothing_brings_the_lines_back_to_the_clean_panels() -> None:
+    panel = opened("hood.blend")
+    F, before = region_triangles(panel), positions(panel).astype(float)
+    wanted = line_field(clean(before), F)
+    bpy.ops.reflines.smooth()
+    errors = [np.linalg.norm(line_field(V, F) - wanted) for V in (before, positions(panel).astype(float))]
+    assert errors[1] < 0.1 * errors[0]   # measured: 0.031
+
+
+def test_a_clean_panel_moves_by_less_than_a_tenth_of_the_wobble() -> None:
+    panel = opened("hood.blend")
+    V = positions(panel)
+    start = clean(V.astype(float)).astype(np.float32)
+    bpy.ops.object.mode_set(mode='OBJECT')
+    panel.data.vertices.foreach_set("co", start.ravel())
+    panel.data.update()
+    bpy.ops.object.mode_set(mode='EDIT')
+    bpy.ops.reflines.smooth()
+    moved = np.abs(positions(panel) - start).max()
+    assert 0.0 < moved < 0.1 * np.abs(V - start).max()   # measured: 0.023
