@@ -24,6 +24,7 @@ using Refiner = std::unique_ptr<Far::TopologyRefiner>;
 using StencilTable = Far::StencilTableReal<double>;
 
 constexpr double kMaxFaces = 8e6;
+constexpr double kParallel = 1e-8;   // a sine; on a car of slivers and doubled faces none is between 1e-4 and 1e-13
 constexpr double kRoundOff = 1e-15;  // weights are of order 1: smaller ones are cancelled sums
 
 void check_options(const Cage& cage, const SubdivisionOptions& options) {
@@ -264,11 +265,14 @@ Subdivision subdivide(const Cage& cage, const SubdivisionOptions& options) {
 
 Positions limit_normals(const Subdivision& subdivision, const Positions& cage_positions) {
   const Positions u = subdivision.tangent_u * cage_positions, v = subdivision.tangent_v * cage_positions;
+  const double rounding = 1e-14 * cage_positions.cwiseAbs().maxCoeff();
   Positions normals(u.rows(), 3);
   for (int i = 0; i < u.rows(); ++i) {
     const Vector3 cross = u.row(i).cross(v.row(i));
     const double length = cross.norm();
-    normals.row(i) = length > 0 ? Vector3(cross / length) : Vector3::UnitZ();
+    const double longest = std::max(u.row(i).norm(), v.row(i).norm());
+    const bool parallel = length <= kParallel * longest * longest || longest <= rounding;
+    normals.row(i) = parallel ? Vector3::UnitZ() : Vector3(cross / length);
   }
   return normals;
 }

@@ -47,7 +47,7 @@ struct Subdivision {
 Subdivision subdivide(const Cage& cage, const SubdivisionOptions& options);
 
 // Unit limit normals, #refined x 3, of the cage with these positions (#V x 3); (0, 0, 1) where the tangents are
-// parallel.
+// parallel or vanish.
 Positions limit_normals(const Subdivision& subdivision, const Positions& cage_positions);
 
 }  // namespace reflines

@@ -243,6 +243,14 @@ TEST(Subdivision, NormalsAreThoseOfTheFinestFaces) {
   }
 }
 
+TEST(Subdivision, WhereTheTangentsAreParallelTheNormalIsZ) {
+  PlacedCage placed = grid(4, 4);
+  placed.V = placed.V.col(0) * Eigen::RowVector3d(0.1, 0.7, 0.3);  // all on a line
+  placed.V.rowwise() += Eigen::RowVector3d(10, 20, 30);
+  const Positions normals = limit_normals(subdivide(placed.cage, with(2, true)), placed.V);
+  EXPECT_EQ((normals.rowwise() - Eigen::RowVector3d(0, 0, 1)).norm(), 0);
+}
+
 TEST(Subdivision, SameInputSameBits) {
   PlacedCage placed = star(5, 3);
   add_crease(&placed.cage, 0, 1, 2.5);
