@@ -1,17 +1,22 @@
 """Runs the test lanes and adds their counts up; the last line is always "N passed, N failed, N skipped".
 
 A lane is one way of running tests: native executables, Python without Blender, Blender in the background, Blender in a
-window, the rules of the house. A lane that crashes before its counts can be read counts as one failure.
+window, the rules of the house, an installed package in other Debians. A lane that crashes before its counts can be read
+counts as one failure.
+
+REFLINES_ADDON names an installed add-on and REFLINES_FOLDER its place: then the lanes test that one, and build nothing.
 """
 import argparse
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 import time
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,7 +24,8 @@ ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "build" / "tests"
 PYTHON = "/usr/bin/python3"
 BLENDER = "/usr/bin/blender"
-COUNTS_LINE = re.compile(r"^(\d+) passed, (\d+) failed, (\d+) skipped\s*$", re.MULTILINE)
+INSTALLED = "REFLINES_ADDON" in os.environ
+COUNTS_LINE = re.compile(r"(\d+) passed, (\d+) failed, (\d+) skipped\s*")
 
 
 @dataclass(frozen=True)
@@ -36,6 +42,7 @@ class Counts:
 
 
 CRASHED = Counts(failed=1)
+NO_ARCHIVE = 75  # how .ci/package.py ends where Debian's archive cannot be had
 
 
 def junit_counts(path: Path) -> Counts:
@@ -71,7 +78,7 @@ def run_with_junit(command: Sequence[str], report: Path, env: dict[str, str] | N
 
 
 def pytest_lane(folder: str) -> Counts:
-    env = os.environ | {"PYTHONPATH": str(ROOT / "addon")}
+    env = os.environ | {"PYTHONPATH": os.environ.get("REFLINES_FOLDER", str(ROOT / "addon"))}
     report = OUT / f"{folder}.xml"
     command = [PYTHON, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", f"--junitxml={report}", f"tests/{folder}"]
     return run_with_junit(command, report, env)
@@ -87,36 +94,37 @@ def native_lane() -> Counts:
 
 
 def blender_environment() -> dict[str, str]:
-    """A Blender that sees no user's settings; they start empty each time."""
+    """A Blender that sees no user's settings; they start empty each time, those with an installed package apart."""
+    if INSTALLED:
+        return os.environ | {"LIBGL_ALWAYS_SOFTWARE": "1"}
     user = OUT / "blender_user"
     shutil.rmtree(user, ignore_errors=True)
     user.mkdir(parents=True)
     return os.environ | {"BLENDER_USER_RESOURCES": str(user), "LIBGL_ALWAYS_SOFTWARE": "1"}
 
 
-def run_blender(command: Sequence[str], timeout: int) -> Counts:
-    """Runs tests inside Blender: they print the line of counts themselves."""
-    process = subprocess.Popen(command, cwd=ROOT, env=blender_environment(), text=True, errors="replace",
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
-    try:
-        output, _ = process.communicate(timeout=timeout)
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, 9)
-        output, _ = process.communicate()
-        print(output)
-        print(f"{command[-1]}: no end after {timeout} s")
+def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int) -> Counts:
+    """Runs tests that print the line of counts themselves, as those inside Blender do; shows what they print."""
+    process = subprocess.Popen(command, cwd=ROOT, env=env, text=True, errors="replace", stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, start_new_session=True)
+    watch = threading.Timer(timeout, os.killpg, (process.pid, signal.SIGKILL))
+    watch.start()
+    counts = None
+    for line in process.stdout:
+        print(line, end="", flush=True)
+        found = COUNTS_LINE.fullmatch(line)
+        counts = Counts(*map(int, found.groups())) if found else counts
+    code = process.wait()
+    watch.cancel()
+    if counts is None or code == -signal.SIGKILL:
+        print(f"{command[-1]}: exit code {code}, {'no line of counts' if counts is None else f'ended after {timeout} s'}")
         return CRASHED
-    print(output, end="")
-    found = COUNTS_LINE.findall(output)
-    if not found:
-        print(f"{command[-1]}: exit code {process.returncode} and no line of counts")
-        return CRASHED
-    return judged(Counts(*map(int, found[-1])), process.returncode, command[-1])
+    return judged(counts, code, command[-1])
 
 
 def addon_lane() -> Counts:
     command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "--python", "tests/addon/run.py"]
-    return run_blender(command, 1500)
+    return run_reporting(command, blender_environment(), 1500)
 
 
 def ui_lane() -> Counts:
@@ -125,8 +133,22 @@ def ui_lane() -> Counts:
     window = [BLENDER, "--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", "1280", "900"]
     total = Counts()
     for path in sorted((ROOT / "tests/ui").glob("test_*.py")):
-        total += run_blender([*screen, *window, "--python-exit-code", "1", "--python", str(path)], 600)
+        command = [*screen, *window, "--python-exit-code", "1", "--python", str(path.relative_to(ROOT))]
+        total += run_reporting(command, blender_environment(), 600)
     return total
+
+
+def matrix_lane() -> Counts:
+    """Packs the add-on and tests the package in other Debians, which takes root."""
+    packed = subprocess.run(["./run", "package"], cwd=ROOT).returncode
+    if packed == NO_ARCHIVE:
+        return Counts(skipped=1)
+    if packed != 0:
+        print("there is no package to test")
+        return CRASHED
+    cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    become_root = [] if os.geteuid() == 0 else ["sudo", f"XDG_CACHE_HOME={cache}"]
+    return run_reporting([*become_root, PYTHON, ".ci/matrix.py"], os.environ, 4500)
 
 
 @dataclass(frozen=True)
@@ -134,6 +156,7 @@ class Lane:
     run: Callable[[], Counts]
     built: bool               # needs the native build
     rooms: tuple[str, ...]    # a change below one of these calls for the lane
+    asked: bool = False       # runs only when it is asked for, by its name or by --all
 
 
 SHARED = ("CMakeLists.txt", "CMakePresets.json", "tests/lanes.py", "run", ".ci/")
@@ -143,6 +166,7 @@ LANES = {
     "bindings": Lane(lambda: pytest_lane("bindings"), True, ("native/", "tests/bindings/", *SHARED)),
     "addon": Lane(addon_lane, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
     "ui": Lane(ui_lane, True, ("addon/", "tests/ui/", *SHARED)),
+    "matrix": Lane(matrix_lane, False, (), asked=True),
 }
 
 
@@ -156,15 +180,15 @@ def changed_files() -> list[str]:
     return git_lines("diff", "--name-only", base[0]) + git_lines("ls-files", "--others", "--exclude-standard")
 
 
-def chosen_lanes(names: Sequence[str], only_changed: bool) -> list[str]:
-    present = [name for name in LANES if (ROOT / "tests" / name).is_dir()]
-    if only_changed:
-        files = changed_files()
-        return [name for name in present if any(file.startswith(LANES[name].rooms) for file in files)]
-    unknown = [name for name in names if name not in present]
+def chosen_lanes(arguments: argparse.Namespace) -> list[str]:
+    present = [name for name in LANES if LANES[name].asked or (ROOT / "tests" / name).is_dir()]
+    unknown = [name for name in arguments.lanes if name not in present]
     if unknown:
         sys.exit(f"no test lane {', '.join(unknown)}; there are {', '.join(present)}")
-    return list(names) or present
+    if arguments.changed:
+        files = changed_files()
+        return [name for name in present if any(file.startswith(LANES[name].rooms) for file in files)]
+    return arguments.lanes or [name for name in present if arguments.all or not LANES[name].asked]
 
 
 def succeeds(*command: str) -> bool:
@@ -177,8 +201,8 @@ def configured() -> bool:
 
 def run_lanes(names: Sequence[str]) -> Counts:
     total = Counts()
-    built = configured()  # the rules read the compile commands
-    if any(LANES[name].built for name in names):
+    built = INSTALLED or configured()  # the rules read the compile commands
+    if not INSTALLED and any(LANES[name].built for name in names):
         built = built and succeeds("cmake", "--build", "--preset", "release")
     for name in names:
         print(f"== {name}", flush=True)
@@ -197,8 +221,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="./run test", description=__doc__)
     parser.add_argument("lanes", nargs="*", metavar="LANE", help=", ".join(LANES))
     parser.add_argument("--changed", action="store_true", help="only the lanes that changes touch")
-    arguments = parser.parse_args()
-    total = run_lanes(chosen_lanes(arguments.lanes, arguments.changed))
+    parser.add_argument("--all", action="store_true", help="with the lanes that otherwise run only by name: matrix")
+    total = run_lanes(chosen_lanes(parser.parse_args()))
     print(total)
     return 0 if total.failed == 0 and total.passed > 0 else 1
 

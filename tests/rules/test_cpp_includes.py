@@ -12,7 +12,8 @@ MAY_INCLUDE = {
     "geometry": BASE,
     "optimization": BASE,
     "reflection": BASE | {"geometry"},
-    "shape_optimizer": BASE | {"geometry", "reflection", "optimization"},
+    "piece_problem": BASE | {"geometry", "reflection", "optimization"},
+    "shape_optimizer": BASE | {"geometry", "reflection", "optimization", "piece_problem"},
     "bindings": BASE | {"geometry", "reflection", "optimization", "shape_optimizer"},
 }
 

@@ -1,0 +1,108 @@
+"""Makes the one zip that a user installs: build/package/reflection_lines-VERSION.zip.
+
+The zip has one top-level folder, so that Blender 3.4 takes it as a legacy add-on and 4.2 and later as an extension, with the
+native module once for each Python side by side. Headers of the Pythons come from the Debian suites that have them; one
+compiler and one C library, those of this machine, serve all. SuiteSparse, METIS, OpenBLAS, OpenSubdiv and libstdc++ are
+inside the module and show no symbol outside, so that they cannot meet Blender's own copies. libgomp stays outside: two OpenMP
+runtimes in one process fight over the cores, and Blender's own libraries bring it.
+"""
+import os
+import re
+import subprocess
+import sys
+import time
+import zipfile
+from pathlib import Path
+
+from debian import CACHE, Suite, Unavailable, output
+from static_libraries import static_libraries
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build/package"
+NAME = "reflection_lines"
+SUITES = ("bookworm", "trixie", "sid")  # Blender 3.4, 4.3, 5.2
+CHOLMOD = ("cholmod", "metis", "amd", "camd", "ccolamd", "colamd", "suitesparseconfig")  # in the order of linking
+NO_ARCHIVE = 75  # the exit code that says so, "try again later"
+ALLOWED = {"libm.so.6", "libc.so.6", "libgomp.so.1", "ld-linux-x86-64.so.2"}
+
+
+def headers(suite: Suite) -> str:
+    """"TAG|folder|folder...": the tag of the suite's Python, and where its headers and pybind11's are."""
+    folder = CACHE / "python" / suite.name
+    stamp = folder / "version"
+    if not stamp.exists():
+        suite.update()
+        version = suite.python()
+        suite.unpack([f"libpython{version}-dev", "pybind11-dev"], folder)
+        stamp.write_text(version)
+    version = stamp.read_text()
+    include = folder / "usr/include"
+    own = [include / f"python{version}", include, include / "x86_64-linux-gnu"]
+    return "|".join([version.replace(".", ""), *map(str, own)])
+
+
+def configure(pythons: list[str], prefix: Path) -> None:
+    lib = prefix / "lib"
+    cholmod = ";".join(str(lib / f"lib{name}.a") for name in CHOLMOD)
+    values = {"CMAKE_BUILD_TYPE": "Release", "REFLINES_PYTHON": "OFF", "REFLINES_TESTS": "OFF", "CHOLMOD": cholmod,
+              "REFLINES_PACKAGE_PYTHONS": ";".join(pythons), "UMFPACK": lib / "libumfpack.a", "OPENBLAS": lib / "libopenblas.a",
+              "OSD_CPU": lib / "libosdCPU.a", "SUITESPARSE_INCLUDE": prefix / "include/suitesparse",
+              "CMAKE_CXX_FLAGS": f"-isystem {prefix / 'include'} -ffunction-sections -fdata-sections"}
+    given = [f"-D{name}={value}" for name, value in values.items()]
+    output("cmake", "-S", ROOT, "-B", BUILD / "cmake", "-G", "Ninja", *given)
+
+
+def modules() -> list[Path]:
+    subprocess.run(["cmake", "--build", BUILD / "cmake"], check=True)
+    return sorted((BUILD / "cmake").rglob("reflines.cpython-*.so"))
+
+
+def check(module: Path) -> str:
+    """What the module asks of the machine it runs on; refuses one that asks for more than it may."""
+    needed = set(re.findall(r"NEEDED.*\[(.*)\]", output("readelf", "-d", module)))
+    shown = {line.split()[-1] for line in output("nm", "-D", "--defined-only", module).splitlines()}
+    if needed - ALLOWED or shown != {"PyInit_reflines"}:
+        sys.exit(f"{module.name} needs {needed - ALLOWED} and shows {sorted(shown)[:5]}")
+    glibc = max(re.findall(r"GLIBC_(\d+)\.(\d+)", output("readelf", "-V", module)), key=lambda pair: tuple(map(int, pair)))
+    return f"{module.name}: {module.stat().st_size / 1e6:.1f} MB, glibc {'.'.join(glibc)} or newer, {', '.join(sorted(needed))}"
+
+
+def version() -> str:
+    return re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
+def addon_files() -> list[Path]:
+    listing = output("git", "ls-files", "--cached", "--others", "--exclude-standard", "addon", cwd=ROOT)
+    return [ROOT / name for name in sorted(set(listing.splitlines())) if (ROOT / name).is_file()]
+
+
+def make_zip(built: list[Path]) -> Path:
+    """The same content gives the same bytes: names sorted, one date."""
+    path = BUILD / f"{NAME}-{version()}.zip"
+    inside = {file.relative_to(ROOT / "addon"): file for file in addon_files()}
+    inside |= {Path("LICENSE"): ROOT / "LICENSE"} | {Path(module.name): module for module in built}
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, file in sorted(inside.items()):
+            entry = zipfile.ZipInfo(f"{NAME}/{name.as_posix()}", (2000, 1, 1, 0, 0, 0))
+            entry.external_attr = (0o755 if file.suffix == ".so" else 0o644) << 16
+            archive.writestr(entry, file.read_bytes(), zipfile.ZIP_DEFLATED, 9)
+    return path
+
+
+def main() -> None:
+    start = time.monotonic()
+    os.environ.setdefault("CCACHE_NOHASHDIR", "1")
+    try:
+        configure([headers(Suite(name)) for name in SUITES], static_libraries())
+    except Unavailable as reason:
+        print(f"no package, Debian's archive cannot be had: {reason}")
+        sys.exit(NO_ARCHIVE)
+    built = modules()
+    for module in built:
+        print(check(module))
+    path = make_zip(built)
+    print(f"{path.relative_to(ROOT)}: {path.stat().st_size / 1e6:.1f} MB, {time.monotonic() - start:.0f} s")
+
+
+if __name__ == "__main__":
+    main()
