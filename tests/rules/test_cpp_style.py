@@ -11,7 +11,7 @@ import pytest
 from tree import ROOT, cpp_files
 
 BUILD = ROOT / "build/release"
-JUDGED = ROOT / "build/rules/tidy"
+JUDGED = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "reflection_lines/tidy"
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
