@@ -2,14 +2,19 @@
 
 #include <algorithm>
 
+#include "native/geometry/smooth_modes.h"
+
 namespace reflines {
 namespace {
 
-// A free border leaves the profile along the lines undetermined (theta ~ f_x: any g(y) is free; null space 9 on a free 8 x 8
-// grid). A second family across the first, asked to stay as it is, leaves only affine functions; the proximity holds those. Of
-// the two, the second family is blind to position and bends nothing, so it may be the stronger one.
+// A free border leaves the profile along the lines undetermined (theta ~ f_x: any g(y) is free; null space 9 on a free
+// 8 x 8 grid). A second family across the first, asked to stay as it is, leaves only affine functions; the proximity
+// holds those. Of the two, the second family is blind to position and bends nothing, so it may be the stronger one.
 constexpr double kCrossingWeight = 1e-3;
 constexpr double kFreeBorderProximity = 1e-6;
+
+// Mean vertex distances between the knots of the coarse motions.
+constexpr double kKnotSpacing = 6.0;
 
 Mask free_mask(const Piece& piece) {
   Mask is_free(piece.field.vertex_count());
@@ -102,7 +107,9 @@ EnergyTerm PieceProblem::crossing_term() const {
   const int last = static_cast<int>(families_.size()) - 1;
   TriangleDerivatives u;
   apply_stencils(stencils_, piece_.field.z, u);
-  return {families_[last], reflection_field(families_[last], u).gradient, {},
+  return {families_[last],
+          reflection_field(families_[last], u).gradient,
+          {},
           (kCrossingWeight * piece_.field.area.array() * visible_[last].array()).matrix()};
 }
 
@@ -120,9 +127,11 @@ Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progres
   return report;
 }
 
-PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options, const PlaneVectors& along) {
+PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options,
+                                    const PlaneVectors& along) {
   const bool same = smoother_ && options.length == smoother_options_.length &&
-                    options.directional == smoother_options_.directional && (!options.directional || along == smoother_along_);
+                    options.directional == smoother_options_.directional &&
+                    (!options.directional || along == smoother_along_);
   if (!same) {
     const SpdFactorize factorize = [this](const SparseMatrix& matrix) -> SpdSolve {
       auto solver = std::make_shared<LinearSolver>(solver_);
@@ -151,6 +160,12 @@ const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
   }
   unknowns_.heights(x, trial_z_);
   return assembly_->assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
+}
+
+const SparseMatrix* PieceProblem::smooth_modes() {
+  if (!smooth_modes_)
+    smooth_modes_ = std::make_unique<SparseMatrix>(reflines::smooth_modes(piece_.field, kKnotSpacing));
+  return smooth_modes_.get();
 }
 
 }  // namespace reflines

@@ -41,6 +41,7 @@ class PieceProblem : public Problem {
   int size() const override { return unknowns_.size(); }
   double evaluate(const Vector& x, Vector* gradient) override;
   const SparseMatrix& hessian(const Vector& x, HessianModel model) override;
+  const SparseMatrix* smooth_modes() override;
 
  private:
   EnergyTerm term(const Target& target) const;
@@ -53,8 +54,9 @@ class PieceProblem : public Problem {
   bool free_border_;
   Unknowns unknowns_;
   Energy energy_;
-  std::unique_ptr<HessianAssembly> assembly_;  // made when first asked for
-  std::optional<Minimizer> minimizer_;  // always there; a new one after reset
+  std::unique_ptr<HessianAssembly> assembly_;   // made when first asked for
+  std::unique_ptr<SparseMatrix> smooth_modes_;  // likewise
+  std::optional<Minimizer> minimizer_;          // always there; a new one after reset
   LinearSolverKind solver_;
   std::unique_ptr<FieldSmoother> smoother_;  // the last one used: a drag of the strength needs no new factor
   SmoothOptions smoother_options_;

@@ -47,6 +47,7 @@ Descent::Descent(Problem& problem, const MinimizerOptions& options, Progress* pr
 
 Report Descent::run(Vector& x) {
   evaluate_start(x);
+  approach();
   descend();
   finish(x);
   return report_;
@@ -81,20 +82,27 @@ void Descent::evaluate_start(const Vector& x) {
   report_.energy_before = current_.energy;
   report_.gradient_before = gradient_norm_;
   wanted_gradient_norm_ = options_.gradient_tolerance * gradient_norm_;
-  if (!work_.has_factor_of(model_of(options_.strategy), x.size())) return;
-  gradient_rounding_ = kEpsilon * work_.hessian_diagonal.cwiseProduct(work_.x).norm();
+  if (!factor_is_kept()) return;
+  measure_rounding(work_.hessian_diagonal);
   policy_.start(gradient_norm_, std::max(wanted_gradient_norm_, gradient_rounding_));
 }
 
+void Descent::measure_rounding(const Vector& hessian_diagonal) {
+  work_.hessian_diagonal = hessian_diagonal;
+  gradient_rounding_ = kEpsilon * hessian_diagonal.cwiseProduct(work_.x).norm();
+}
+
 void Descent::finish(Vector& x) {
-  const bool moved = report_.termination != Termination::kCancelled && report_.iterations > 0;
+  const bool moved = report_.termination != Termination::kCancelled && has_moved();
   report_.energy_after = moved ? current_.energy : report_.energy_before;
   report_.gradient_after = moved ? gradient_norm_ : report_.gradient_before;
   if (moved) x = work_.x;
 }
 
+bool Descent::factor_is_kept() const { return work_.has_factor_of(model_of(options_.strategy), work_.x.size()); }
+
 bool Descent::factor_is_outdated() const {
-  if (!work_.has_factor_of(model_of(options_.strategy), work_.x.size()) || factor_failed_) return true;
+  if (!factor_is_kept() || factor_failed_) return true;
   if (factor_is_fresh()) return false;
   switch (options_.strategy) {
     case Strategy::kAdaptive:
@@ -112,8 +120,7 @@ bool Descent::renew_factor() {
   tell("assembling");
   const SparseMatrix& hessian = problem_.hessian(work_.x, model_of(options_.strategy));
   ++report_.assemblies;
-  work_.hessian_diagonal = hessian.diagonal();
-  gradient_rounding_ = kEpsilon * work_.hessian_diagonal.cwiseProduct(work_.x).norm();
+  measure_rounding(hessian.diagonal());
   if (gradient_is_rounding() || is_cancelled()) return false;
   if (!work_.solver.has_pattern_of(hessian)) {
     tell("ordering");
@@ -197,14 +204,14 @@ bool Descent::is_cancelled() {
 }
 
 bool Descent::gradient_is_small() {
-  if (gradient_norm_ > wanted_gradient_norm_ || report_.iterations == 0) return gradient_is_rounding();
+  if (gradient_norm_ > wanted_gradient_norm_ || !has_moved()) return gradient_is_rounding();
   return stop(Termination::kConverged,
               sentence("The gradient is down to %.3g; %.3g was wanted.", gradient_norm_, wanted_gradient_norm_));
 }
 
 bool Descent::gradient_is_rounding() {
   if (gradient_norm_ > gradient_rounding_) return false;
-  const bool untouched = report_.iterations == 0;
+  const bool untouched = !has_moved();
   return stop(
       untouched ? Termination::kAlreadyOptimal : Termination::kConverged,
       sentence(untouched ? "Nothing to do: the gradient of the start, %.3g, does not exceed its rounding error of %.3g."
@@ -216,7 +223,7 @@ bool Descent::step_is_rounding() {
   const double largest_step = work_.direction.lpNorm<Eigen::Infinity>();
   const double resolution = kEpsilon * work_.x.lpNorm<Eigen::Infinity>();
   if (!(largest_step <= resolution)) return false;
-  return stop(report_.iterations == 0 ? Termination::kAlreadyOptimal : Termination::kConverged,
+  return stop(!has_moved() ? Termination::kAlreadyOptimal : Termination::kConverged,
               sentence("The next step would move nothing by more than %.3g, below the resolution %.3g of the unknowns.",
                        largest_step, resolution));
 }

@@ -9,6 +9,7 @@
 #include "native/optimization/progress.h"
 #include "native/optimization/refactor_policy.h"
 #include "native/optimization/report.h"
+#include "native/optimization/subspace.h"
 #include "native/optimization/workspace.h"
 
 namespace reflines {
@@ -23,10 +24,14 @@ class Descent {
 
  private:
   void evaluate_start(const Vector& x);
+  void approach();
+  int descend_along(Subspace& subspace, Vector& coefficients);
+  void measure_rounding(const Vector& hessian_diagonal);
   void descend();
   void finish(Vector& x);
 
   // Steps of the loop. The boolean ones return false where the run is to stop or the step could not be made.
+  bool factor_is_kept() const;
   bool factor_is_outdated() const;
   bool renew_factor();
   void choose_direction();
@@ -45,6 +50,7 @@ class Descent {
   bool stop(Termination termination, const std::string& message);
 
   bool learns_from_steps() const { return options_.strategy == Strategy::kAdaptive; }
+  bool has_moved() const { return report_.iterations + report_.coarse_iterations > 0; }
   bool factor_is_fresh() const { return factored_at_ == report_.iterations; }
   void tell(const char* stage);
 

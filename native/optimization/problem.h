@@ -18,6 +18,10 @@ class Problem {
   // Lower triangle, n x n, compressed; the pattern is the same for every x and model, so that it is analysed once.
   // The reference stays valid, and its values are overwritten, until the next call.
   virtual const SparseMatrix& hessian(const Vector& x, HessianModel model) = 0;
+
+  // P^T, m x n with m much smaller than n: column j says by how much each of m smooth motions moves unknown j. A
+  // minimum far away is first approached along them. Null where the problem knows of none.
+  virtual const SparseMatrix* smooth_modes() { return nullptr; }
 };
 
 }  // namespace reflines

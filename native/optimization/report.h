@@ -25,12 +25,13 @@ struct Report {
 
   // Counts.
   int unknowns = 0;
-  int iterations = 0;      // accepted steps
-  int evaluations = 0;     // of the energy, with or without gradient
-  int assemblies = 0;      // of a Hessian
-  int analyses = 0;        // symbolic
-  int factorizations = 0;  // numeric
-  int solves = 0;          // with a factor
+  int iterations = 0;         // accepted steps
+  int coarse_iterations = 0;  // accepted steps along the smooth motions, before
+  int evaluations = 0;        // of the energy, with or without gradient
+  int assemblies = 0;         // of a Hessian
+  int analyses = 0;           // symbolic
+  int factorizations = 0;     // numeric
+  int solves = 0;             // with a factor
 
   double energy_before = 0.0;
   double energy_after = 0.0;

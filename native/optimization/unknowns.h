@@ -1,4 +1,5 @@
-// The affine map z = B x + c from unknowns to heights: fixed vertices, symmetry pairs and subdivision cages are all this.
+// The affine map z = B x + c from unknowns to heights: fixed vertices, symmetry pairs and subdivision cages are all
+// this.
 #pragma once
 
 #include <vector>
@@ -22,7 +23,7 @@ class Unknowns {
   // #V: the unknown that is the vertex's height, or -1; empty where B is not a selection of vertices.
   const std::vector<int>& column() const { return column_; }
 
-  void heights(const Vector& x, Vector& z) const;              // z = B x + c; bits of heights that no unknown moves are kept
+  void heights(const Vector& x, Vector& z) const;  // z = B x + c; bits of heights that no unknown moves are kept
   void pull_back(const Vector& along_z, Vector& along_x) const;  // B^T
 
  private:
