@@ -27,13 +27,13 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
         layout = self.layout
         self.draw_problem(layout, context)
         column = layout.column()
-        column.prop(settings, "camera", text="View", icon='CAMERA_DATA')
+        column.prop(settings, "camera", text="", icon='CAMERA_DATA')
         if not settings.present(settings.camera):
             column.operator("reflines.add_view_camera", icon='ADD')
         elif settings.is_perspective():
             paragraph(column, context, "Perspective camera: its direction to the panel's centre is used", 'INFO')
         column = layout.column()
-        column.prop(settings, "light", icon='EMPTY_SINGLE_ARROW')
+        column.prop(settings, "light", text="", icon='EMPTY_SINGLE_ARROW')
         if not settings.present(settings.light):
             column.operator("reflines.add_light_direction", icon='ADD')
 
@@ -68,7 +68,7 @@ class VIEW3D_PT_reflines_smooth(ReflinesPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reflection_lines
         layout = self.layout
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(settings, "length", text="Length" if settings.length else "Length (automatic)")
         layout.prop(settings, "strength")
         layout.operator("reflines.smooth", icon='MOD_SMOOTH')
@@ -85,8 +85,9 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         report = context.view_layer.objects.active.reflection_lines.report
         column = self.layout.column(align=True)
-        column.label(text=f"{report.termination.replace('_', ' ').capitalize()}, {report.iterations} iterations, "
-                          f"{report.seconds:.2f} s", icon='CHECKMARK' if report.termination == "converged" else 'INFO')
+        icon = 'CHECKMARK' if report.termination in {"converged", "already_optimal"} else 'INFO'
+        column.label(text=report.termination.replace('_', ' ').capitalize(), icon=icon)
+        column.label(text=f"{report.iterations} iterations, {report.seconds:.2f} s")
         column.label(text=f"Wobble {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
         move = bpy.utils.units.to_string(context.scene.unit_settings.system, 'LENGTH', report.largest_move, precision=5)
         column.label(text=f"Largest move {move}")
@@ -103,7 +104,7 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         stripes = context.scene.reflection_lines.stripes
         layout = self.layout
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         layout.active = stripes.show
         for name in ("eye", "cage_on_top", "count", "width", "softness", "color", "gap_color", "opacity"):
             layout.prop(stripes, name)

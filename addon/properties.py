@@ -68,7 +68,7 @@ class ReflinesObject(bpy.types.PropertyGroup):
 class ReflinesStripes(bpy.types.PropertyGroup):
     show: BoolProperty(name="Show Stripes", description="Draw the reflection of line lights over the active mesh")
     eye: EnumProperty(name="Seen From", items=EYES, default='CAMERA')
-    cage_on_top: BoolProperty(name="Edit Cage on Top", description="In Edit Mode, draw the stripes below the mesh's edges")
+    cage_on_top: BoolProperty(name="Cage on Top", description="In Edit Mode, edges hide the stripes below")
     count: IntProperty(name="Count", default=60, min=1, soft_max=200, max=2000,
                        description="Line lights in a full turn around the light direction")
     width: FloatProperty(name="Width", default=0.5, min=0.0, max=1.0, subtype='FACTOR',

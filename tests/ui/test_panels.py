@@ -1,4 +1,4 @@
-"""Every panel draws in every state of the work, and the sidebar tab is there. Blender prints a panel's exception only."""
+"""Every panel draws in every state of the work. Blender only prints what a panel raises."""
 import os
 import sys
 import tempfile

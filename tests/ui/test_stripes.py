@@ -77,7 +77,7 @@ def expected_light(theta: np.ndarray) -> np.ndarray:
 
 
 def samples(driver: window.Window, V: np.ndarray, F: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(pixel #S x 2, triangle #S, barycentric #S x 3): the pixel in the middle of each triangle, where it lies inside."""
+    """(pixel #S x 2, triangle #S, barycentric #S x 3): the pixel at each triangle's centroid, where it lies inside."""
     matrix = np.array(driver.region_3d().perspective_matrix)
     size = np.array([driver.region().width, driver.region().height])
     clip = np.column_stack([V, np.ones(len(V))]) @ matrix.T
@@ -195,6 +195,51 @@ def test_a_moved_vertex_rebuilds_one_batch(driver: window.Window) -> Steps:
     assert builds() == before + 1
 
 
+def test_stripes_follow_a_drag_and_its_escape(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Dragged")
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit(ob)
+        scenes.select_faces(ob, lambda face: face == CELLS * CELLS // 2 + CELLS // 2)
+    before = yield from captured(driver)
+    driver.move(500, 400)
+    yield 0.1
+    for key in ('G', 'Z'):
+        driver.key(key)
+        yield 0.1
+    for step in range(4):
+        driver.move(500, 410 + 10 * step)
+        yield 0.1
+    dragged = yield from captured(driver)
+    driver.key('ESC')
+    yield 0.2
+    after = yield from captured(driver)
+    assert (np.abs(dragged - before) > 0.1).sum() > 500
+    assert np.abs(after - before).max() < 3.0 / 255.0  # fits of normals are kept until they turn by an angle
+
+
+def test_stripes_follow_undo_in_both_modes(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Undone")
+    prepare(driver, ob)
+    for enter in (scenes.object_mode, lambda: scenes.edit_inner(bpy.context.object, CELLS)):
+        with driver.override():
+            scenes.edit_inner(ob, CELLS)
+            scenes.smooth(strength=0.0)  # the region for Object Mode
+            enter()
+            bpy.ops.ed.undo_push(message="start")
+        before = yield from captured(driver)
+        with driver.override():
+            scenes.smooth(length=1.0)
+        smoothed = yield from captured(driver)
+        with driver.override():
+            bpy.ops.ed.undo()
+        undone = yield from captured(driver)
+        assert (np.abs(smoothed - before) > 0.1).sum() > 5000
+        assert np.abs(undone - before).max() < 3.0 / 255.0
+        ob = bpy.data.objects["Undone"]
+
+
 window.run(test_pixels_in_object_mode, test_pixels_of_a_turned_scaled_and_mirrored_object,
            test_pixels_in_edit_mode_while_the_mesh_changes, test_pixels_over_the_edit_cage,
-           test_settings_view_and_light_rebuild_no_batch, test_a_moved_vertex_rebuilds_one_batch)
+           test_settings_view_and_light_rebuild_no_batch, test_a_moved_vertex_rebuilds_one_batch,
+           test_stripes_follow_a_drag_and_its_escape, test_stripes_follow_undo_in_both_modes)

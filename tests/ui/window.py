@@ -55,7 +55,7 @@ def run(*tests: Test) -> None:
     bpy.context.preferences.view.show_splash = False
     installation.install()
     steps = all_steps(tests)
-    bpy.app.timers.register(lambda: next(steps), first_interval=1.0)
+    bpy.app.timers.register(lambda: next(steps), first_interval=1.0, persistent=True)
 
 
 def all_steps(tests: tuple[Test, ...]) -> Generator[float, None, None]:
@@ -64,7 +64,7 @@ def all_steps(tests: tuple[Test, ...]) -> Generator[float, None, None]:
         try:
             yield from test(Window())
             passed += 1
-        except BaseException:  # whatever it is must end this Blender, which would wait for a user for ever
+        except BaseException:  # noqa: BLE001  (a Blender that is not ended waits for a user for ever)
             traceback.print_exc()
             print(f"FAILED {test.__name__}")
     print(f"{passed} passed, {len(tests) - passed} failed, 0 skipped")

@@ -1,0 +1,83 @@
+"""Adjust Last Operation and undo, in a window, with the operator started by a key as an artist does."""
+import sys
+from collections.abc import Generator
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import window  # noqa: E402  (found through the line above)
+
+import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+
+Steps = Generator[float, None, None]
+
+
+def panel(driver: window.Window) -> bpy.types.Object:
+    with driver.override():
+        if bpy.context.mode != 'OBJECT':
+            bpy.ops.object.mode_set(mode='OBJECT')
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+        ob = scenes.panel()
+        scenes.look_from_above()
+        scenes.edit_inner(ob)
+        bpy.ops.ed.undo_push(message="Start")
+    return ob
+
+
+def shown(driver: window.Window) -> np.ndarray:
+    with driver.override():
+        return scenes.positions(bpy.context.view_layer.objects.active)
+
+
+def smoothed(driver: window.Window, **settings: object) -> np.ndarray:
+    """What the operator makes of a fresh panel with these settings."""
+    panel(driver)
+    with driver.override():
+        scenes.smooth(**settings)
+    return shown(driver)
+
+
+def press_smooth(driver: window.Window) -> Steps:
+    keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new(name="3D View", space_type='VIEW_3D')
+    item = keymap.keymap_items.new("reflines.smooth", 'Y', 'PRESS', ctrl=True, alt=True)
+    driver.move(300, 300)
+    yield 0.2
+    driver.key('Y', ctrl=True, alt=True)
+    yield 1.0
+    keymap.keymap_items.remove(item)
+
+
+def test_other_settings_start_from_the_mesh_before(driver: window.Window) -> Steps:
+    expected = smoothed(driver, length=0.9, strength=0.5)
+    panel(driver)
+    before = shown(driver)
+    yield from press_smooth(driver)
+    assert not np.array_equal(shown(driver), before)
+    with driver.override():
+        operator = bpy.context.active_operator
+        assert operator.bl_idname == "REFLINES_OT_smooth"
+        operator.properties.length, operator.properties.strength = 0.9, 0.5
+        assert bpy.ops.ed.undo_redo() == {'FINISHED'}
+    yield 0.5
+    assert np.array_equal(shown(driver), expected)
+
+
+def test_one_undo_takes_it_back_and_redo_brings_it(driver: window.Window) -> Steps:
+    panel(driver)
+    before = shown(driver)
+    yield from press_smooth(driver)
+    after = shown(driver)
+    assert not np.array_equal(after, before)
+    driver.key('Z', ctrl=True)
+    yield 0.5
+    assert np.array_equal(shown(driver), before)
+    driver.key('Z', ctrl=True, shift=True)
+    yield 0.5
+    assert np.array_equal(shown(driver), after)
+
+
+window.run(test_other_settings_start_from_the_mesh_before, test_one_undo_takes_it_back_and_redo_brings_it)
