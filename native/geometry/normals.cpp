@@ -1,7 +1,7 @@
 #include "native/geometry/normals.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +10,12 @@
 namespace reflines {
 namespace {
 
-// Singular values below this share of the largest are treated as zero: the fit is then the one of smallest coefficients.
+// Singular values below this share of the largest are treated as zero: the fit is then the one of smallest
+// coefficients.
 constexpr double kRank = 1e-6;
 
-// A full quadratic through v has five coefficients. Corners of a border have fewer neighbours; with another ring added their
-// normals are of second order too (measured on a jittered cylinder: largest error 0.018 without, 0.002 with).
+// A full quadratic through v has five coefficients. Corners of a border have fewer neighbours; with another ring added
+// their normals are of second order too (measured on a jittered cylinder: largest error 0.018 without, 0.002 with).
 constexpr size_t kEnoughVertices = 9;
 
 void sort_unique(std::vector<int>& list) {
@@ -22,7 +23,8 @@ void sort_unique(std::vector<int>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-std::vector<int> fit_vertices(const Triangles& F, const Triangles& neighbors, const Incidence& triangles_of_vertex, int v) {
+std::vector<int> fit_vertices(const Triangles& F, const Triangles& neighbors, const Incidence& triangles_of_vertex,
+                              int v) {
   std::vector<int> triangles(triangles_of_vertex.items.begin() + triangles_of_vertex.begin(v),
                              triangles_of_vertex.items.begin() + triangles_of_vertex.end(v));
   std::vector<int> around;
@@ -47,7 +49,8 @@ Vector3 angle_weighted_normal(const Positions& V, const Triangles& F, const Inci
   for (int k = triangles_of_vertex.begin(v); k < triangles_of_vertex.end(v); ++k) {
     const int t = triangles_of_vertex.items[k];
     const int i = F(t, 0) == v ? 0 : F(t, 1) == v ? 1 : 2;
-    const Vector3 a = (V.row(F(t, (i + 1) % 3)) - V.row(v)).transpose(), b = (V.row(F(t, (i + 2) % 3)) - V.row(v)).transpose();
+    const Vector3 a = (V.row(F(t, (i + 1) % 3)) - V.row(v)).transpose(),
+                  b = (V.row(F(t, (i + 2) % 3)) - V.row(v)).transpose();
     const Vector3 n = a.cross(b);
     if (n.norm() > 0) sum += std::atan2(n.norm(), a.dot(b)) * n.normalized();
   }
@@ -56,15 +59,19 @@ Vector3 angle_weighted_normal(const Positions& V, const Triangles& F, const Inci
 
 }  // namespace
 
-NormalFit::NormalFit(const Positions& V, const Triangles& F, double refit_angle) : F_(F), cosine_(std::cos(refit_angle)) {
+NormalFit::NormalFit(const Positions& V, const Triangles& F, double refit_angle)
+    : F_(F), cosine_(std::cos(refit_angle)) {
   if (F.size() > 0 && (F.minCoeff() < 0 || F.maxCoeff() >= V.rows())) {
-    throw InvalidInput("The triangles name vertices beyond the " + std::to_string(V.rows()) + " given; pass indices from 0 to #V - 1.");
+    throw InvalidInput("The triangles name vertices beyond the " + std::to_string(V.rows()) +
+                       " given; pass indices from 0 to #V - 1.");
   }
   triangles_of_vertex_ = vertex_triangles(F, static_cast<int>(V.rows()));
   const Triangles neighbors = edge_neighbors(F);
+  std::vector<std::vector<int>> around(V.rows());
+#pragma omp parallel for schedule(dynamic, 256)
+  for (int v = 0; v < static_cast<int>(V.rows()); ++v) around[v] = fit_vertices(F, neighbors, triangles_of_vertex_, v);
   stencil_.offset.push_back(0);
-  for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
-    const std::vector<int> own = fit_vertices(F, neighbors, triangles_of_vertex_, v);
+  for (const std::vector<int>& own : around) {
     stencil_.items.insert(stencil_.items.end(), own.begin(), own.end());
     stencil_.offset.push_back(static_cast<int>(stencil_.items.size()));
   }
@@ -79,6 +86,7 @@ void NormalFit::fit(const Positions& V, int v) {
   fit.e1 = fit.initial.unitOrthogonal();
   fit.e2 = fit.initial.cross(fit.e1);
   const int K = stencil_.end(v) - stencil_.begin(v);
+  fit.fitted = fit.initial;
   fit.slopes.setZero(2, K);
   if (K < 3) return;
   Eigen::Matrix<double, Eigen::Dynamic, 5> M(K - 1, 5);  // the quadratic passes through v itself
@@ -89,10 +97,13 @@ void NormalFit::fit(const Positions& V, int v) {
     const double x = d.dot(fit.e1), y = d.dot(fit.e2);
     M.row(k - 1) << x, y, x * x, x * y, y * y;
   }
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(kRank);
-  const Eigen::MatrixXd coefficients = svd.solve(Eigen::MatrixXd::Identity(K - 1, K - 1));
+  // Like the paper's singular value decomposition it gives the coefficients of smallest norm.
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 5>> decomposition;
+  decomposition.setThreshold(kRank);
+  decomposition.compute(M);
+  const Eigen::Matrix<double, 5, Eigen::Dynamic> coefficients = decomposition.pseudoInverse();
   fit.slopes.rightCols(K - 1) = coefficients.topRows<2>() / size;
+  fit.fitted = normal(V, v);
 }
 
 Vector3 NormalFit::normal(const Positions& V, int v) const {
@@ -115,7 +126,7 @@ Positions NormalFit::normals(const Positions& V) {
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : refitted)
   for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
     Vector3 n = normal(V, v);
-    if (n.dot(fits_[v].initial) < cosine_ && stencil_.end(v) > stencil_.begin(v)) {
+    if (n.dot(fits_[v].fitted) < cosine_ && stencil_.end(v) > stencil_.begin(v)) {
       fit(V, v);
       n = normal(V, v);
       ++refitted;

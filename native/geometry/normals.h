@@ -1,5 +1,5 @@
-// Vertex normals for display: the tangent plane of a quadratic fitted to the surface around each vertex (paper, section 3,
-// "Discretizing normals").
+// Vertex normals for display: the tangent plane of a quadratic fitted to the surface around each vertex (paper, section
+// 3, "Discretizing normals").
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 namespace reflines {
 
 // Fits over the triangles around a vertex and those sharing an edge with them, in the plane of an initial normal, with
-// minimum-norm coefficients (SVD). The 2 x K coefficients of each vertex are kept: new positions give new normals by a small
-// product, and a vertex is fitted anew only when its normal has left the initial one by more than refit_angle.
+// minimum-norm coefficients. The 2 x K coefficients of each vertex are kept: new positions give new normals by a small
+// product, and a vertex is fitted anew only when its normal has turned by more than refit_angle since its last fit.
 class NormalFit {
  public:
   // V (#V x 3), F (#F x 3); refit_angle in radians. Throws InvalidInput for indices out of range.
@@ -24,7 +24,8 @@ class NormalFit {
 
  private:
   struct Fit {
-    Vector3 e1, e2, initial;                        // frame of the fit
+    Vector3 e1, e2, initial;                          // frame of the fit
+    Vector3 fitted;                                   // the normal when the fit was made
     Eigen::Matrix<double, 2, Eigen::Dynamic> slopes;  // weights of the K heights over the frame's plane
   };
   void fit(const Positions& V, int v);

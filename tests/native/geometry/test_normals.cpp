@@ -45,6 +45,14 @@ TEST(NormalFit, KeepsItsCoefficientsForSmallMotionsAndRefitsForLarge) {
   EXPECT_EQ(fit.refit_count(), flat.V.rows());
 }
 
+TEST(NormalFit, RefitsNothingThatHasNotTurnedHoweverSmallTheAngle) {
+  const samples::Mesh mesh = samples::lifted(samples::grid(8, 0.3), [](double x, double y) { return x * x * x + 0.5 * y * y; });
+  NormalFit fit(mesh.V, mesh.F, 1e-6);
+  const Positions N = fit.normals(mesh.V);
+  EXPECT_EQ(fit.normals(mesh.V), N);
+  EXPECT_EQ(fit.refit_count(), 0);
+}
+
 TEST(NormalFit, LooseVertexHasANormalToo) {
   samples::Mesh mesh = samples::grid(2);
   mesh.V.conservativeResize(10, 3);
