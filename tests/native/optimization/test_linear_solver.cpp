@@ -1,12 +1,11 @@
 // Both back ends solve what dense algebra solves, and say so where nothing can be solved.
-#include "native/optimization/linear_solver.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <random>
 
 #include "native/errors.h"
+#include "native/optimization/linear_solver.h"
 
 namespace reflines {
 namespace {

@@ -1,12 +1,11 @@
 // Every strategy finds the known minima; every way to stop is a value; x is left alone where it must be.
-#include "native/optimization/minimizer.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "least_squares.h"
 #include "native/errors.h"
+#include "native/optimization/minimizer.h"
 
 namespace reflines {
 namespace {

@@ -1,13 +1,12 @@
 // The projection onto smooth motions is P^T g and P^T H P exactly, and a far minimum is found through it with fewer
 // factors.
-#include "native/optimization/subspace.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "least_squares.h"
 #include "native/optimization/minimizer.h"
+#include "native/optimization/subspace.h"
 
 namespace reflines {
 namespace {
