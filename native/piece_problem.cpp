@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "native/geometry/smooth_modes.h"
+#include "native/reflection/scalar_gradient.h"
 
 namespace reflines {
 namespace {
@@ -84,6 +85,50 @@ ReflectionField PieceProblem::field(int family) const {
   return reflection_field(families_[family], u);
 }
 
+void PieceProblem::add_vertex_field(RegionField& region) const {
+  const HeightField& field = piece_.field;
+  TriangleDerivatives u;
+  apply_stencils(stencils_, z_, u);
+  const ReflectionField own = reflection_field(families_[region.family], u);
+  for (int t = 0; t < field.triangle_count(); ++t) region.area(field.source[t]) = field.area(t);
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    Vector2 slope = Vector2::Zero(), gradient = Vector2::Zero();
+    double area = 0;
+    for (int k = field.triangles_of_vertex.begin(v); k < field.triangles_of_vertex.end(v); ++k) {
+      const int t = field.triangles_of_vertex.items[k];
+      slope += field.area(t) * slope_at(t, v, u);
+      gradient += field.area(t) * own.gradient.row(t).transpose();
+      area += field.area(t);
+    }
+    slope /= area;
+    region.vertex_theta(piece_.vertex[v]) = families_[region.family].theta(slope.x(), slope.y());
+    region.vertex_gradient.row(piece_.vertex[v]) = gradient.transpose() / area;
+  }
+}
+
+// Slope at corner v of the quadratic that passes through t's corners and has t's Hessian.
+Vector2 PieceProblem::slope_at(int t, int v, const TriangleDerivatives& u) const {
+  const HeightField& field = piece_.field;
+  const int i = field.F(t, 0) == v ? 0 : field.F(t, 1) == v ? 1 : 2;
+  const Eigen::RowVector3i corners(v, field.F(t, (i + 1) % 3), field.F(t, (i + 2) % 3));
+  const auto bend = [&](int other) {
+    const Eigen::RowVector2d e = field.xy.row(other) - field.xy.row(v);
+    return 0.5 * (u(t, 2) * e.x() * e.x() + u(t, 4) * e.y() * e.y()) + u(t, 3) * e.x() * e.y();
+  };
+  return Vector2(u(t, 0), u(t, 1)) - linear_gradient(field.xy, corners, bend(corners(1)), bend(corners(2)));
+}
+
+Vector PieceProblem::changeable_area() const {
+  const HeightField& field = piece_.field;
+  Vector area = field.area;
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    bool changeable = false;
+    for (int i = 0; i < 3; ++i) changeable = changeable || field.role[field.F(t, i)] == VertexRole::kFree;
+    if (!changeable) area(t) = 0;
+  }
+  return area;
+}
+
 EnergyTerm PieceProblem::term(const Target& target) const {
   const HeightField& field = piece_.field;
   EnergyTerm term{families_[target.family], {}, {}, Vector(field.triangle_count())};
@@ -144,6 +189,22 @@ PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOp
     smoother_along_ = along;
   }
   return smoother_->smooth(gradient);
+const FieldSmoother& PieceProblem::kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along) {
+  const bool same_along = along.rows() == kept.along.rows() && along == kept.along;
+  if (kept.smoother && kept.length == options.length && same_along) return *kept.smoother;
+  const SpdFactorize factorize = [this](const SparseMatrix& matrix) -> SpdSolve {
+    auto solver = std::make_shared<LinearSolver>(solver_);
+    solver->analyze(matrix);
+    solver->factorize(matrix);
+    return [solver](Vector& x) { solver->solve(x); };
+  };
+  kept = {std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, factorize), options.length, along};
+  return *kept.smoother;
+}
+
+PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options) {
+  const PlaneVectors isotropic = kept(isotropic_, {options.length, false}, PlaneVectors(0, 2)).smooth(gradient);
+  return options.directional ? kept(directional_, options, isotropic).smooth(gradient) : isotropic;
 }
 
 double PieceProblem::evaluate(const Vector& x, Vector* gradient) {

@@ -11,6 +11,7 @@
 #include "native/reflection/energy.h"
 #include "native/reflection/field.h"
 #include "native/reflection/hessian_assembly.h"
+#include "native/reflection/region_field.h"
 #include "native/reflection/smooth.h"
 #include "native/reflection/target.h"
 
@@ -30,13 +31,20 @@ class PieceProblem : public Problem {
   void reset();  // as built, also in what later solves see: the same target then gives the same bits
   const Vector& unknowns() const { return x_; }
 
+  Vector changeable_area() const;  // #T: a triangle's projected area, 0 where none of its vertices is free
+
   // Rows of the targets follow the region's triangles.
   void set_targets(const std::vector<Target>& targets);
   double energy() { return energy_.evaluate(z_, nullptr); }
   Report minimize(const MinimizerOptions& options, Progress* progress);
 
   ReflectionField field(int family) const;
-  PlaneVectors smoothed(const PlaneVectors& gradient, const SmoothOptions& options, const PlaneVectors& along);
+
+  // Fills the piece's rows of area, vertex_theta and vertex_gradient: theta of the mean slopes around a vertex.
+  void add_vertex_field(RegionField& region) const;
+  // The direction of directional smoothing is that of the isotropically smoothed lines: along lines that wobble by 40 degrees
+  // their own wobble is no detail.
+  PlaneVectors smoothed(const PlaneVectors& gradient, const SmoothOptions& options);
 
   int size() const override { return unknowns_.size(); }
   double evaluate(const Vector& x, Vector* gradient) override;
@@ -44,9 +52,18 @@ class PieceProblem : public Problem {
   const SparseMatrix* smooth_modes() override;
 
  private:
+  // The last one used: a drag of the strength needs no new factor.
+  struct KeptSmoother {
+    std::unique_ptr<FieldSmoother> smoother;
+    double length = 0.0;
+    PlaneVectors along;
+  };
+
   EnergyTerm term(const Target& target) const;
   EnergyTerm crossing_term() const;
   void find_hidden();
+  const FieldSmoother& kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along);
+  Vector2 slope_at(int t, int v, const TriangleDerivatives& u) const;
 
   Piece piece_;
   Stencils stencils_;
@@ -58,9 +75,7 @@ class PieceProblem : public Problem {
   std::unique_ptr<SparseMatrix> smooth_modes_;  // likewise
   std::optional<Minimizer> minimizer_;          // always there; a new one after reset
   LinearSolverKind solver_;
-  std::unique_ptr<FieldSmoother> smoother_;  // the last one used: a drag of the strength needs no new factor
-  SmoothOptions smoother_options_;
-  PlaneVectors smoother_along_;
+  KeptSmoother isotropic_, directional_;
   std::vector<Vector> visible_;  // per family #T: weight by visibility at the start
   int hidden_count_ = 0;         // triangles with less than full weight
   Vector x_, z_;                 // current unknowns and heights

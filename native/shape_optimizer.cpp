@@ -18,7 +18,7 @@ const Vector3& first_of(const std::vector<Vector3>& line_directions) {
 }
 
 Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
-  Boundary boundary{options.border, options.held};
+  Boundary boundary{options.border, options.held, options.crease_angle};
   if (boundary.border.empty()) boundary.border.assign(vertex_count, Border::kClamped);
   if (static_cast<Eigen::Index>(boundary.border.size()) != vertex_count ||
       (boundary.held.size() > 0 && boundary.held.size() != vertex_count)) {
@@ -55,6 +55,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
                                const std::vector<Vector3>& line_directions, const ShapeOptions& options)
     : frame_(view_direction, first_of(line_directions)),
       V_(V),
+      F_(F),
       triangle_count_(static_cast<int>(F.rows())),
       family_count_(static_cast<int>(line_directions.size())) {
   check_surface(V, F);
@@ -79,9 +80,8 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
                                " pieces have no free vertex and stay as they are.");
   }
   if (region_.hidden > 0) {
-    region_.messages.push_back(faces(region_.hidden) +
-                               " reflect the view almost along the light lines, where the lines are not defined; they have "
-                               "little or no weight.");
+    region_.messages.push_back("The lines are not defined on " + faces(region_.hidden) +
+                               " that mirror the view almost along the light lines; little or no weight there.");
   }
 }
 
@@ -92,17 +92,22 @@ void ShapeOptimizer::describe(const HeightField& field) {
   region_.pieces = field.piece_count;
   region_.silhouettes = field.silhouette_count;
   region_.turned_away = field.turned_away_count;
+  region_.creases = field.crease_count;
   region_.closed = field.closed;
   region_.free = static_cast<int>(std::count(field.role.begin(), field.role.end(), VertexRole::kFree));
   region_.fixed = static_cast<int>(std::count(field.role.begin(), field.role.end(), VertexRole::kFixed));
   region_.clamped = static_cast<int>(std::count(field.role.begin(), field.role.end(), VertexRole::kClamped));
   if (region_.turned_away > 0) {
     region_.messages.push_back(faces(region_.turned_away) +
-                               " turn away from the view or fold over; they and their vertices stay as they are.");
+                               " turned away from the view or folded over: left as they are.");
+  }
+  if (region_.creases > 0) {
+    region_.messages.push_back(std::to_string(region_.creases) + (region_.creases == 1 ? " edge bends" : " edges bend") +
+                               " too sharply for a fair panel (gaps, folds, hems); held, the lines are solved on each side.");
   }
   if (region_.silhouettes > 0) {
     region_.messages.push_back(faces(region_.silhouettes) +
-                               " are seen edge on (silhouettes); they and their vertices stay as they are.");
+                               " seen edge on (silhouettes): left as they are.");
   }
 }
 
@@ -165,13 +170,27 @@ PlaneVectors ShapeOptimizer::field(int family) const {
   return result;
 }
 
+void ShapeOptimizer::check_family(int family) const {
+  if (family >= 0 && family < family_count_) return;
+  throw InvalidInput("There is no family " + std::to_string(family) + " of light lines; there are " +
+                     std::to_string(family_count_) + ", counted from 0.");
+}
+
+RegionField ShapeOptimizer::region_field(int family) const {
+  check_family(family);
+  RegionField result{frame_.project(V_), F_,          active(),      Vector::Zero(triangle_count_), PlanePositions::Zero(triangle_count_, 2),
+                     theta(family),      field(family), Vector::Zero(V_.rows()), PlaneVectors::Zero(V_.rows(), 2), family};
+  for (int t = 0; t < triangle_count_; ++t) {
+    result.center.row(t) = (result.xy.row(F_(t, 0)) + result.xy.row(F_(t, 1)) + result.xy.row(F_(t, 2))) / 3.0;
+  }
+  for (const auto& piece : pieces_) piece->add_vertex_field(result);
+  return result;
+}
+
 void ShapeOptimizer::check(const Target& target) const {
   const bool by_value = target.theta.size() > 0;
   const Eigen::Index rows = by_value ? target.theta.size() : target.gradient.rows();
-  if (target.family < 0 || target.family >= family_count_) {
-    throw InvalidInput("The target names family " + std::to_string(target.family) + " of the light lines; there are " +
-                       std::to_string(family_count_) + ".");
-  }
+  check_family(target.family);
   if (rows != triangle_count_ || (target.weight.size() > 0 && target.weight.size() != triangle_count_)) {
     throw InvalidInput("The target has " + std::to_string(rows) + " rows and " + std::to_string(target.weight.size()) +
                        " weights; it needs one for each of the " + std::to_string(triangle_count_) + " triangles.");
@@ -202,6 +221,10 @@ Vector ShapeOptimizer::residual(const Target& target) const {
 }
 
 Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double strength, int family) {
+  check_family(family);
+  if (!(options.length >= 0) || !std::isfinite(options.length)) {
+    throw InvalidInput("The smoothing length must be a positive length in scene units.");
+  }
   if (!(strength >= 0 && strength <= 1)) throw InvalidInput("The strength must lie between 0 and 1.");
   Target target;
   target.family = family;
@@ -209,7 +232,7 @@ Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double streng
   for (const auto& piece : pieces_) {
     const PlaneVectors own = piece->field(family).gradient;
     const bool changes = strength > 0 && options.length > 0;
-    const PlaneVectors wanted = changes ? PlaneVectors(own + strength * (piece->smoothed(own, options, own) - own)) : own;
+    const PlaneVectors wanted = changes ? PlaneVectors(own + strength * (piece->smoothed(own, options) - own)) : own;
     for (int t = 0; t < own.rows(); ++t) target.gradient.row(piece->piece().field.source[t]) = wanted.row(t);
   }
   return target;
@@ -219,11 +242,11 @@ double ShapeOptimizer::score(double length, int family) {
   double sum = 0, area = 0;
   for (const auto& piece : pieces_) {
     const PlaneVectors own = piece->field(family).gradient;
-    const Vector& A = piece->piece().field.area;
-    sum += A.dot((own - piece->smoothed(own, {length, false}, own)).rowwise().squaredNorm());
+    const Vector A = piece->changeable_area();
+    sum += A.dot((own - piece->smoothed(own, {length, false})).rowwise().squaredNorm());
     area += A.sum();
   }
-  return std::sqrt(sum / area) * length * 180.0 / std::numbers::pi;
+  return area > 0 ? std::sqrt(sum / area) * length * 180.0 / std::numbers::pi : 0.0;
 }
 
 void ShapeOptimizer::measure(const std::vector<Target>& targets, Report& report) const {

@@ -9,6 +9,7 @@
 #include "native/geometry/height_field.h"
 #include "native/geometry/stencil.h"
 #include "native/optimization/minimizer.h"
+#include "native/reflection/region_field.h"
 #include "native/reflection/target.h"
 #include "native/types.h"
 
@@ -22,6 +23,7 @@ struct ShapeOptions {
   Mask held;                   // #V, or empty: vertices that stay whatever the border says
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
+  double crease_angle = kCreaseAngle;  // radians: sharper edges are held and no stencil reaches across
   double proximity = -1.0;  // weight of staying near the start; negative: 0, or 1e-6 for a piece with a free border
 };
 
@@ -33,6 +35,7 @@ struct Region {
   int silhouettes = 0;    // triangles left out, |n.v| < 0.02
   int turned_away = 0;    // triangles left out, n.v < 0
   int unused_pieces = 0;  // pieces without a free vertex
+  int creases = 0;        // edges held because they bend by more than the crease angle
   int hidden = 0;         // triangles of less weight: their reflected ray is nearly parallel to the lines
   bool closed = false;    // the region has no border edge
   std::vector<std::string> messages;  // sentences for the user
@@ -59,6 +62,9 @@ class ShapeOptimizer {
   Vector theta(int family) const;         // #F, radians
   PlaneVectors field(int family) const;   // #F x 2, grad theta
 
+  // All that the builders of targets in reflection/ need of the current state.
+  RegionField region_field(int family) const;
+
   // Energy and |grad theta - target| (#F) of the current heights.
   double energy(const std::vector<Target>& targets);
   Vector residual(const Target& target) const;
@@ -66,8 +72,8 @@ class ShapeOptimizer {
   // The current field of a family without its detail finer than options.length (see reflection/smooth.h), blended by strength.
   Target smooth_target(const SmoothOptions& options, double strength, int family);
 
-  // Wobble of the lines in degrees: the root mean square over the region of |field - field smoothed at `length`| times
-  // `length`, that is how far, within one length, the lines stray from their own smooth course.
+  // Wobble of the lines in degrees: the root mean square, over the triangles that can change, of |field - field smoothed at
+  // `length`| times `length`: how far, within one length, the lines stray from their own smooth course.
   double score(double length, int family);
 
   // Moves the heights towards the targets, every piece on its own. On cancel or failure nothing has moved.
@@ -77,11 +83,13 @@ class ShapeOptimizer {
 
  private:
   void check(const Target& target) const;
+  void check_family(int family) const;
   void describe(const HeightField& field);
   void measure(const std::vector<Target>& targets, Report& report) const;
 
   ImagePlane frame_;
   Positions V_;
+  Triangles F_;
   int triangle_count_;
   int family_count_;
   std::vector<std::unique_ptr<PieceProblem>> pieces_;

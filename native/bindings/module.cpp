@@ -19,4 +19,5 @@ PYBIND11_MODULE(reflines, module) {
   reflines::bind_target(module);
   reflines::bind_report(module);
   reflines::bind_optimizer(module);
+  reflines::bind_builders(module);
 }

@@ -8,7 +8,6 @@
 #include "native/bindings/bind.h"
 #include "native/errors.h"
 #include "native/optimization/progress.h"
-#include "native/reflection/smooth.h"
 #include "native/shape_optimizer.h"
 
 namespace py = pybind11;
@@ -74,12 +73,13 @@ std::vector<Target> listed(const Targets& targets) {
 std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                      const Eigen::MatrixXd& line_direction, const std::variant<std::string, Codes>& border,
                                      const std::optional<Mask>& fixed, const std::string& stencil,
-                                     const std::string& linear_solver, double proximity) {
+                                     const std::string& linear_solver, double crease_angle, double proximity) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   options.stencil = named(kStencils, stencil, "stencil");
   options.linear_solver = named(kSolvers, linear_solver, "linear solver");
+  options.crease_angle = crease_angle;
   options.proximity = proximity;
   const std::vector<Vector3> lines = directions(line_direction);
   const py::gil_scoped_release release;
@@ -109,27 +109,25 @@ int checked_family(const ShapeOptimizer& optimizer, int family) {
                      std::to_string(optimizer.family_count()) + ".");
 }
 
-Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family) {
-  return optimizer.smooth_target({length, directional}, strength, checked_family(optimizer, family));
-}
-
 }  // namespace
 
 void bind_optimizer(py::module_& module) {
   const MinimizerOptions minimizer;
   const ShapeOptions shape;
-  const SmoothOptions smoothing;
   using Release = py::call_guard<py::gil_scoped_release>;
   py::class_<ShapeOptimizer>(module, "ShapeOptimizer")
       .def(py::init(&make), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
            py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("stencil") = "consistent",
-           py::arg("linear_solver") = "cholmod", py::arg("proximity") = shape.proximity)
+           py::arg("linear_solver") = "cholmod", py::arg("crease_angle") = shape.crease_angle,
+           py::arg("proximity") = shape.proximity)
       .def_property_readonly("region", &ShapeOptimizer::region)
       .def_property_readonly("frame", &frame_rows)
       .def_property_readonly("heights", &ShapeOptimizer::heights)
       .def_property_readonly("positions", &ShapeOptimizer::positions)
       .def_property_readonly("free", &ShapeOptimizer::free)
       .def_property_readonly("active", &ShapeOptimizer::active)
+      .def_property_readonly("xy", [](const ShapeOptimizer& o) { return o.region_field(0).xy; })
+      .def_property_readonly("centers", [](const ShapeOptimizer& o) { return o.region_field(0).center; })
       .def("theta", [](const ShapeOptimizer& o, int family) { return o.theta(checked_family(o, family)); }, py::arg("family") = 0)
       .def("field", [](const ShapeOptimizer& o, int family) { return o.field(checked_family(o, family)); }, py::arg("family") = 0)
       .def("energy", [](ShapeOptimizer& o, const Targets& targets) { return o.energy(listed(targets)); }, py::arg("target"))
@@ -140,8 +138,6 @@ void bind_optimizer(py::module_& module) {
            py::arg("gradient_tolerance") = minimizer.gradient_tolerance, py::arg("max_iterations") = minimizer.max_iterations,
            py::arg("progress") = py::none())
       .def("reset", &ShapeOptimizer::reset);
-  module.def("smooth", &smooth, py::arg("optimizer"), py::kw_only(), py::arg("length"), py::arg("strength") = 1.0,
-             py::arg("directional") = smoothing.directional, py::arg("family") = 0, Release());
 }
 
 }  // namespace reflines

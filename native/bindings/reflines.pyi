@@ -37,6 +37,7 @@ class Region:
     silhouettes: int   # triangles with |n.v| < 0.02, their vertices held
     turned_away: int   # triangles with n.v <= 0, their vertices held
     unused_pieces: int # pieces without a free vertex
+    creases: int       # edges held because they bend by more than the crease angle
     hidden: int        # triangles of less weight: the reflected ray is nearly parallel to the lines
     closed: bool       # the region has no border edge
     messages: list[str]
@@ -82,12 +83,15 @@ class ShapeOptimizer:
     heights: np.ndarray    # #V current heights along the view
     positions: np.ndarray  # #V x 3; vertices that cannot move carry the bits they came with
     free: np.ndarray       # #V bool
+    xy: np.ndarray         # #V x 2, in the image plane
+    centers: np.ndarray    # #F x 2, the triangles' centroids in the image plane
     active: np.ndarray     # #F bool: triangles that belong to a height-field piece
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
                  line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
                  border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped (border vertices)
                  fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
+                 crease_angle: float = 0.5236,                   # radians: sharper edges are held, no stencil reaches across
                  proximity: float = -1.0,                        # weight of staying near the start; -1: default
                  ) -> None: ...
     def theta(self, family: int = 0) -> np.ndarray: ...           # #F, radians in (-pi, pi]
@@ -99,9 +103,37 @@ class ShapeOptimizer:
               max_iterations: int = 100, progress: Progress | None = None) -> Report: ...
     def reset(self) -> None: ...                                  # back to the heights it was built with
 
+# Builders of targets. `family` says which light lines; `weight` (#F, >= 0) multiplies each triangle's share of the energy;
+# `influence` (#F in [0, 1]) blends from the current field, 0 keeps it bit for bit. Directions and positions with two
+# coordinates are in the image plane: (p @ optimizer.frame[0], p @ optimizer.frame[1]) of a world point or direction p.
+
 def smooth(optimizer: ShapeOptimizer, *, length: float, strength: float = 1.0, directional: bool = False,
-           family: int = 0) -> Target:
+           family: int = 0, weight: np.ndarray | None = None) -> Target:
     """The current field without its detail finer than `length` (scene units); see native/reflection/smooth.h."""
+
+def uniform(optimizer: ShapeOptimizer, *, direction: Sequence[float] = (0, 0), density: float = 1.0, relative: bool = True,
+            density_end: float = -1.0, axis: Sequence[float] = (0, 0), influence: np.ndarray | None = None,
+            weight: np.ndarray | None = None, family: int = 0) -> Target:
+    """Lines of one direction ((0, 0): that of the region's mean) and density (a factor of the mean's, or |grad theta| in
+    radians / length); along `axis` the density goes linearly from density to density_end."""
+
+def turn(optimizer: ShapeOptimizer, *, angle: float, influence: np.ndarray | None = None, weight: np.ndarray | None = None,
+         family: int = 0) -> Target:
+    """The current gradients turned by `angle` radians, counter-clockwise in the image plane, times the influence."""
+
+def falloff(optimizer: ShapeOptimizer, *, centre: Sequence[float], radius: float, curve: np.ndarray) -> np.ndarray:
+    """#F: the curve, tabulated at equal steps from 0 to radius, at each triangle's distance from `centre`."""
+
+def warp(optimizer: ShapeOptimizer, *, low: Sequence[float], high: Sequence[float], columns: int, rows: int,
+         position: np.ndarray, by_value: bool = False, family: int = 0) -> tuple[Target, int]:
+    """Lines carried along by a map of the image plane: `position` ((rows + 1) * (columns + 1) x 2, x fastest) is where the nodes
+    of a regular grid over low .. high go. Also the number of triangles that would show lines from outside the region."""
+
+def pattern(optimizer: ShapeOptimizer, *, image: np.ndarray, strength: float = 1.0, blur: float = 0.0, keep: float = 1.0,
+            centre: Sequence[float] = (0, 0), width: float = 1.0, angle: float = 0.0, weight: np.ndarray | None = None,
+            family: int = 0) -> Target:
+    """`strength` radians of theta between black and white of a grey image (#rows x #columns, first row at the bottom), added
+    to `keep` times the current lines; see native/reflection/pattern.h."""
 
 class NormalFit:
     """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""

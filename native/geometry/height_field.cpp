@@ -1,6 +1,7 @@
 #include "native/geometry/height_field.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -11,9 +12,13 @@ namespace {
 
 enum class Facing { kViewer, kSilhouette, kAway };
 
-Facing facing(const Positions& V, const Triangles& F, int t, const Vector3& view) {
+Vector3 unit_normal(const Positions& V, const Triangles& F, int t) {
   const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-  const double cosine = (b - a).cross(c - a).normalized().dot(view);
+  return (b - a).cross(c - a).normalized();
+}
+
+Facing facing(const Positions& V, const Triangles& F, int t, const Vector3& view) {
+  const double cosine = unit_normal(V, F, t).dot(view);
   if (std::abs(cosine) < kSilhouette) return Facing::kSilhouette;
   return cosine > 0 ? Facing::kViewer : Facing::kAway;
 }
@@ -50,27 +55,50 @@ void project(const Positions& V, const ImagePlane& frame, HeightField& field) {
   }
 }
 
+// Cuts `neighbors` at the creases and returns their vertices.
+Mask cut_creases(const Positions& V, double angle, HeightField& field) {
+  Mask on_crease = Mask::Constant(V.rows(), false);
+  const double cosine = std::cos(angle);
+  const Triangles neighbors = field.neighbors;
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int other = neighbors(t, i);
+      if (other < 0 || unit_normal(V, field.F, t).dot(unit_normal(V, field.F, other)) >= cosine) continue;
+      field.neighbors(t, i) = -1;
+      field.crease_count += other > t;
+      on_crease(field.F(t, (i + 1) % 3)) = on_crease(field.F(t, (i + 2) % 3)) = true;
+    }
+  }
+  return on_crease;
+}
+
 void hold(std::vector<VertexRole>& role, int v, VertexRole how) {
   if (role[v] == VertexRole::kFree) role[v] = how;
 }
 
-void assign_roles(const Triangles& F, const Triangles& neighbors, const Boundary& boundary, const Mask& left_out,
-                  HeightField& field) {
-  field.role.assign(field.vertex_count(), VertexRole::kUnused);
-  for (int k = 0; k < field.F.size(); ++k) field.role[field.F.data()[k]] = VertexRole::kFree;
-  const Incidence around = vertex_neighbors(F, vertex_triangles(F, field.vertex_count()));
-  for (int v = 0; v < field.vertex_count(); ++v) {
-    if (left_out(v) || (boundary.held.size() > 0 && boundary.held(v))) hold(field.role, v, VertexRole::kFixed);
-  }
+// The region's border and its creases: where the border's condition holds.
+Mask edge_vertices(const Triangles& F, const Triangles& neighbors, const Mask& on_crease) {
+  Mask result = on_crease;
   for (int t = 0; t < F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) >= 0) continue;
-      for (int v : {F(t, (i + 1) % 3), F(t, (i + 2) % 3)}) {
-        if (boundary.border[v] != Border::kFree) hold(field.role, v, VertexRole::kFixed);
-        if (boundary.border[v] != Border::kClamped) continue;
-        for (int k = around.begin(v); k < around.end(v); ++k) hold(field.role, around.items[k], VertexRole::kClamped);
-      }
+      if (neighbors(t, i) < 0) result(F(t, (i + 1) % 3)) = result(F(t, (i + 2) % 3)) = true;
     }
+  }
+  return result;
+}
+
+void assign_roles(const Triangles& F, const Mask& edge, const Boundary& boundary, const Mask& always_fixed, HeightField& field) {
+  field.role.assign(field.vertex_count(), VertexRole::kUnused);
+  for (int k = 0; k < field.F.size(); ++k) field.role[field.F.data()[k]] = VertexRole::kFree;
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    const bool held = boundary.held.size() > 0 && boundary.held(v);
+    const bool by_border = edge(v) && boundary.border[v] != Border::kFree;
+    if (always_fixed(v) || held || by_border) hold(field.role, v, VertexRole::kFixed);
+  }
+  const Incidence around = vertex_neighbors(F, vertex_triangles(F, field.vertex_count()));
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    if (!edge(v) || boundary.border[v] != Border::kClamped) continue;
+    for (int k = around.begin(v); k < around.end(v); ++k) hold(field.role, around.items[k], VertexRole::kClamped);
   }
 }
 
@@ -79,12 +107,12 @@ int root(std::vector<int>& parent, int t) {
   return t;
 }
 
-void find_pieces(const Mask& left_out, HeightField& field) {
+void find_pieces(const Mask& separating, HeightField& field) {
   std::vector<int> parent(field.triangle_count());
   std::iota(parent.begin(), parent.end(), 0);
   const Incidence& around = field.triangles_of_vertex;
   for (int v = 0; v < field.vertex_count(); ++v) {
-    if (left_out(v)) continue;
+    if (separating(v)) continue;
     for (int k = around.begin(v) + 1; k < around.end(v); ++k) {
       const int a = root(parent, around.items[k - 1]), b = root(parent, around.items[k]);
       parent[std::max(a, b)] = std::min(a, b);
@@ -124,8 +152,9 @@ HeightField make_height_field(const Positions& V, const Triangles& F, const Imag
   project(V, frame, field);
   field.neighbors = edge_neighbors(field.F);
   field.triangles_of_vertex = vertex_triangles(field.F, field.vertex_count());
-  assign_roles(F, neighbors, boundary, left_out, field);
-  find_pieces(left_out, field);
+  const Mask on_crease = cut_creases(V, boundary.crease_angle, field);
+  assign_roles(F, edge_vertices(F, neighbors, on_crease), boundary, left_out || on_crease, field);
+  find_pieces(left_out || on_crease, field);
   return field;
 }
 

@@ -30,11 +30,26 @@ void copy_vertices(const HeightField& whole, Piece& piece) {
   }
 }
 
+// Creases are cut in the whole field; they must stay cut.
+void copy_neighbors(const HeightField& whole, const std::vector<int>& triangles, const std::vector<int>& number, Piece& piece) {
+  piece.field.neighbors.resize(static_cast<int>(triangles.size()), 3);
+  for (size_t k = 0; k < triangles.size(); ++k) {
+    for (int i = 0; i < 3; ++i) {
+      const int other = whole.neighbors(triangles[k], i);
+      piece.field.neighbors(static_cast<int>(k), i) = other < 0 ? -1 : number[other];
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Piece> split_pieces(const HeightField& field) {
   std::vector<std::vector<int>> triangles(field.piece_count);
-  for (int t = 0; t < field.triangle_count(); ++t) triangles[field.piece[t]].push_back(t);
+  std::vector<int> number(field.triangle_count());  // of a triangle within its piece
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    number[t] = static_cast<int>(triangles[field.piece[t]].size());
+    triangles[field.piece[t]].push_back(t);
+  }
   std::vector<int> local(field.vertex_count(), -1);
   std::vector<Piece> pieces(field.piece_count);
   for (int k = 0; k < field.piece_count; ++k) {
@@ -46,7 +61,7 @@ std::vector<Piece> split_pieces(const HeightField& field) {
       piece.field.source.push_back(field.source[triangles[k][t]]);
       piece.field.area(t) = field.area(triangles[k][t]);
     }
-    piece.field.neighbors = edge_neighbors(piece.field.F);
+    copy_neighbors(field, triangles[k], number, piece);
     piece.field.triangles_of_vertex = vertex_triangles(piece.field.F, piece.field.vertex_count());
     piece.field.piece.assign(triangles[k].size(), 0);
     piece.field.piece_count = 1;

@@ -12,15 +12,28 @@ namespace {
 // holds squares, so this is a ratio of 1e-5 between the points' own singular values.
 constexpr double kOnConic = 1e-10;
 
-std::vector<int> ring(const HeightField& field, int t) {
-  std::vector<int> around;
-  for (int i = 0; i < 3; ++i) {
-    const int corner = field.F(t, i);
-    const Incidence& triangles = field.triangles_of_vertex;
-    for (int k = triangles.begin(corner); k < triangles.end(corner); ++k) {
-      for (int j = 0; j < 3; ++j) around.push_back(field.F(triangles.items[k], j));
+int corner_of(const HeightField& field, int t, int v) { return field.F(t, 0) == v ? 0 : field.F(t, 1) == v ? 1 : 2; }
+
+// The triangles met on the way around corner `v` from t, over edges that are no border and no crease: first with the edge after
+// v, then with the one before it.
+void walk_around(const HeightField& field, int t, int v, std::vector<int>& vertices) {
+  for (int side = 1; side <= 2; ++side) {
+    int before = t;
+    int now = field.neighbors(t, (corner_of(field, t, v) + side) % 3);
+    while (now >= 0 && now != t) {
+      for (int j = 0; j < 3; ++j) vertices.push_back(field.F(now, j));
+      const int i = corner_of(field, now, v);
+      const int one = field.neighbors(now, (i + 1) % 3), other = field.neighbors(now, (i + 2) % 3);
+      const int next = one == before ? other : one;
+      before = now;
+      now = next;
     }
   }
+}
+
+std::vector<int> ring(const HeightField& field, int t) {
+  std::vector<int> around;
+  for (int i = 0; i < 3; ++i) walk_around(field, t, field.F(t, i), around);
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
   std::vector<int> vertex = {field.F(t, 0), field.F(t, 1), field.F(t, 2)};

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "native/errors.h"
+#include "native/geometry/derivatives.h"
 #include "native/geometry/mesh.h"
 #include "native/geometry/pieces.h"
 #include "tests/native/sample_meshes.h"
@@ -104,6 +105,7 @@ TEST(HeightField, ASphereSeenFromOutsideIsOnePieceOfItsFrontHalf) {
   F << 0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5;
   Boundary boundary;
   boundary.border.assign(6, Border::kFixed);
+  boundary.crease_angle = M_PI;  // so coarse a sphere is all creases
   const HeightField field = make_height_field(V, F, ImagePlane(Vector3(0, 0, 1), Vector3(0, 1, 0)), boundary);
   EXPECT_TRUE(field.closed);
   EXPECT_EQ(field.piece_count, 1);
@@ -111,6 +113,20 @@ TEST(HeightField, ASphereSeenFromOutsideIsOnePieceOfItsFrontHalf) {
   EXPECT_EQ(field.turned_away_count, 4);
   EXPECT_EQ(field.role[4], VertexRole::kFree);  // the pole; the equator is on triangles that turn away
   EXPECT_EQ(field.role[0], VertexRole::kFixed);
+}
+
+TEST(HeightField, ACreaseIsHeldAndNoStencilReachesAcross) {
+  const samples::Mesh roof = samples::lifted(samples::grid(8), [](double x, double) { return -std::abs(x - 0.5); });
+  const HeightField field = samples::height_field(roof, Border::kFree);
+  EXPECT_EQ(field.crease_count, 8);  // the ridge bends by 90 degrees
+  EXPECT_EQ(field.piece_count, 2);
+  EXPECT_EQ(field.role[4 * 9 + 4], VertexRole::kFixed);
+  for (const Piece& piece : split_pieces(field)) {
+    const Stencils stencils = make_stencils(piece.field, StencilKind::kConsistent);
+    TriangleDerivatives u;
+    apply_stencils(stencils, piece.field.z, u);
+    EXPECT_LT(u.rightCols<3>().cwiseAbs().maxCoeff(), 1e-9);  // each side is a plane
+  }
 }
 
 TEST(Pieces, EveryTriangleIsInOnePieceWithItsOwnNumbers) {

@@ -1,0 +1,89 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+
+#include "native/bindings/bind.h"
+#include "native/reflection/direction.h"
+#include "native/reflection/pattern.h"
+#include "native/reflection/smooth.h"
+#include "native/reflection/warp.h"
+#include "native/shape_optimizer.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+using Maybe = std::optional<Vector>;
+
+Target weighted(Target target, const Maybe& weight) {
+  if (weight) target.weight = *weight;
+  return target;
+}
+
+Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family, const Maybe& weight) {
+  return weighted(optimizer.smooth_target({length, directional}, strength, family), weight);
+}
+
+Target uniform(const ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative, double density_end,
+               const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
+  const UniformOptions options{direction, density, relative, density_end, axis};
+  return weighted(uniform_target(optimizer.region_field(family), options, influence.value_or(Vector())), weight);
+}
+
+Target turn(const ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
+  return weighted(turned_target(optimizer.region_field(family), angle, influence.value_or(Vector())), weight);
+}
+
+py::tuple warp(const ShapeOptimizer& optimizer, const Vector2& low, const Vector2& high, int columns, int rows,
+               const PlanePositions& position, bool by_value, int family) {
+  WarpResult result;
+  {
+    const py::gil_scoped_release release;
+    result = warp_target(optimizer.region_field(family), {low, high, columns, rows, position}, by_value);
+  }
+  return py::make_tuple(result.target, result.outside);
+}
+
+Target pattern(const ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double strength, double blur, double keep,
+               const Vector2& centre, double width, double angle, const Maybe& weight, int family) {
+  const PatternOptions options{strength, blur, keep, centre, width, angle};
+  return weighted(pattern_target(optimizer.region_field(family), image, options), weight);
+}
+
+void bind_image_tools(py::module_& module) {
+  using Release = py::call_guard<py::gil_scoped_release>;
+  const PatternOptions pattern_defaults;
+  module.def("warp", &warp, py::arg("optimizer"), py::kw_only(), py::arg("low"), py::arg("high"), py::arg("columns"),
+             py::arg("rows"), py::arg("position"), py::arg("by_value") = false, py::arg("family") = 0);
+  module.def("pattern", &pattern, py::arg("optimizer"), py::kw_only(), py::arg("image"),
+             py::arg("strength") = pattern_defaults.strength, py::arg("blur") = pattern_defaults.blur,
+             py::arg("keep") = pattern_defaults.keep, py::arg("centre") = pattern_defaults.centre,
+             py::arg("width") = pattern_defaults.width, py::arg("angle") = pattern_defaults.angle,
+             py::arg("weight") = py::none(), py::arg("family") = 0, Release());
+}
+
+}  // namespace
+
+void bind_builders(py::module_& module) {
+  using Release = py::call_guard<py::gil_scoped_release>;
+  const UniformOptions uniform_defaults;
+  module.def("smooth", &smooth, py::arg("optimizer"), py::kw_only(), py::arg("length"), py::arg("strength") = 1.0,
+             py::arg("directional") = SmoothOptions().directional, py::arg("family") = 0, py::arg("weight") = py::none(), Release());
+  module.def("uniform", &uniform, py::arg("optimizer"), py::kw_only(), py::arg("direction") = uniform_defaults.direction,
+             py::arg("density") = uniform_defaults.density, py::arg("relative") = uniform_defaults.relative,
+             py::arg("density_end") = uniform_defaults.density_end, py::arg("axis") = uniform_defaults.axis,
+             py::arg("influence") = py::none(), py::arg("weight") = py::none(), py::arg("family") = 0, Release());
+  module.def("turn", &turn, py::arg("optimizer"), py::kw_only(), py::arg("angle"), py::arg("influence") = py::none(),
+             py::arg("weight") = py::none(), py::arg("family") = 0, Release());
+  module.def(
+      "falloff",
+      [](const ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
+        return falloff(optimizer.region_field(0), centre, radius, curve);
+      },
+      py::arg("optimizer"), py::kw_only(), py::arg("centre"), py::arg("radius"), py::arg("curve"), Release());
+  bind_image_tools(module);
+}
+
+}  // namespace reflines

@@ -1,0 +1,85 @@
+#include "native/reflection/pattern.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "native/errors.h"
+#include "native/reflection/scalar_gradient.h"
+
+namespace reflines {
+namespace {
+
+// Gaussian along the columns of `image`, border values continued.
+Eigen::MatrixXd blurred_columns(const Eigen::MatrixXd& image, double deviation) {
+  const int radius = static_cast<int>(std::ceil(4 * deviation));
+  Vector kernel(2 * radius + 1);
+  for (int k = -radius; k <= radius; ++k) kernel(k + radius) = std::exp(-0.5 * k * k / (deviation * deviation));
+  kernel /= kernel.sum();
+  const int rows = static_cast<int>(image.rows());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, image.cols());
+  for (int r = 0; r < rows; ++r) {
+    for (int k = -radius; k <= radius; ++k) result.row(r) += kernel(k + radius) * image.row(std::clamp(r + k, 0, rows - 1));
+  }
+  return result;
+}
+
+Eigen::MatrixXd blurred(const Eigen::MatrixXd& image, double deviation) {
+  if (!(deviation > 0)) return image;
+  const Eigen::MatrixXd once = blurred_columns(image, deviation).transpose();
+  return blurred_columns(once, deviation).transpose();
+}
+
+// Catmull-Rom weights of the four samples around a point at `f` in [0, 1] between the middle two.
+Eigen::Vector4d cubic_weights(double f) {
+  return {0.5 * (-f + 2 * f * f - f * f * f), 0.5 * (2 - 5 * f * f + 3 * f * f * f), 0.5 * (f + 4 * f * f - 3 * f * f * f),
+          0.5 * (-f * f + f * f * f)};
+}
+
+// Grey value at pixel coordinates (pixel centres at whole numbers), smooth between them: bilinear would print the pixels'
+// edges into the gradient.
+double sample(const Eigen::MatrixXd& image, double column, double row) {
+  column = std::clamp(column, 0.0, double(image.cols() - 1));
+  row = std::clamp(row, 0.0, double(image.rows() - 1));
+  const int i = static_cast<int>(column), j = static_cast<int>(row);
+  const Eigen::Vector4d wx = cubic_weights(column - i), wy = cubic_weights(row - j);
+  double sum = 0;
+  for (int b = -1; b <= 2; ++b) {
+    const int r = std::clamp<int>(j + b, 0, static_cast<int>(image.rows()) - 1);
+    for (int a = -1; a <= 2; ++a) {
+      sum += wy(b + 1) * wx(a + 1) * image(r, std::clamp<int>(i + a, 0, static_cast<int>(image.cols()) - 1));
+    }
+  }
+  return sum;
+}
+
+void check(const Eigen::MatrixXd& image, const PatternOptions& options) {
+  if (image.size() == 0 || !image.allFinite()) throw InvalidInput("The image is empty or has values that are not finite.");
+  if (!(options.width > 0)) throw InvalidInput("The width of the image in the scene must be positive.");
+  if (!(options.keep >= 0 && options.keep <= 1)) throw InvalidInput("The share of the lines to keep must lie between 0 and 1.");
+}
+
+}  // namespace
+
+Target pattern_target(const RegionField& field, const Eigen::MatrixXd& image, const PatternOptions& options) {
+  check(image, options);
+  const Eigen::MatrixXd soft = blurred(image, options.blur);
+  const double pixel = options.width / image.cols();
+  Vector delta(field.xy.rows());
+  for (int v = 0; v < delta.size(); ++v) {
+    const Vector2 d = field.xy.row(v).transpose() - options.centre;
+    const Vector2 turned(std::cos(options.angle) * d.x() + std::sin(options.angle) * d.y(),
+                         -std::sin(options.angle) * d.x() + std::cos(options.angle) * d.y());
+    delta(v) = options.strength * sample(soft, turned.x() / pixel + 0.5 * (image.cols() - 1), turned.y() / pixel + 0.5 * (image.rows() - 1));
+  }
+  Target target{field.gradient, {}, {}, field.family};
+  if (options.keep < 1) target.gradient *= options.keep;
+  for (int t = 0; t < field.F.rows(); ++t) {
+    if (!field.active(t)) continue;
+    const double at_a = delta(field.F(t, 0));
+    const Vector2 gradient = linear_gradient(field.xy, field.F.row(t), delta(field.F(t, 1)) - at_a, delta(field.F(t, 2)) - at_a);
+    target.gradient.row(t) += gradient.transpose();
+  }
+  return target;
+}
+
+}  // namespace reflines

@@ -1,0 +1,107 @@
+"""Smoothing a panel's reflection lines: ripples go, what is clean stays, nothing outside moves."""
+import numpy as np
+import pytest
+import reflines
+from sample_panels import LINE, VIEW, inside, panel, rippled, rms
+
+AMPLITUDE, WAVELENGTH, LENGTH = 3e-4, 0.1, 0.3
+
+
+def optimizer(positions, triangles, **options):
+    return reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW, line_direction=LINE, **options)
+
+
+def smoothed(positions, triangles, **options):
+    solver = optimizer(positions, triangles)
+    report = solver.solve(reflines.smooth(solver, length=LENGTH, **options))
+    assert report.converged
+    return solver, report
+
+
+def test_ripples_are_removed_and_a_clean_panel_stays():
+    clean, triangles = panel()
+    wanted = optimizer(clean, triangles).field()
+    before = rms(optimizer(rippled(clean, amplitude=AMPLITUDE, wavelength=WAVELENGTH), triangles).field() - wanted)
+    solver, _ = smoothed(rippled(clean, amplitude=AMPLITUDE, wavelength=WAVELENGTH), triangles)
+    assert rms(solver.field() - wanted) < before / 10
+    _, report = smoothed(clean, triangles)
+    assert report.largest_move < AMPLITUDE / 10
+
+
+def test_uniform_laplacian_smoothing_is_worse_than_doing_nothing():
+    clean, triangles = panel()
+    start = rippled(clean, amplitude=AMPLITUDE, wavelength=WAVELENGTH)
+    wanted = optimizer(clean, triangles).field()
+    free = optimizer(start, triangles).free
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    edges = np.concatenate([edges, edges[:, ::-1]])
+    degree = np.bincount(edges[:, 0], minlength=len(clean))
+    positions, errors = start.copy(), []
+    for _ in range(50):
+        mean = np.zeros_like(positions)
+        np.add.at(mean, edges[:, 0], positions[edges[:, 1]])
+        positions[free] = (mean / degree[:, None])[free]
+        errors.append(rms(optimizer(positions, triangles).field() - wanted))
+    solver, _ = smoothed(start, triangles)
+    assert min(errors) > 5 * rms(solver.field() - wanted)
+
+
+def test_border_and_what_is_outside_keep_their_bits():
+    positions, triangles = panel(24)
+    positions = rippled(positions, amplitude=AMPLITUDE, wavelength=WAVELENGTH)
+    inner = np.flatnonzero((abs(positions[triangles].mean(1)[:, :2]) < 0.4).all(1))
+    solver, report = smoothed(positions, triangles[inner])
+    result = solver.positions
+    assert report.largest_move > 1e-5
+    assert np.array_equal(result[~solver.free], positions[~solver.free])
+    along = (result - positions) @ solver.frame[2]
+    assert np.allclose(result - positions, along[:, None] * solver.frame[2], atol=1e-15)
+
+
+@pytest.mark.parametrize("options", [{"strength": 0.0}, {"length": 0.0}])
+def test_identity_settings_change_no_bit(options):
+    positions, triangles = panel(16)
+    solver = optimizer(positions, triangles)
+    report = solver.solve(reflines.smooth(solver, **{"length": LENGTH, **options}))
+    assert report.termination == "already_optimal"
+    assert np.array_equal(solver.positions, positions)
+
+
+def test_strength_goes_from_nothing_to_all():
+    positions, triangles = panel(24)
+    positions = rippled(positions, amplitude=AMPLITUDE, wavelength=2 * WAVELENGTH)
+    moves = [np.abs(smoothed(positions, triangles, strength=s)[0].heights - optimizer(positions, triangles).heights)
+             for s in (0.25, 0.5, 1.0)]
+    assert moves[0].sum() < moves[1].sum() < moves[2].sum()
+    assert np.allclose(2 * moves[1].sum(), moves[2].sum(), rtol=0.1)  # nearly linear for small ripples
+
+
+def test_directional_straightens_lines_and_keeps_their_spacing():
+    clean, triangles = panel(48, jitter=0.0)
+    frame = reflines.image_plane(VIEW, LINE)
+    across, along = clean @ frame[0], clean @ frame[1]
+    profile, wobble = 3e-4 * np.sin(2 * np.pi * across / 0.3), 3e-4 * np.sin(2 * np.pi * along / 0.12)
+    wobble *= np.cos(2 * np.pi * across / 0.5) * inside(clean)  # what reaches the clamped border must stay
+    positions = clean + (profile + wobble)[:, None] * VIEW
+    wanted = optimizer(clean + profile[:, None] * VIEW, triangles).field()
+    before = rms(optimizer(positions, triangles).field() - wanted)
+    straight, _ = smoothed(positions, triangles, directional=True)
+    isotropic, _ = smoothed(positions, triangles)
+    assert rms(straight.field() - wanted) < before / 8
+    assert rms(straight.field() - wanted) < rms(isotropic.field() - wanted) / 2  # that one takes the profile away too
+
+
+def test_score_falls_with_the_ripples_and_is_small_on_a_clean_panel():
+    clean, triangles = panel(32)
+    positions = rippled(clean, amplitude=AMPLITUDE, wavelength=WAVELENGTH)
+    solver, _ = smoothed(positions, triangles)
+    before, after = optimizer(positions, triangles).score(LENGTH), solver.score(LENGTH)
+    assert after < before / 10
+    assert optimizer(clean, triangles).score(LENGTH) < before / 20
+
+
+@pytest.mark.parametrize("length", [-1.0, float("nan"), float("inf")])
+def test_lengths_that_are_none_are_refused_in_words(length):
+    positions, triangles = panel(8)
+    with pytest.raises(reflines.InvalidInput, match="length"):
+        reflines.smooth(optimizer(positions, triangles), length=length)
