@@ -172,23 +172,6 @@ Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progres
   return report;
 }
 
-PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options,
-                                    const PlaneVectors& along) {
-  const bool same = smoother_ && options.length == smoother_options_.length &&
-                    options.directional == smoother_options_.directional &&
-                    (!options.directional || along == smoother_along_);
-  if (!same) {
-    const SpdFactorize factorize = [this](const SparseMatrix& matrix) -> SpdSolve {
-      auto solver = std::make_shared<LinearSolver>(solver_);
-      solver->analyze(matrix);
-      solver->factorize(matrix);
-      return [solver](Vector& x) { solver->solve(x); };
-    };
-    smoother_ = std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, factorize);
-    smoother_options_ = options;
-    smoother_along_ = along;
-  }
-  return smoother_->smooth(gradient);
 const FieldSmoother& PieceProblem::kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along) {
   const bool same_along = along.rows() == kept.along.rows() && along == kept.along;
   if (kept.smoother && kept.length == options.length && same_along) return *kept.smoother;

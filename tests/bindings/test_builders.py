@@ -81,7 +81,7 @@ def bump(p, amount=0.03):
     return p + amount * weight[:, None] * np.array([1.0, 0.5])
 
 
-def inverted(p, amount=0.03, centre=None):
+def inverse_bump(p, centre, amount=0.03):
     """The exact inverse of `bump` by fixed-point iteration: the referee of the sampled inverse."""
     source = p.copy()
     for _ in range(200):
@@ -90,32 +90,44 @@ def inverted(p, amount=0.03, centre=None):
     return source
 
 
-def test_warp_agrees_with_the_exact_inverse_and_analytic_lines():
-    """On an analytic surface the warped theta is known: theta of the normal at w^-1(x)."""
-    errors = []
-    for cells in (24, 48):
-        plane, triangles = panel(cells)
-        flat = plane[:, :2]
-        height = lambda p: -0.3 * p[:, 0] ** 2 - 0.2 * p[:, 1] ** 2 + 0.1 * p[:, 0] ** 3
-        slopes = lambda p: np.stack([0.6 * p[:, 0] - 0.3 * p[:, 0] ** 2, 0.4 * p[:, 1], np.ones(len(p))], 1)
-        positions = np.column_stack([flat, height(flat)])
-        view, line = np.array([0.0, 0, 1]), np.array([0.1, 1, 0.2])
-        solver = reflines.ShapeOptimizer(positions, triangles, view_direction=view, line_direction=line)
-        target, _ = warped(solver, bump, cells=256)
-        low, high = solver.xy.min(0) - 0.1, solver.xy.max(0) + 0.1
-        centre = grid_positions(low, high, 256, 256).mean(0)
-        rotation = solver.frame[:2, :2]
+def bowl(cells):
+    """An analytic surface with its normals as a function of the plane."""
+    plane, triangles = panel(cells)
+    x, y = plane[:, 0], plane[:, 1]
 
-        def theta(p):  # of the warped pattern at image-plane points
-            source = inverted(p, centre=centre) @ rotation
-            return reflines.theta(slopes(source), view, line)
+    def normals(p):
+        return np.stack([0.6 * p[:, 0] - 0.3 * p[:, 0] ** 2, 0.4 * p[:, 1], np.ones(len(p))], 1)
 
-        h = 1e-5
-        wanted = np.stack([(theta(solver.centers + [h, 0]) - theta(solver.centers - [h, 0])) / (2 * h),
-                           (theta(solver.centers + [0, h]) - theta(solver.centers - [0, h])) / (2 * h)], 1)
-        inner = (np.abs(positions[triangles].mean(1)[:, :2]) < [0.6, 0.45]).all(1)
-        errors.append(rms((target.gradient - wanted)[inner]) / rms((solver.field() - wanted)[inner]))
-    assert errors[0] < 0.15 and errors[1] < 0.7 * errors[0]
+    return np.column_stack([x, y, -0.3 * x**2 - 0.2 * y**2 + 0.1 * x**3]), triangles, normals
+
+
+def central_differences(function, points, h=1e-5):
+    steps = h * np.eye(2)
+    return np.stack([(function(points + step) - function(points - step)) / (2 * h) for step in steps], 1)
+
+
+def warp_error(cells):
+    """Of the wanted change of the field against the exact one, relative, away from the border."""
+    positions, triangles, normals = bowl(cells)
+    view, line = np.array([0.0, 0, 1]), np.array([0.1, 1, 0.2])
+    solver = reflines.ShapeOptimizer(positions, triangles, view_direction=view, line_direction=line)
+    target, _ = warped(solver, bump, cells=256)
+    to_world = solver.frame[:2, :2]
+    centre = (solver.xy.min(0) + solver.xy.max(0)) / 2
+
+    def exact(p):
+        return (reflines.theta(normals(inverse_bump(p, centre) @ to_world), view, line)
+                - reflines.theta(normals(p @ to_world), view, line))
+
+    inner = (np.abs(positions[triangles].mean(1)[:, :2]) < [0.6, 0.45]).all(1)
+    wanted = central_differences(exact, solver.centers)[inner]
+    return rms((target.gradient - solver.field())[inner] - wanted) / rms(wanted)
+
+
+def test_warp_agrees_with_the_exact_inverse_on_analytic_lines():
+    """theta_warp(x) is theta of the normal at w^-1(x); the P1 gradient on an irregular mesh is of first order."""
+    coarse, fine = warp_error(24), warp_error(48)
+    assert coarse < 0.15 and fine < coarse / 1.7
 
 
 def test_folded_lattice_is_refused_in_words(solver):
@@ -139,7 +151,7 @@ def test_pattern_is_the_gradient_of_the_blurred_image(solver):
     target = reflines.pattern(solver, image=image, strength=2.0, keep=0.0, width=width)
     cx, cy = solver.centers.T
     wanted = 2 * 0.3 * np.stack([3 * np.cos(3 * cx) * np.cos(2 * cy), -2 * np.sin(3 * cx) * np.sin(2 * cy)], 1)
-    assert rms(target.gradient - wanted) < 0.02 * rms(wanted)
+    assert rms(target.gradient - wanted) < 0.05 * rms(wanted)  # P1 gradients of a wave of 2 on 32 irregular cells
 
 
 def test_blur_takes_the_sharpness_away(solver):
