@@ -1,4 +1,4 @@
-"""Debian's archive as this machine's apt reaches it, asked for any suite by a private apt that leaves the machine's own alone."""
+"""Debian's archive as this machine's apt reaches it, asked for any suite by a private apt beside the machine's own."""
 import os
 import re
 import subprocess
@@ -15,7 +15,7 @@ class Unavailable(Exception):
 
 
 def output(*command: str | Path, cwd: Path | None = None) -> str:
-    result = subprocess.run(command, cwd=cwd, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    result = subprocess.run(command, cwd=cwd, text=True, capture_output=True)
     if result.returncode != 0:
         raise Unavailable(f"{' '.join(map(str, command[:3]))} ...: {result.stderr.strip()[-400:]}")
     return result.stdout

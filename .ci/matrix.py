@@ -1,13 +1,13 @@
 """Tests the package in the Blender of each Debian: 3.4 in bookworm, 4.3 in trixie, 5.2 in sid.
 
-Each suite gets a root of its own by debootstrap, kept in the cache folder, with Blender and what the tests need, but without
-the libraries that the solver is made of. There the package is installed as a user would, and the lanes run against what
-was installed; the add-on's source is not there at all. A suite whose archive cannot be had counts as skipped. Needs root.
+Each suite gets a root of its own by debootstrap, kept in the cache folder, with Blender and what the tests need, but
+without the libraries that the solver is made of. There the package is installed as a user would, and the lanes run
+against what was installed; the add-on's source is not there at all. A suite whose archive cannot be had counts as
+skipped. Needs root.
 """
 import hashlib
 import os
 import shutil
-import subprocess
 import sys
 import time
 from dataclasses import dataclass

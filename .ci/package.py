@@ -1,10 +1,10 @@
 """Makes the one zip that a user installs: build/package/reflection_lines-VERSION.zip.
 
-The zip has one top-level folder, so that Blender 3.4 takes it as a legacy add-on and 4.2 and later as an extension, with the
-native module once for each Python side by side. Headers of the Pythons come from the Debian suites that have them; one
-compiler and one C library, those of this machine, serve all. SuiteSparse, METIS, OpenBLAS, OpenSubdiv and libstdc++ are
-inside the module and show no symbol outside, so that they cannot meet Blender's own copies. libgomp stays outside: two OpenMP
-runtimes in one process fight over the cores, and Blender's own libraries bring it.
+The zip has one top-level folder, so that Blender 3.4 takes it as a legacy add-on and 4.2 and later as an extension,
+with the native module once for each Python side by side. Headers of the Pythons come from the Debian suites that have
+them; one compiler and one C library, those of this machine, serve all. SuiteSparse, METIS, OpenBLAS, OpenSubdiv and
+libstdc++ are inside the module and show no symbol outside, so that they cannot meet Blender's own copies. libgomp
+stays outside: two OpenMP runtimes in one process fight over the cores, and Blender's own libraries bring it.
 """
 import os
 import re
@@ -45,8 +45,9 @@ def configure(pythons: list[str], prefix: Path) -> None:
     lib = prefix / "lib"
     cholmod = ";".join(str(lib / f"lib{name}.a") for name in CHOLMOD)
     values = {"CMAKE_BUILD_TYPE": "Release", "REFLINES_PYTHON": "OFF", "REFLINES_TESTS": "OFF", "CHOLMOD": cholmod,
-              "REFLINES_PACKAGE_PYTHONS": ";".join(pythons), "UMFPACK": lib / "libumfpack.a", "OPENBLAS": lib / "libopenblas.a",
-              "OSD_CPU": lib / "libosdCPU.a", "SUITESPARSE_INCLUDE": prefix / "include/suitesparse",
+              "REFLINES_PACKAGE_PYTHONS": ";".join(pythons), "UMFPACK": lib / "libumfpack.a",
+              "OPENBLAS": lib / "libopenblas.a", "OSD_CPU": lib / "libosdCPU.a",
+              "SUITESPARSE_INCLUDE": prefix / "include/suitesparse",
               "CMAKE_CXX_FLAGS": f"-isystem {prefix / 'include'} -ffunction-sections -fdata-sections"}
     given = [f"-D{name}={value}" for name, value in values.items()]
     output("cmake", "-S", ROOT, "-B", BUILD / "cmake", "-G", "Ninja", *given)
@@ -63,8 +64,9 @@ def check(module: Path) -> str:
     shown = {line.split()[-1] for line in output("nm", "-D", "--defined-only", module).splitlines()}
     if needed - ALLOWED or shown != {"PyInit_reflines"}:
         sys.exit(f"{module.name} needs {needed - ALLOWED} and shows {sorted(shown)[:5]}")
-    glibc = max(re.findall(r"GLIBC_(\d+)\.(\d+)", output("readelf", "-V", module)), key=lambda pair: tuple(map(int, pair)))
-    return f"{module.name}: {module.stat().st_size / 1e6:.1f} MB, glibc {'.'.join(glibc)} or newer, {', '.join(sorted(needed))}"
+    versions = re.findall(r"GLIBC_2\.(\d+)", output("readelf", "-V", module))
+    size = module.stat().st_size / 1e6
+    return f"{module.name}: {size:.1f} MB, glibc 2.{max(map(int, versions))} or newer, {', '.join(sorted(needed))}"
 
 
 def version() -> str:

@@ -1,9 +1,9 @@
 """Builds the libraries that go into the package, from Debian's sources: static, position independent, hidden.
 
 Debian's own archives will not do: those of SuiteSparse are not position independent, METIS and OpenSubdiv have none.
-OpenBLAS's archive is fit and is taken as it is, with kernels for every x86-64 processor: the serial one, since the solver
-asks BLAS for one thread (same input, same bits). About two minutes on two idle cores;
-kept in the cache folder, delete it there to build anew.
+OpenBLAS's archive is fit and is taken as it is, with kernels for every x86-64 processor: the serial one, since the
+solver asks BLAS for one thread (same input, same bits). Two and a half minutes on two idle cores; kept in the cache
+folder, delete it there to build anew.
 """
 import os
 import shutil
@@ -15,8 +15,8 @@ from debian import BUILT_WITH, CACHE, Suite
 PREFIX = CACHE / "static"
 FLAGS = "-O3 -fPIC -fvisibility=hidden -w"
 SUITESPARSE = ("SuiteSparse_config", "AMD", "CAMD", "COLAMD", "CCOLAMD", "CHOLMOD", "UMFPACK")
-OPENSUBDIV_OFF = ("EXAMPLES", "TUTORIALS", "REGRESSION", "DOC", "OMP", "TBB", "CUDA", "OPENCL", "CLEW", "OPENGL", "METAL",
-                  "DX", "TESTS", "GLTESTS", "PTEX")
+OPENSUBDIV_OFF = ("EXAMPLES", "TUTORIALS", "REGRESSION", "DOC", "OMP", "TBB", "CUDA", "OPENCL", "CLEW", "OPENGL",
+                  "METAL", "DX", "TESTS", "GLTESTS", "PTEX")
 
 
 def run(*command: str | Path) -> None:
@@ -37,7 +37,8 @@ def opensubdiv(suite: Suite, work: Path, prefix: Path) -> None:
     options = [f"-DNO_{part}=ON" for part in OPENSUBDIV_OFF]
     build = cmake(source, "osd_static_cpu", "-DBUILD_SHARED_LIBS=OFF", *options)
     shutil.copy(next(build.rglob("libosdCPU.a")), prefix / "lib")
-    shutil.copytree(source / "opensubdiv", prefix / "include/opensubdiv", ignore=shutil.ignore_patterns("*.cpp", "*.glsl"))
+    no_headers = shutil.ignore_patterns("*.cpp", "*.glsl")
+    shutil.copytree(source / "opensubdiv", prefix / "include/opensubdiv", ignore=no_headers)
 
 
 def metis(suite: Suite, work: Path, prefix: Path) -> Path:
@@ -49,9 +50,10 @@ def metis(suite: Suite, work: Path, prefix: Path) -> Path:
 
 def suitesparse(suite: Suite, work: Path, prefix: Path, metis_include: Path) -> None:
     source = suite.source("suitesparse", work)
+    options = [f"JOBS={os.cpu_count()}", "CC=ccache cc", f"CFLAGS={FLAGS}", "AUTOCC=no", "CUDA=no", "BLAS=-lopenblas",
+               "LAPACK=", "MY_METIS_LIB=-lmetis", f"MY_METIS_INC={metis_include}"]
     for part in SUITESPARSE:
-        run("make", "-s", "-C", source / part, "static", f"JOBS={os.cpu_count()}", "CC=ccache cc", f"CFLAGS={FLAGS}",
-            "AUTOCC=no", "CUDA=no", "BLAS=-lopenblas", "LAPACK=", "MY_METIS_LIB=-lmetis", f"MY_METIS_INC={metis_include}")
+        run("make", "-s", "-C", source / part, "static", *options)
         shutil.copy(next((source / part).rglob("lib*.a")), prefix / "lib")
         for header in (source / part).glob("**/*.h"):
             if header.parent.name in ("Include", "SuiteSparse_config"):

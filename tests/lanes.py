@@ -117,7 +117,8 @@ def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int) 
     code = process.wait()
     watch.cancel()
     if counts is None or code == -signal.SIGKILL:
-        print(f"{command[-1]}: exit code {code}, {'no line of counts' if counts is None else f'ended after {timeout} s'}")
+        why = "no line of counts" if counts is None else f"stopped after {timeout} s"
+        print(f"{command[-1]}: exit code {code}, {why}")
         return CRASHED
     return judged(counts, code, command[-1])
 

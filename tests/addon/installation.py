@@ -1,6 +1,7 @@
 """Installs and enables the add-on as a user has it: in the scripts folder, by its name, through the preferences.
 
-Where REFLINES_ADDON names an add-on that was installed from the package, and REFLINES_FOLDER its place, that one is enabled.
+Where REFLINES_ADDON names an add-on that was installed from the package, and REFLINES_FOLDER its place, that one is
+enabled.
 """
 import os
 import sys
@@ -36,4 +37,6 @@ def install() -> None:
         link_checkout()
     if bpy.ops.preferences.addon_enable(module=NAME) != {'FINISHED'}:
         raise SystemExit(f"{NAME} could not be enabled")
-    sys.modules["reflection_lines"] = sys.modules[NAME]  # an extension goes by a longer name; tests import by this one
+    # An extension goes by a longer name; tests import by this one.
+    parts = [name for name in sys.modules if name == NAME or name.startswith(NAME + ".")]
+    sys.modules.update({"reflection_lines" + name.removeprefix(NAME): sys.modules[name] for name in parts})

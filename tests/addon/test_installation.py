@@ -2,6 +2,7 @@
 import shutil
 import sys
 from collections.abc import Iterator
+from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 import bpy
@@ -75,7 +76,7 @@ def test_settings_survive_disabling() -> None:
 def copy(tmp_path) -> Iterator[Path]:
     """A copy of the add-on without its native module, which the test may put back in some other form, then enable."""
     folder = tmp_path / COPY
-    shutil.copytree(installation.ROOT / "addon", folder, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    shutil.copytree(installation.FOLDER, folder, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
     sys.path.append(str(tmp_path))
     disable()
     yield folder
@@ -87,7 +88,7 @@ def copy(tmp_path) -> Iterator[Path]:
 
 
 def native_module() -> Path:
-    return next((installation.ROOT / "addon").glob("reflines*.so"))
+    return next(path for suffix in EXTENSION_SUFFIXES for path in installation.FOLDER.glob("reflines" + suffix))
 
 
 def stays_enabled_and_says(problem: str, remedy: str) -> None:
