@@ -1,6 +1,7 @@
 """The shape of the repository, and a README that tells the truth about it."""
 import re
 import subprocess
+import tomllib
 
 from tree import ROOT, files
 
@@ -49,6 +50,14 @@ def test_every_verb_is_in_the_readme() -> None:
 def test_the_readme_names_no_verb_that_is_not_there() -> None:
     named = set(re.findall(r"\./run ([a-z]+)", readme()))
     assert named <= set(verbs()), f"README.md names {named - set(verbs())}"
+
+
+def test_one_version() -> None:
+    """CMake's, the extension's and the legacy add-on's."""
+    cmake = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
+    manifest = tomllib.loads((ROOT / "addon/blender_manifest.toml").read_text())["version"]
+    legacy = re.search(r'"version": \((\d+), (\d+), (\d+)\)', (ROOT / "addon/__init__.py").read_text())
+    assert cmake == manifest == ".".join(legacy.groups())
 
 
 def test_every_package_has_a_reason() -> None:
