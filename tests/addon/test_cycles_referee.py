@@ -66,7 +66,7 @@ def add_mirror() -> bpy.types.Object:
     material = bpy.data.materials.new("Mirror")
     material.use_nodes = True
     nodes = studio.NodeChain(material.node_tree)
-    mirror = nodes.add('ShaderNodeBsdfGlossy', (1.0, 1.0, 1.0, 1.0), 0.0, distribution='SHARP')
+    mirror = nodes.add('ShaderNodeBsdfGlossy', (1.0, 1.0, 1.0, 1.0), 0.0, distribution='GGX')  # roughness 0: a mirror
     nodes.add('ShaderNodeOutputMaterial', mirror.outputs[0])
     panel.data.materials.append(material)
     return panel
