@@ -80,7 +80,7 @@ def light_by_angle(view: np.ndarray, line: np.ndarray) -> None:
     nodes = studio.NodeChain(world.node_tree)
     theta = studio.theta_of_direction(nodes, studio.Vector(view), studio.Vector(line))
     channels = [nodes.math('MULTIPLY_ADD', nodes.math(wave, theta), 0.5, 0.5) for wave in ('COSINE', 'SINE')]
-    colour = nodes.add('ShaderNodeCombineRGB', *channels, 0.5)
+    colour = nodes.add('ShaderNodeCombineColor', *channels, 0.5)
     background = nodes.add('ShaderNodeBackground', colour.outputs[0], 1.0)
     nodes.add('ShaderNodeOutputWorld', background.outputs[0])
 
