@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 import pytest
-from reflection_lines.native import reflines
+from reflection_lines import native
 
 import scenes
 
@@ -29,9 +29,10 @@ def region_arrays(ob: bpy.types.Object, cells: int, margin: int = 1) -> tuple[np
 
 def solved(V: np.ndarray, F: np.ndarray, length: float, strength: float, border: str) -> np.ndarray:
     settings = bpy.context.scene.reflection_lines
-    v, a = (np.array(ob.matrix_world)[:3, 2] for ob in (settings.camera, settings.light))
-    optimizer = reflines.ShapeOptimizer(V, F, view_direction=v, line_direction=a / np.linalg.norm(a), border=border)
-    optimizer.solve(reflines.smooth(optimizer, length=length, strength=strength))
+    v, a = (np.array(ob.matrix_world, dtype=float)[:3, 2] for ob in (settings.camera, settings.light))
+    v, a = v / np.linalg.norm(v), a / np.linalg.norm(a)
+    optimizer = native.reflines.ShapeOptimizer(V, F, view_direction=v, line_direction=a, border=border)
+    optimizer.solve(native.reflines.smooth(optimizer, length=length, strength=strength))
     return optimizer.positions
 
 
