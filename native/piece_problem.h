@@ -42,8 +42,8 @@ class PieceProblem : public Problem {
 
   // Fills the piece's rows of area, vertex_theta and vertex_gradient: theta of the mean slopes around a vertex.
   void add_vertex_field(RegionField& region) const;
-  // The direction of directional smoothing is that of the isotropically smoothed lines: along lines that wobble by 40 degrees
-  // their own wobble is no detail.
+  // The direction of directional smoothing is that of the isotropically smoothed lines: along lines that wobble by 40
+  // degrees their own wobble is no detail.
   PlaneVectors smoothed(const PlaneVectors& gradient, const SmoothOptions& options);
 
   int size() const override { return unknowns_.size(); }

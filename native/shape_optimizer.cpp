@@ -13,7 +13,8 @@ namespace {
 std::string faces(int n) { return std::to_string(n) + (n == 1 ? " face" : " faces"); }
 
 const Vector3& first_of(const std::vector<Vector3>& line_directions) {
-  if (line_directions.empty()) throw InvalidInput("There is no family of light lines; give at least one line direction.");
+  if (line_directions.empty())
+    throw InvalidInput("There is no family of light lines; give at least one line direction.");
   return line_directions.front();
 }
 
@@ -22,8 +23,8 @@ Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
   if (boundary.border.empty()) boundary.border.assign(vertex_count, Border::kClamped);
   if (static_cast<Eigen::Index>(boundary.border.size()) != vertex_count ||
       (boundary.held.size() > 0 && boundary.held.size() != vertex_count)) {
-    throw InvalidInput("The border codes and the held mask need one entry for each of the " + std::to_string(vertex_count) +
-                       " vertices.");
+    throw InvalidInput("The border codes and the held mask need one entry for each of the " +
+                       std::to_string(vertex_count) + " vertices.");
   }
   return boundary;
 }
@@ -71,9 +72,10 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
     region_.hidden += pieces_.back()->hidden_count();
   }
   if (region_.free == 0) {
-    throw InvalidInput("No vertex of the region is free to move (" + faces(triangle_count_) +
-                       ": all vertices are held by the border, silhouettes or faces turned away); select a larger region, or "
-                       "choose the border Fixed instead of Clamped.");
+    throw InvalidInput(
+        "No vertex of the region is free to move (" + faces(triangle_count_) +
+        ": all vertices are held by the border, silhouettes or faces turned away); select a larger region, or "
+        "choose the border Fixed instead of Clamped.");
   }
   if (region_.unused_pieces > 0) {
     region_.messages.push_back(std::to_string(region_.unused_pieces) + " of " + std::to_string(region_.pieces) +
@@ -102,12 +104,12 @@ void ShapeOptimizer::describe(const HeightField& field) {
                                " turned away from the view or folded over: left as they are.");
   }
   if (region_.creases > 0) {
-    region_.messages.push_back(std::to_string(region_.creases) + (region_.creases == 1 ? " edge bends" : " edges bend") +
-                               " too sharply for a fair panel (gaps, folds, hems); held, the lines are solved on each side.");
+    region_.messages.push_back(
+        std::to_string(region_.creases) + (region_.creases == 1 ? " edge bends" : " edges bend") +
+        " too sharply for a fair panel (gaps, folds, hems); held, the lines are solved on each side.");
   }
   if (region_.silhouettes > 0) {
-    region_.messages.push_back(faces(region_.silhouettes) +
-                               " seen edge on (silhouettes): left as they are.");
+    region_.messages.push_back(faces(region_.silhouettes) + " seen edge on (silhouettes): left as they are.");
   }
 }
 
@@ -128,7 +130,8 @@ Positions ShapeOptimizer::positions() const {
     const std::vector<int>& vertex = piece->piece().vertex;
     for (int v = 0; v < static_cast<int>(vertex.size()); ++v) {
       const double move = piece->heights()(v) - piece->piece().field.z(v);
-      if (piece->piece().field.role[v] == VertexRole::kFree && move != 0) result.row(vertex[v]) += move * frame_.z().transpose();
+      if (piece->piece().field.role[v] == VertexRole::kFree && move != 0)
+        result.row(vertex[v]) += move * frame_.z().transpose();
     }
   }
   return result;
@@ -178,8 +181,16 @@ void ShapeOptimizer::check_family(int family) const {
 
 RegionField ShapeOptimizer::region_field(int family) const {
   check_family(family);
-  RegionField result{frame_.project(V_), F_,          active(),      Vector::Zero(triangle_count_), PlanePositions::Zero(triangle_count_, 2),
-                     theta(family),      field(family), Vector::Zero(V_.rows()), PlaneVectors::Zero(V_.rows(), 2), family};
+  RegionField result{frame_.project(V_),
+                     F_,
+                     active(),
+                     Vector::Zero(triangle_count_),
+                     PlanePositions::Zero(triangle_count_, 2),
+                     theta(family),
+                     field(family),
+                     Vector::Zero(V_.rows()),
+                     PlaneVectors::Zero(V_.rows(), 2),
+                     family};
   for (int t = 0; t < triangle_count_; ++t) {
     result.center.row(t) = (result.xy.row(F_(t, 0)) + result.xy.row(F_(t, 1)) + result.xy.row(F_(t, 2))) / 3.0;
   }
@@ -280,8 +291,10 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
       if (piece->size() == 0) continue;
       piece->set_targets(targets);
       const Report own = piece->minimize(options, progress);
-      if (report.unknowns == 0) report = own;
-      else accumulate(own, report);
+      if (report.unknowns == 0)
+        report = own;
+      else
+        accumulate(own, report);
       if (own.termination == Termination::kCancelled) break;
     }
   } catch (...) {

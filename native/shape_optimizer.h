@@ -1,5 +1,5 @@
-// The one object that bindings, tools and benchmarks use: a region of a mesh, a view, its families of light lines. Expensive
-// to build, cheap to step.
+// The one object that bindings, tools and benchmarks use: a region of a mesh, a view, its families of light lines.
+// Expensive to build, cheap to step.
 #pragma once
 
 #include <memory>
@@ -32,19 +32,19 @@ struct Region {
   int triangles = 0;  // in height-field pieces
   int free = 0, fixed = 0, clamped = 0;
   int pieces = 0;
-  int silhouettes = 0;    // triangles left out, |n.v| < 0.02
-  int turned_away = 0;    // triangles left out, n.v < 0
-  int unused_pieces = 0;  // pieces without a free vertex
-  int creases = 0;        // edges held because they bend by more than the crease angle
-  int hidden = 0;         // triangles of less weight: their reflected ray is nearly parallel to the lines
-  bool closed = false;    // the region has no border edge
+  int silhouettes = 0;                // triangles left out, |n.v| < 0.02
+  int turned_away = 0;                // triangles left out, n.v < 0
+  int unused_pieces = 0;              // pieces without a free vertex
+  int creases = 0;                    // edges held because they bend by more than the crease angle
+  int hidden = 0;                     // triangles of less weight: their reflected ray is nearly parallel to the lines
+  bool closed = false;                // the region has no border edge
   std::vector<std::string> messages;  // sentences for the user
 };
 
 class ShapeOptimizer {
  public:
-  // V (#V x 3), F (#F x 3) the region's triangles; `line_directions` one or more families, all seen from the same view. The
-  // first one sets the frame. Throws InvalidInput; keeps no reference to its arguments.
+  // V (#V x 3), F (#F x 3) the region's triangles; `line_directions` one or more families, all seen from the same view.
+  // The first one sets the frame. Throws InvalidInput; keeps no reference to its arguments.
   ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
                  const std::vector<Vector3>& line_directions, const ShapeOptions& options = {});
   ~ShapeOptimizer();
@@ -55,12 +55,12 @@ class ShapeOptimizer {
   int family_count() const { return family_count_; }
 
   // Current state. Rows of triangles outside the pieces are zero.
-  Vector heights() const;       // #V, along the view
-  Positions positions() const;  // #V x 3; vertices that did not move carry the bits they came with
-  Mask free() const;            // #V
-  Mask active() const;          // #F: triangles of height-field pieces
-  Vector theta(int family) const;         // #F, radians
-  PlaneVectors field(int family) const;   // #F x 2, grad theta
+  Vector heights() const;                // #V, along the view
+  Positions positions() const;           // #V x 3; vertices that did not move carry the bits they came with
+  Mask free() const;                     // #V
+  Mask active() const;                   // #F: triangles of height-field pieces
+  Vector theta(int family) const;        // #F, radians
+  PlaneVectors field(int family) const;  // #F x 2, grad theta
 
   // All that the builders of targets in reflection/ need of the current state.
   RegionField region_field(int family) const;
@@ -69,11 +69,12 @@ class ShapeOptimizer {
   double energy(const std::vector<Target>& targets);
   Vector residual(const Target& target) const;
 
-  // The current field of a family without its detail finer than options.length (see reflection/smooth.h), blended by strength.
+  // The current field of a family without its detail finer than options.length (see reflection/smooth.h), blended by
+  // strength.
   Target smooth_target(const SmoothOptions& options, double strength, int family);
 
-  // Wobble of the lines in degrees: the root mean square, over the triangles that can change, of |field - field smoothed at
-  // `length`| times `length`: how far, within one length, the lines stray from their own smooth course.
+  // Wobble of the lines in degrees: the root mean square, over the triangles that can change, of |field - field
+  // smoothed at `length`| times `length`: how far, within one length, the lines stray from their own smooth course.
   double score(double length, int family);
 
   // Moves the heights towards the targets, every piece on its own. On cancel or failure nothing has moved.

@@ -17,7 +17,8 @@ using IndexVector = Eigen::VectorXi;
 using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-// Second-order models of an energy, shared by those who assemble and those who minimise. All are positive semi-definite.
+// Second-order models of an energy, shared by those who assemble and those who minimise. All are positive
+// semi-definite.
 enum class HessianModel {
   kLinearized,   // constant: the Hessian of the energy linearised about flat slopes (the paper, section 3.1)
   kGaussNewton,  // J^T J at x

@@ -22,12 +22,13 @@ Target weighted(Target target, const Maybe& weight) {
   return target;
 }
 
-Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family, const Maybe& weight) {
+Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family,
+              const Maybe& weight) {
   return weighted(optimizer.smooth_target({length, directional}, strength, family), weight);
 }
 
-Target uniform(const ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative, double density_end,
-               const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
+Target uniform(const ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative,
+               double density_end, const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
   const UniformOptions options{direction, density, relative, density_end, axis};
   return weighted(uniform_target(optimizer.region_field(family), options, influence.value_or(Vector())), weight);
 }
@@ -70,11 +71,13 @@ void bind_builders(py::module_& module) {
   using Release = py::call_guard<py::gil_scoped_release>;
   const UniformOptions uniform_defaults;
   module.def("smooth", &smooth, py::arg("optimizer"), py::kw_only(), py::arg("length"), py::arg("strength") = 1.0,
-             py::arg("directional") = SmoothOptions().directional, py::arg("family") = 0, py::arg("weight") = py::none(), Release());
-  module.def("uniform", &uniform, py::arg("optimizer"), py::kw_only(), py::arg("direction") = uniform_defaults.direction,
-             py::arg("density") = uniform_defaults.density, py::arg("relative") = uniform_defaults.relative,
-             py::arg("density_end") = uniform_defaults.density_end, py::arg("axis") = uniform_defaults.axis,
-             py::arg("influence") = py::none(), py::arg("weight") = py::none(), py::arg("family") = 0, Release());
+             py::arg("directional") = SmoothOptions().directional, py::arg("family") = 0,
+             py::arg("weight") = py::none(), Release());
+  module.def("uniform", &uniform, py::arg("optimizer"), py::kw_only(),
+             py::arg("direction") = uniform_defaults.direction, py::arg("density") = uniform_defaults.density,
+             py::arg("relative") = uniform_defaults.relative, py::arg("density_end") = uniform_defaults.density_end,
+             py::arg("axis") = uniform_defaults.axis, py::arg("influence") = py::none(), py::arg("weight") = py::none(),
+             py::arg("family") = 0, Release());
   module.def("turn", &turn, py::arg("optimizer"), py::kw_only(), py::arg("angle"), py::arg("influence") = py::none(),
              py::arg("weight") = py::none(), py::arg("family") = 0, Release());
   module.def(

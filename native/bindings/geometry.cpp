@@ -25,8 +25,8 @@ double theta_of_normal(const ImagePlane& frame, const ReflectionFunction& reflec
 
 Vector theta(const Positions& normals, const Positions& views, const Vector3& line_direction) {
   if (views.rows() != 1 && views.rows() != normals.rows()) {
-    throw InvalidInput("There are " + std::to_string(views.rows()) + " view directions for " + std::to_string(normals.rows()) +
-                       " normals; give one, or one for each.");
+    throw InvalidInput("There are " + std::to_string(views.rows()) + " view directions for " +
+                       std::to_string(normals.rows()) + " normals; give one, or one for each.");
   }
   Vector result(normals.rows());
   for (Eigen::Index k = 0; k < normals.rows(); ++k) {
@@ -44,7 +44,9 @@ void bind_geometry(py::module_& module) {
   module.def("theta", &theta, py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
   module.def(
       "theta",
-      [](const Positions& normals, const Vector3& view, const Vector3& line) { return theta(normals, view.transpose(), line); },
+      [](const Positions& normals, const Vector3& view, const Vector3& line) {
+        return theta(normals, view.transpose(), line);
+      },
       py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
   py::class_<NormalFit>(module, "NormalFit")
       .def(py::init<const Positions&, const Triangles&, double>(), py::arg("V"), py::arg("F"), py::kw_only(),

@@ -71,9 +71,10 @@ std::vector<Target> listed(const Targets& targets) {
 }
 
 std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Triangles& F, const Vector3& view_direction,
-                                     const Eigen::MatrixXd& line_direction, const std::variant<std::string, Codes>& border,
-                                     const std::optional<Mask>& fixed, const std::string& stencil,
-                                     const std::string& linear_solver, double crease_angle, double proximity) {
+                                     const Eigen::MatrixXd& line_direction,
+                                     const std::variant<std::string, Codes>& border, const std::optional<Mask>& fixed,
+                                     const std::string& stencil, const std::string& linear_solver, double crease_angle,
+                                     double proximity) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -116,10 +117,10 @@ void bind_optimizer(py::module_& module) {
   const ShapeOptions shape;
   using Release = py::call_guard<py::gil_scoped_release>;
   py::class_<ShapeOptimizer>(module, "ShapeOptimizer")
-      .def(py::init(&make), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
-           py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("stencil") = "consistent",
-           py::arg("linear_solver") = "cholmod", py::arg("crease_angle") = shape.crease_angle,
-           py::arg("proximity") = shape.proximity)
+      .def(py::init(&make), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
+           py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
+           py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
+           py::arg("crease_angle") = shape.crease_angle, py::arg("proximity") = shape.proximity)
       .def_property_readonly("region", &ShapeOptimizer::region)
       .def_property_readonly("frame", &frame_rows)
       .def_property_readonly("heights", &ShapeOptimizer::heights)
@@ -128,15 +129,23 @@ void bind_optimizer(py::module_& module) {
       .def_property_readonly("active", &ShapeOptimizer::active)
       .def_property_readonly("xy", [](const ShapeOptimizer& o) { return o.region_field(0).xy; })
       .def_property_readonly("centers", [](const ShapeOptimizer& o) { return o.region_field(0).center; })
-      .def("theta", [](const ShapeOptimizer& o, int family) { return o.theta(checked_family(o, family)); }, py::arg("family") = 0)
-      .def("field", [](const ShapeOptimizer& o, int family) { return o.field(checked_family(o, family)); }, py::arg("family") = 0)
-      .def("energy", [](ShapeOptimizer& o, const Targets& targets) { return o.energy(listed(targets)); }, py::arg("target"))
+      .def(
+          "theta", [](const ShapeOptimizer& o, int family) { return o.theta(checked_family(o, family)); },
+          py::arg("family") = 0)
+      .def(
+          "field", [](const ShapeOptimizer& o, int family) { return o.field(checked_family(o, family)); },
+          py::arg("family") = 0)
+      .def(
+          "energy", [](ShapeOptimizer& o, const Targets& targets) { return o.energy(listed(targets)); },
+          py::arg("target"))
       .def("residual", &ShapeOptimizer::residual, py::arg("target"), Release())
-      .def("score", [](ShapeOptimizer& o, double length, int family) { return o.score(length, checked_family(o, family)); },
-           py::arg("length"), py::arg("family") = 0, Release())
+      .def(
+          "score",
+          [](ShapeOptimizer& o, double length, int family) { return o.score(length, checked_family(o, family)); },
+          py::arg("length"), py::arg("family") = 0, Release())
       .def("solve", &solve, py::arg("target"), py::kw_only(), py::arg("strategy") = to_string(minimizer.strategy),
-           py::arg("gradient_tolerance") = minimizer.gradient_tolerance, py::arg("max_iterations") = minimizer.max_iterations,
-           py::arg("progress") = py::none())
+           py::arg("gradient_tolerance") = minimizer.gradient_tolerance,
+           py::arg("max_iterations") = minimizer.max_iterations, py::arg("progress") = py::none())
       .def("reset", &ShapeOptimizer::reset);
 }
 

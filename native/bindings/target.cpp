@@ -1,10 +1,11 @@
+#include "native/reflection/target.h"
+
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <optional>
 
 #include "native/bindings/bind.h"
-#include "native/reflection/target.h"
 
 namespace py = pybind11;
 
@@ -12,8 +13,8 @@ namespace reflines {
 
 void bind_target(py::module_& module) {
   py::class_<Target>(module, "Target")
-      .def(py::init([](const PlaneVectors& gradient, const std::optional<Vector>& weight, const std::optional<Vector>& theta,
-                       int family) {
+      .def(py::init([](const PlaneVectors& gradient, const std::optional<Vector>& weight,
+                       const std::optional<Vector>& theta, int family) {
              return Target{gradient, weight.value_or(Vector()), theta.value_or(Vector()), family};
            }),
            py::arg("gradient"), py::arg("weight") = py::none(), py::kw_only(), py::arg("theta") = py::none(),

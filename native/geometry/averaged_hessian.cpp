@@ -1,5 +1,5 @@
-// The triangle-averaged Hessian: H_T = 1 / (2 A_T) sum_i sym((grad f_i - grad f_T) (x) t_i) over the edges i with a neighbour
-// T_i, t_i the outward perpendicular of edge i with the edge's length (eq. 6, re-derived).
+// The triangle-averaged Hessian: H_T = 1 / (2 A_T) sum_i sym((grad f_i - grad f_T) (x) t_i) over the edges i with a
+// neighbour T_i, t_i the outward perpendicular of edge i with the edge's length (eq. 6, re-derived).
 #include "native/geometry/stencil.h"
 
 namespace reflines {

@@ -33,19 +33,22 @@ void apply_stencils(const Stencils& stencils, const Vector& z, TriangleDerivativ
       xy += second[1] * height;
       yy += second[2] * height;
     }
-    u.row(t) << weight[0] * a + weight[2] * b + weight[4] * c, weight[1] * a + weight[3] * b + weight[5] * c, xx, xy, yy;
+    u.row(t) << weight[0] * a + weight[2] * b + weight[4] * c, weight[1] * a + weight[3] * b + weight[5] * c, xx, xy,
+        yy;
   }
 }
 
 Eigen::Matrix<double, 5, 1> entry_weights(const Stencils& stencils, int triangle, int entry) {
   const int slot = entry - stencils.offset[triangle];
   Eigen::Matrix<double, 5, 1> weights;
-  weights << (slot < 3 ? stencils.gradient(triangle, 2 * slot) : 0.0), (slot < 3 ? stencils.gradient(triangle, 2 * slot + 1) : 0.0),
-      stencils.hessian(entry, 0), stencils.hessian(entry, 1), stencils.hessian(entry, 2);
+  weights << (slot < 3 ? stencils.gradient(triangle, 2 * slot) : 0.0),
+      (slot < 3 ? stencils.gradient(triangle, 2 * slot + 1) : 0.0), stencils.hessian(entry, 0),
+      stencils.hessian(entry, 1), stencils.hessian(entry, 2);
   return weights;
 }
 
-void apply_transposed(const Stencils& stencils, const StencilEntries& entries, const TriangleDerivatives& y, Vector& result) {
+void apply_transposed(const Stencils& stencils, const StencilEntries& entries, const TriangleDerivatives& y,
+                      Vector& result) {
   const Incidence& lists = entries.entries_of_vertex;
   result.resize(lists.size());
 #pragma omp parallel for schedule(static)

@@ -9,8 +9,8 @@ namespace reflines {
 // #T x 5, one row a triangle: f_x, f_y, f_xx, f_xy, f_yy.
 using TriangleDerivatives = Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor>;
 
-// Which stencil entries name each vertex: the rows of D^T. Gathering by vertex instead of scattering by triangle makes the
-// sums independent of the number of threads.
+// Which stencil entries name each vertex: the rows of D^T. Gathering by vertex instead of scattering by triangle makes
+// the sums independent of the number of threads.
 struct StencilEntries {
   Incidence entries_of_vertex;
   std::vector<int> triangle;  // #entries: whose stencil an entry belongs to
@@ -22,7 +22,8 @@ struct StencilEntries {
 void apply_stencils(const Stencils& stencils, const Vector& z, TriangleDerivatives& u);
 
 // D^T y (#V) for one 5-vector a triangle; `result` keeps its memory.
-void apply_transposed(const Stencils& stencils, const StencilEntries& entries, const TriangleDerivatives& y, Vector& result);
+void apply_transposed(const Stencils& stencils, const StencilEntries& entries, const TriangleDerivatives& y,
+                      Vector& result);
 
 // The five weights of one stencil entry: its column of D.
 Eigen::Matrix<double, 5, 1> entry_weights(const Stencils& stencils, int triangle, int entry);

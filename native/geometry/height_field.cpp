@@ -58,17 +58,15 @@ void project(const Positions& V, const ImagePlane& frame, HeightField& field) {
 // Cuts `neighbors` at the creases and returns their vertices.
 Mask cut_creases(const Positions& V, double angle, HeightField& field) {
   Mask on_crease = Mask::Constant(V.rows(), false);
-  const double cosine = std::cos(angle);
-  const Triangles neighbors = field.neighbors;
+  const EdgeMask crease = crease_edges(V, field.F, field.neighbors, angle);
   for (int t = 0; t < field.triangle_count(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      const int other = neighbors(t, i);
-      if (other < 0 || unit_normal(V, field.F, t).dot(unit_normal(V, field.F, other)) >= cosine) continue;
-      field.neighbors(t, i) = -1;
-      field.crease_count += other > t;
+      if (!crease(t, i)) continue;
+      field.crease_count += field.neighbors(t, i) > t;
       on_crease(field.F(t, (i + 1) % 3)) = on_crease(field.F(t, (i + 2) % 3)) = true;
     }
   }
+  field.neighbors = crease.select(-1, field.neighbors);
   return on_crease;
 }
 
@@ -87,7 +85,8 @@ Mask edge_vertices(const Triangles& F, const Triangles& neighbors, const Mask& o
   return result;
 }
 
-void assign_roles(const Triangles& F, const Mask& edge, const Boundary& boundary, const Mask& always_fixed, HeightField& field) {
+void assign_roles(const Triangles& F, const Mask& edge, const Boundary& boundary, const Mask& always_fixed,
+                  HeightField& field) {
   field.role.assign(field.vertex_count(), VertexRole::kUnused);
   for (int k = 0; k < field.F.size(); ++k) field.role[field.F.data()[k]] = VertexRole::kFree;
   for (int v = 0; v < field.vertex_count(); ++v) {
@@ -107,16 +106,23 @@ int root(std::vector<int>& parent, int t) {
   return t;
 }
 
+void unite(std::vector<int>& parent, int s, int t) {
+  const int a = root(parent, s), b = root(parent, t);
+  parent[std::max(a, b)] = std::min(a, b);
+}
+
 void find_pieces(const Mask& separating, HeightField& field) {
   std::vector<int> parent(field.triangle_count());
   std::iota(parent.begin(), parent.end(), 0);
   const Incidence& around = field.triangles_of_vertex;
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (field.neighbors(t, i) >= 0) unite(parent, t, field.neighbors(t, i));
+    }
+  }
   for (int v = 0; v < field.vertex_count(); ++v) {
     if (separating(v)) continue;
-    for (int k = around.begin(v) + 1; k < around.end(v); ++k) {
-      const int a = root(parent, around.items[k - 1]), b = root(parent, around.items[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (int k = around.begin(v) + 1; k < around.end(v); ++k) unite(parent, around.items[k - 1], around.items[k]);
   }
   std::vector<int> number(field.triangle_count(), -1);
   field.piece.resize(field.triangle_count());
@@ -139,13 +145,15 @@ double HeightField::diagonal() const {
   return (high - low).norm();
 }
 
-HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame, const Boundary& boundary) {
+HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame,
+                              const Boundary& boundary) {
   HeightField field;
   const Mask left_out = keep_facing(V, F, frame.z(), field);
   if (field.F.rows() == 0) {
-    throw InvalidInput("All " + std::to_string(F.rows()) +
-                       " faces of the region turn away from the view or are seen edge on; look at the panel's outside, or flip "
-                       "its normals with Mesh > Normals > Recalculate Outside.");
+    throw InvalidInput(
+        "All " + std::to_string(F.rows()) +
+        " faces of the region turn away from the view or are seen edge on; look at the panel's outside, or flip "
+        "its normals with Mesh > Normals > Recalculate Outside.");
   }
   const Triangles neighbors = edge_neighbors(F);
   field.closed = neighbors.minCoeff() >= 0;

@@ -1,8 +1,10 @@
-// A region of a mesh as height-field pieces over the image plane, and what each of its vertices may do (paper, section 3).
+// A region of a mesh as height-field pieces over the image plane, and what each of its vertices may do (paper, section
+// 3).
 #pragma once
 
 #include <vector>
 
+#include "native/geometry/crease.h"
 #include "native/geometry/image_plane.h"
 #include "native/geometry/mesh.h"
 #include "native/types.h"
@@ -24,27 +26,22 @@ enum class VertexRole : signed char {
   kClamped,  // stays because a clamped border vertex is one edge away
 };
 
-// Edges that bend by more (30 degrees) are no part of a fair panel but gaps, folds and hems: lines jump there. They are held,
-// and no stencil reaches across. Measured on a car's bonnet selected across the gap to the windscreen: without this the gap's
-// field (140 rad / m against 0.5 on the panel) drags vertices by 38 mm.
-constexpr double kCreaseAngle = 0.5235987755982988;
-
 struct Boundary {
-  std::vector<Border> border;  // #V, read at border vertices only
-  Mask held;                   // #V, or empty: vertices that stay whatever the border says
-  double crease_angle = kCreaseAngle;  // radians; edges that bend by more are creases
+  std::vector<Border> border;          // #V, read at border vertices only
+  Mask held;                           // #V, or empty: vertices that stay whatever the border says
+  double crease_angle = kCreaseAngle;  // radians; see crease_edges
 };
 
 // Triangles whose unit normal n has |n.v| below this are silhouettes: nothing seen there can be controlled by heights.
 constexpr double kSilhouette = 0.02;
 
 struct HeightField {
-  Triangles F;                    // #T x 3: the triangles that face the viewer, indices into the region's vertices
-  std::vector<int> source;        // #T: which triangle of the region each one is
-  Triangles neighbors;            // #T x 3: the one across the edge opposite each corner, or -1; also -1 across a crease
-  Vector area;                    // #T: projected area, > 0
-  PlanePositions xy;              // #V x 2, from the region's centroid
-  Vector z;                       // #V, from the region's centroid
+  Triangles F;              // #T x 3: the triangles that face the viewer, indices into the region's vertices
+  std::vector<int> source;  // #T: which triangle of the region each one is
+  Triangles neighbors;      // #T x 3: the one across the edge opposite each corner, or -1; also -1 across a crease
+  Vector area;              // #T: projected area, > 0
+  PlanePositions xy;        // #V x 2, from the region's centroid
+  Vector z;                 // #V, from the region's centroid
   Incidence triangles_of_vertex;  // among F
   std::vector<VertexRole> role;   // #V
   std::vector<int> piece;         // #T: 0 .. piece_count - 1
@@ -59,9 +56,10 @@ struct HeightField {
   double diagonal() const;  // of the bounding box of the used vertices in the image plane
 };
 
-// Splits a checked region (see check_surface) at its silhouettes and creases. Vertices of triangles left out and of creases are
-// fixed. Pieces are coupled sets: triangles that share any other vertex belong to one piece.
-// Throws InvalidInput where no triangle faces the viewer.
-HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame, const Boundary& boundary);
+// Splits a checked region (see check_surface) at its silhouettes and creases (see crease_edges). Vertices of triangles
+// left out and of creases are fixed. Pieces are coupled sets: triangles that share an edge or any other vertex belong
+// to one piece. Throws InvalidInput where no triangle faces the viewer.
+HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame,
+                              const Boundary& boundary);
 
 }  // namespace reflines

@@ -26,7 +26,8 @@ ImagePlane::ImagePlane(const Vector3& view_direction, const Vector3& line_direct
   const Vector3 projected = a - a.dot(z_) * z_;
   if (projected.norm() < kParallel) {
     throw InvalidInput(
-        "The light direction is parallel to the view, so no reflection lines can be seen; turn the light empty (its local Z) "
+        "The light direction is parallel to the view, so no reflection lines can be seen; turn the light empty (its "
+        "local Z) "
         "away from the view.");
   }
   y_ = projected.normalized();

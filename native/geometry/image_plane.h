@@ -9,7 +9,8 @@ namespace reflines {
 // The view direction points from the surface towards the viewer.
 class ImagePlane {
  public:
-  // Directions of any length. Throws InvalidInput where one is zero or not finite, or the two are parallel (to 0.06 degrees).
+  // Directions of any length. Throws InvalidInput where one is zero or not finite, or the two are parallel (to 0.06
+  // degrees).
   ImagePlane(const Vector3& view_direction, const Vector3& line_direction);
 
   const Vector3& x() const { return x_; }

@@ -12,8 +12,11 @@ struct BinRange {
   int left, right, bottom, top;
 };
 
-BinRange clamped_range(const Vector2& low, const Vector2& high, const Vector2& origin, const Vector2& cell, int columns, int rows) {
-  const auto index = [](double value, int count) { return std::clamp(static_cast<int>(std::floor(value)), 0, count - 1); };
+BinRange clamped_range(const Vector2& low, const Vector2& high, const Vector2& origin, const Vector2& cell, int columns,
+                       int rows) {
+  const auto index = [](double value, int count) {
+    return std::clamp(static_cast<int>(std::floor(value)), 0, count - 1);
+  };
   return {index((low.x() - origin.x()) / cell.x(), columns), index((high.x() - origin.x()) / cell.x(), columns),
           index((low.y() - origin.y()) / cell.y(), rows), index((high.y() - origin.y()) / cell.y(), rows)};
 }

@@ -9,8 +9,8 @@
 namespace reflines {
 
 struct Location {
-  int triangle = -1;                        // -1: outside the mesh
-  Vector3 barycentric = Vector3::Zero();    // of the triangle's corners
+  int triangle = -1;                      // -1: outside the mesh
+  Vector3 barycentric = Vector3::Zero();  // of the triangle's corners
 };
 
 class TriangleLocator {

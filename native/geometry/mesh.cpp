@@ -48,8 +48,8 @@ void check_indices(const Positions& V, const Triangles& F) {
   if (F.rows() == 0) throw InvalidInput("The region has no face; select the faces of the panel first.");
   if (F.minCoeff() >= 0 && F.maxCoeff() < V.rows()) return;
   const int wrong = F.minCoeff() < 0 ? F.minCoeff() : F.maxCoeff();
-  throw InvalidInput("The triangles name vertex " + std::to_string(wrong) + " but there are " + std::to_string(V.rows()) +
-                     " vertices; pass indices from 0 to #V - 1.");
+  throw InvalidInput("The triangles name vertex " + std::to_string(wrong) + " but there are " +
+                     std::to_string(V.rows()) + " vertices; pass indices from 0 to #V - 1.");
 }
 
 void check_finite(const Positions& V, const Triangles& F) {
@@ -98,9 +98,10 @@ void check_manifold(const Triangles& F) {
     bad += third && !fourth;
   }
   if (bad == 0) return;
-  throw InvalidInput(count(bad, "edge of the region has", "edges of the region have") +
-                     " more than two faces; find with Select > All by Trait > Non Manifold, then delete or deselect the extra "
-                     "faces.");
+  throw InvalidInput(
+      count(bad, "edge of the region has", "edges of the region have") +
+      " more than two faces; find with Select > All by Trait > Non Manifold, then delete or deselect the extra "
+      "faces.");
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct Incidence {
 };
 
 // Throws InvalidInput where V (#V x 3) and F (#F x 3) cannot be a surface: no triangle at all, an index out of range,
-// coordinates that are not finite, triangles without area in space, doubled triangles, an edge with more than two triangles.
+// coordinates that are not finite, triangles without area in space, doubled triangles, an edge with more than two
+// triangles.
 void check_surface(const Positions& V, const Triangles& F);
 
 // #F x 3: the triangle across the edge opposite corner i, or -1 on the border. F must have passed check_surface.
@@ -30,7 +31,8 @@ Incidence vertex_triangles(const Triangles& F, int vertex_count);
 // For every vertex the vertices that share an edge with it, ascending.
 Incidence vertex_neighbors(const Triangles& F, const Incidence& triangles_of_vertex);
 
-// The border of F as closed loops of vertices, each in the order of its triangles' orientation; empty for a closed surface.
+// The border of F as closed loops of vertices, each in the order of its triangles' orientation; empty for a closed
+// surface.
 std::vector<std::vector<int>> border_loops(const Triangles& F, const Triangles& neighbors);
 
 }  // namespace reflines

@@ -3,7 +3,8 @@
 namespace reflines {
 namespace {
 
-void number_vertices(const HeightField& whole, const std::vector<int>& triangles, std::vector<int>& local, Piece& piece) {
+void number_vertices(const HeightField& whole, const std::vector<int>& triangles, std::vector<int>& local,
+                     Piece& piece) {
   piece.field.F.resize(static_cast<int>(triangles.size()), 3);
   for (size_t k = 0; k < triangles.size(); ++k) {
     for (int i = 0; i < 3; ++i) {
@@ -31,7 +32,8 @@ void copy_vertices(const HeightField& whole, Piece& piece) {
 }
 
 // Creases are cut in the whole field; they must stay cut.
-void copy_neighbors(const HeightField& whole, const std::vector<int>& triangles, const std::vector<int>& number, Piece& piece) {
+void copy_neighbors(const HeightField& whole, const std::vector<int>& triangles, const std::vector<int>& number,
+                    Piece& piece) {
   piece.field.neighbors.resize(static_cast<int>(triangles.size()), 3);
   for (size_t k = 0; k < triangles.size(); ++k) {
     for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
-// Second derivatives of the quadratic through the six points of a triangle and its three neighbours, in closed form: the
-// basis quadratic of point j is the conic through the other five, by Braikenridge-Maclaurin (paper, appendix).
+// Second derivatives of the quadratic through the six points of a triangle and its three neighbours, in closed form:
+// the basis quadratic of point j is the conic through the other five, by Braikenridge-Maclaurin (paper, appendix).
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace {
 
 using Matrix3 = Eigen::Matrix3d;
 
-// Below this the five-point conic almost passes through the sixth point. Points are scaled to the size of the stencil, the
-// conic to unit norm; measured: sane irregular stencils have 1e-3 and more, exact conics 1e-16.
+// Below this the five-point conic almost passes through the sixth point. Points are scaled to the size of the stencil,
+// the conic to unit norm; measured: sane irregular stencils have 1e-3 and more, exact conics 1e-16.
 constexpr double kOnConic = 1e-10;
 
 Matrix3 cross_matrix(const Vector3& a) {
@@ -21,7 +21,8 @@ Matrix3 cross_matrix(const Vector3& a) {
   return R;
 }
 
-// The conic through five points in homogeneous coordinates as a symmetric matrix of unit norm, or zero where it is not unique.
+// The conic through five points in homogeneous coordinates as a symmetric matrix of unit norm, or zero where it is not
+// unique.
 Matrix3 conic_through(const std::array<Vector3, 5>& w) {
   const Vector3 l12 = w[0].cross(w[1]), l23 = w[1].cross(w[2]), l34 = w[2].cross(w[3]), l45 = w[3].cross(w[4]);
   const Vector3 r = l12.cross(l45);
@@ -71,7 +72,8 @@ HessianStencil quadratic_hessian(const HeightField& field, int t) {
   const std::array<Vector3, 6> w = normalized_points(field, vertex, size);
   stencil.weight.resize(3, 6);
   for (int j = 0; j < 6; ++j) {
-    const Matrix3 conic = conic_through({w[(j + 1) % 6], w[(j + 2) % 6], w[(j + 3) % 6], w[(j + 4) % 6], w[(j + 5) % 6]});
+    const Matrix3 conic =
+        conic_through({w[(j + 1) % 6], w[(j + 2) % 6], w[(j + 3) % 6], w[(j + 4) % 6], w[(j + 5) % 6]});
     const double value = w[j].dot(conic * w[j]);
     if (std::abs(value) < kOnConic) return stencil;
     stencil.weight.col(j) = Vector3(conic(0, 0), conic(0, 1), conic(1, 1)) * (2.0 / (value * size * size));

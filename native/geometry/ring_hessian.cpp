@@ -1,5 +1,6 @@
 // Second derivatives from all vertices of the triangles that touch T: the weights of smallest norm that are exact on
-// quadratics. Defined wherever the ring does not lie on a conic: on borders, at valence three, on unstable six-point stencils.
+// quadratics. Defined wherever the ring does not lie on a conic: on borders, at valence three, on unstable six-point
+// stencils.
 #include <Eigen/Cholesky>
 #include <algorithm>
 
@@ -8,14 +9,14 @@
 namespace reflines {
 namespace {
 
-// Ratio of the smallest to the largest pivot of the moment matrix below which the ring is (nearly) on a conic. The matrix
-// holds squares, so this is a ratio of 1e-5 between the points' own singular values.
+// Ratio of the smallest to the largest pivot of the moment matrix below which the ring is (nearly) on a conic. The
+// matrix holds squares, so this is a ratio of 1e-5 between the points' own singular values.
 constexpr double kOnConic = 1e-10;
 
 int corner_of(const HeightField& field, int t, int v) { return field.F(t, 0) == v ? 0 : field.F(t, 1) == v ? 1 : 2; }
 
-// The triangles met on the way around corner `v` from t, over edges that are no border and no crease: first with the edge after
-// v, then with the one before it.
+// The triangles met on the way around corner `v` from t, over edges that are no border and no crease: first with the
+// edge after v, then with the one before it.
 void walk_around(const HeightField& field, int t, int v, std::vector<int>& vertices) {
   for (int side = 1; side <= 2; ++side) {
     int before = t;

@@ -9,7 +9,8 @@ namespace {
 
 // The paper's C: a six-point stencil with a larger coefficient times l_max^2 counts as unstable.
 constexpr double kPaperThreshold = 5.0;
-// Ours. With C = 5 about 70 % of the stencils of a jittered grid fall back, which costs fill and gains nothing in accuracy.
+// Ours. With C = 5 about 70 % of the stencils of a jittered grid fall back, which costs fill and gains nothing in
+// accuracy.
 constexpr double kConsistentThreshold = 20.0;
 
 HessianStencil with_fallback(const HeightField& field, int t, StencilKind kind, bool& fell_back) {
@@ -35,7 +36,8 @@ void set_gradient(const HeightField& field, int t, Stencils& stencils) {
 Stencils pack(const HeightField& field, const std::vector<HessianStencil>& each) {
   Stencils stencils;
   stencils.offset.push_back(0);
-  for (const HessianStencil& one : each) stencils.offset.push_back(stencils.offset.back() + static_cast<int>(one.vertex.size()));
+  for (const HessianStencil& one : each)
+    stencils.offset.push_back(stencils.offset.back() + static_cast<int>(one.vertex.size()));
   stencils.vertex.reserve(stencils.offset.back());
   stencils.hessian.resize(stencils.offset.back(), 3);
   stencils.gradient.resize(static_cast<int>(each.size()), 6);
@@ -73,9 +75,9 @@ Stencils make_stencils(const HeightField& field, StencilKind kind) {
   }
   const auto missing = std::count_if(each.begin(), each.end(), [](const HessianStencil& s) { return s.empty(); });
   if (missing > 0) {
-    throw InvalidInput("The quadratic stencil is not defined on " + std::to_string(missing) + " of " +
-                       std::to_string(each.size()) +
-                       " triangles (a border, valence three, or six points on a conic); choose the consistent stencil.");
+    throw InvalidInput(
+        "The quadratic stencil is not defined on " + std::to_string(missing) + " of " + std::to_string(each.size()) +
+        " triangles (a border, valence three, or six points on a conic); choose the consistent stencil.");
   }
   Stencils stencils = pack(field, each);
   stencils.fallback_count = static_cast<int>(std::count(fell_back.begin(), fell_back.end(), 1));

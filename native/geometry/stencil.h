@@ -17,13 +17,13 @@ enum class StencilKind {
   kConsistent,  // kQuadratic, and where that is unstable the minimum-norm weights over the ring of triangles touching T
 };
 
-// Derivatives as weights on heights. For triangle t the entries e = offset[t] .. offset[t + 1] - 1 name the vertices; the
-// first three are the triangle's own corners, which alone carry the gradient.
+// Derivatives as weights on heights. For triangle t the entries e = offset[t] .. offset[t + 1] - 1 name the vertices;
+// the first three are the triangle's own corners, which alone carry the gradient.
 struct Stencils {
-  std::vector<int> offset;                                              // #T + 1
-  std::vector<int> vertex;                                              // #entries
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> hessian;    // #entries x 3: weights of f_xx, f_xy, f_yy
-  Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> gradient;   // #T x 6: weights of (f_x, f_y) for each corner
+  std::vector<int> offset;                                             // #T + 1
+  std::vector<int> vertex;                                             // #entries
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> hessian;   // #entries x 3: weights of f_xx, f_xy, f_yy
+  Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> gradient;  // #T x 6: weights of (f_x, f_y) for each corner
   int fallback_count = 0;  // triangles where the six-point quadratic was not used though asked for
 
   int triangle_count() const { return static_cast<int>(offset.size()) - 1; }
@@ -31,8 +31,8 @@ struct Stencils {
 
 // One triangle's Hessian weights before they are packed.
 struct HessianStencil {
-  std::vector<int> vertex;             // the triangle's corners first
-  Eigen::Matrix3Xd weight;             // 3 x #vertex
+  std::vector<int> vertex;  // the triangle's corners first
+  Eigen::Matrix3Xd weight;  // 3 x #vertex
   bool empty() const { return vertex.empty(); }
 };
 

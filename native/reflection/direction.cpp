@@ -11,8 +11,8 @@ namespace {
 void check_influence(const RegionField& field, const Vector& influence) {
   if (influence.size() == 0) return;
   if (influence.size() != field.F.rows()) {
-    throw InvalidInput("There are " + std::to_string(influence.size()) + " influences for " + std::to_string(field.F.rows()) +
-                       " triangles; give one each, or none.");
+    throw InvalidInput("There are " + std::to_string(influence.size()) + " influences for " +
+                       std::to_string(field.F.rows()) + " triangles; give one each, or none.");
   }
   if (influence.allFinite() && influence.minCoeff() >= 0 && influence.maxCoeff() <= 1) return;
   throw InvalidInput("An influence lies outside 0 to 1; check the fall-off curve.");

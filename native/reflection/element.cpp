@@ -5,7 +5,8 @@
 namespace reflines {
 namespace {
 
-// Slopes zero: the linearised reflection function of the paper, theta ~ theta_p f_x + theta_q f_y with constant factors.
+// Slopes zero: the linearised reflection function of the paper, theta ~ theta_p f_x + theta_q f_y with constant
+// factors.
 ThetaDerivatives flat(const ReflectionFunction& reflection) { return reflection.derivatives(0, 0, 1); }
 
 // sum_k residual_k times the second derivatives of (grad theta)_k with respect to u.
@@ -45,7 +46,8 @@ double gradient_fit(const ReflectionFunction& reflection, const Vector5& u, cons
   return weight * residual.squaredNorm();
 }
 
-double value_fit(const ReflectionFunction& reflection, const Vector5& u, double wanted, double weight, Vector5* gradient) {
+double value_fit(const ReflectionFunction& reflection, const Vector5& u, double wanted, double weight,
+                 Vector5* gradient) {
   const double half = 0.5 * (reflection.theta(u(0), u(1)) - wanted);
   if (gradient) {
     const ThetaDerivatives d = reflection.derivatives(u(0), u(1), 1);
@@ -54,8 +56,8 @@ double value_fit(const ReflectionFunction& reflection, const Vector5& u, double 
   return 4 * weight * std::sin(half) * std::sin(half);  // 2 - 2 cos without the cancellation near a perfect fit
 }
 
-Matrix5 gradient_fit_hessian(const ReflectionFunction& reflection, const Vector5& u, const Vector2& wanted, double weight,
-                             HessianModel model) {
+Matrix5 gradient_fit_hessian(const ReflectionFunction& reflection, const Vector5& u, const Vector2& wanted,
+                             double weight, HessianModel model) {
   if (model == HessianModel::kLinearized) {
     const Eigen::Matrix<double, 2, 5> J = theta_gradient_jacobian(flat(reflection), u);
     return 2 * weight * J.transpose() * J;

@@ -19,13 +19,15 @@ Eigen::Matrix<double, 2, 5> theta_gradient_jacobian(const ThetaDerivatives& d, c
 double gradient_fit(const ReflectionFunction& reflection, const Vector5& u, const Vector2& wanted, double weight,
                     Vector5* gradient);
 
-// Value fit (eq. 3): weight ((cos theta - cos wanted)^2 + (sin theta - sin wanted)^2) = weight (2 - 2 cos(theta - wanted)).
-double value_fit(const ReflectionFunction& reflection, const Vector5& u, double wanted, double weight, Vector5* gradient);
+// Value fit (eq. 3): weight ((cos theta - cos wanted)^2 + (sin theta - sin wanted)^2) = weight (2 - 2 cos(theta -
+// wanted)).
+double value_fit(const ReflectionFunction& reflection, const Vector5& u, double wanted, double weight,
+                 Vector5* gradient);
 
-// Second-order models. Gauss-Newton and linearised are positive semi-definite; the full Hessian (kNewton) is not, and is
-// projected by the caller after the terms of a triangle are summed.
-Matrix5 gradient_fit_hessian(const ReflectionFunction& reflection, const Vector5& u, const Vector2& wanted, double weight,
-                             HessianModel model);
+// Second-order models. Gauss-Newton and linearised are positive semi-definite; the full Hessian (kNewton) is not, and
+// is projected by the caller after the terms of a triangle are summed.
+Matrix5 gradient_fit_hessian(const ReflectionFunction& reflection, const Vector5& u, const Vector2& wanted,
+                             double weight, HessianModel model);
 Matrix5 value_fit_hessian(const ReflectionFunction& reflection, const Vector5& u, double wanted, double weight,
                           HessianModel model);
 

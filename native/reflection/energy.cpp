@@ -7,8 +7,8 @@
 namespace reflines {
 namespace {
 
-// Sums of a fixed number of neighbours first, then those: the same bits for any number of threads, and better rounding than
-// one long chain.
+// Sums of a fixed number of neighbours first, then those: the same bits for any number of threads, and better rounding
+// than one long chain.
 double chunked_sum(const Vector& values) {
   constexpr Eigen::Index kChunk = 1024;
   double sum = 0;

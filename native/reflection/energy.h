@@ -1,5 +1,5 @@
-// E(z) = sum over terms and triangles of c_T A_T |grad theta_T(z) - wanted_T|^2 (eq. 4; eq. 3 for value fits), plus a weak
-// pull towards the start. Heights of all vertices in, derivatives with respect to them out.
+// E(z) = sum over terms and triangles of c_T A_T |grad theta_T(z) - wanted_T|^2 (eq. 4; eq. 3 for value fits), plus a
+// weak pull towards the start. Heights of all vertices in, derivatives with respect to them out.
 #pragma once
 
 #include <vector>
@@ -21,8 +21,8 @@ struct EnergyTerm {
 
 class Energy {
  public:
-  // `field` and `stencils` must outlive the energy. Proximity adds proximity / diagonal^4 sum_v A_v (z_v - start_v)^2: the
-  // factor makes it comparable with |grad theta|^2 whatever the unit of length. 0 switches it off.
+  // `field` and `stencils` must outlive the energy. Proximity adds proximity / diagonal^4 sum_v A_v (z_v - start_v)^2:
+  // the factor makes it comparable with |grad theta|^2 whatever the unit of length. 0 switches it off.
   Energy(const HeightField& field, const Stencils& stencils, double proximity);
 
   void set_terms(std::vector<EnergyTerm> terms) { terms_ = std::move(terms); }
@@ -30,7 +30,8 @@ class Energy {
   // E(z); dE/dz (#V) into `gradient` where it is not null.
   double evaluate(const Vector& z, Vector* gradient);
 
-  // #T matrices D_T^T M_T D_T of the second-order model at z: M_T for every triangle, upper triangle row by row (15 numbers).
+  // #T matrices D_T^T M_T D_T of the second-order model at z: M_T for every triangle, upper triangle row by row (15
+  // numbers).
   using ElementHessians = Eigen::Matrix<double, Eigen::Dynamic, 15, Eigen::RowMajor>;
   ElementHessians element_hessians(const Vector& z, HessianModel model);
 

@@ -15,8 +15,8 @@ struct ReflectionField {
 
 ReflectionField reflection_field(const ReflectionFunction& reflection, const TriangleDerivatives& u);
 
-// Weight of a triangle by its visibility, 1 from 0.05 up and 0 where theta is undefined: there grad theta has a pole, and one
-// triangle would outweigh the panel.
+// Weight of a triangle by its visibility, 1 from 0.05 up and 0 where theta is undefined: there grad theta has a pole,
+// and one triangle would outweigh the panel.
 double visibility_weight(double visibility);
 
 }  // namespace reflines

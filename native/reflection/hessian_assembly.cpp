@@ -18,7 +18,11 @@ Matrix5 unpacked(const Energy::ElementHessians& elements, int t) {
 
 HessianAssembly::HessianAssembly(const Stencils& stencils, const StencilEntries& entries, std::vector<int> column,
                                  int unknown_count)
-    : stencils_(stencils), entries_(entries), column_(std::move(column)), vertex_(unknown_count), H_(unknown_count, unknown_count) {
+    : stencils_(stencils),
+      entries_(entries),
+      column_(std::move(column)),
+      vertex_(unknown_count),
+      H_(unknown_count, unknown_count) {
   for (size_t v = 0; v < column_.size(); ++v) {
     if (column_[v] >= 0) vertex_[column_[v]] = static_cast<int>(v);
   }

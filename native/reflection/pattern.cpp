@@ -18,7 +18,8 @@ Eigen::MatrixXd blurred_columns(const Eigen::MatrixXd& image, double deviation) 
   const int rows = static_cast<int>(image.rows());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, image.cols());
   for (int r = 0; r < rows; ++r) {
-    for (int k = -radius; k <= radius; ++k) result.row(r) += kernel(k + radius) * image.row(std::clamp(r + k, 0, rows - 1));
+    for (int k = -radius; k <= radius; ++k)
+      result.row(r) += kernel(k + radius) * image.row(std::clamp(r + k, 0, rows - 1));
   }
   return result;
 }
@@ -31,12 +32,12 @@ Eigen::MatrixXd blurred(const Eigen::MatrixXd& image, double deviation) {
 
 // Catmull-Rom weights of the four samples around a point at `f` in [0, 1] between the middle two.
 Eigen::Vector4d cubic_weights(double f) {
-  return {0.5 * (-f + 2 * f * f - f * f * f), 0.5 * (2 - 5 * f * f + 3 * f * f * f), 0.5 * (f + 4 * f * f - 3 * f * f * f),
-          0.5 * (-f * f + f * f * f)};
+  return {0.5 * (-f + 2 * f * f - f * f * f), 0.5 * (2 - 5 * f * f + 3 * f * f * f),
+          0.5 * (f + 4 * f * f - 3 * f * f * f), 0.5 * (-f * f + f * f * f)};
 }
 
-// Grey value at pixel coordinates (pixel centres at whole numbers), smooth between them: bilinear would print the pixels'
-// edges into the gradient.
+// Grey value at pixel coordinates (pixel centres at whole numbers), smooth between them: bilinear would print the
+// pixels' edges into the gradient.
 double sample(const Eigen::MatrixXd& image, double column, double row) {
   column = std::clamp(column, 0.0, double(image.cols() - 1));
   row = std::clamp(row, 0.0, double(image.rows() - 1));
@@ -53,9 +54,11 @@ double sample(const Eigen::MatrixXd& image, double column, double row) {
 }
 
 void check(const Eigen::MatrixXd& image, const PatternOptions& options) {
-  if (image.size() == 0 || !image.allFinite()) throw InvalidInput("The image is empty or has values that are not finite.");
+  if (image.size() == 0 || !image.allFinite())
+    throw InvalidInput("The image is empty or has values that are not finite.");
   if (!(options.width > 0)) throw InvalidInput("The width of the image in the scene must be positive.");
-  if (!(options.keep >= 0 && options.keep <= 1)) throw InvalidInput("The share of the lines to keep must lie between 0 and 1.");
+  if (!(options.keep >= 0 && options.keep <= 1))
+    throw InvalidInput("The share of the lines to keep must lie between 0 and 1.");
 }
 
 }  // namespace
@@ -69,14 +72,16 @@ Target pattern_target(const RegionField& field, const Eigen::MatrixXd& image, co
     const Vector2 d = field.xy.row(v).transpose() - options.centre;
     const Vector2 turned(std::cos(options.angle) * d.x() + std::sin(options.angle) * d.y(),
                          -std::sin(options.angle) * d.x() + std::cos(options.angle) * d.y());
-    delta(v) = options.strength * sample(soft, turned.x() / pixel + 0.5 * (image.cols() - 1), turned.y() / pixel + 0.5 * (image.rows() - 1));
+    delta(v) = options.strength * sample(soft, turned.x() / pixel + 0.5 * (image.cols() - 1),
+                                         turned.y() / pixel + 0.5 * (image.rows() - 1));
   }
   Target target{field.gradient, {}, {}, field.family};
   if (options.keep < 1) target.gradient *= options.keep;
   for (int t = 0; t < field.F.rows(); ++t) {
     if (!field.active(t)) continue;
     const double at_a = delta(field.F(t, 0));
-    const Vector2 gradient = linear_gradient(field.xy, field.F.row(t), delta(field.F(t, 1)) - at_a, delta(field.F(t, 2)) - at_a);
+    const Vector2 gradient =
+        linear_gradient(field.xy, field.F.row(t), delta(field.F(t, 1)) - at_a, delta(field.F(t, 2)) - at_a);
     target.gradient.row(t) += gradient.transpose();
   }
   return target;

@@ -17,12 +17,8 @@ struct Quadratic {
 
 Quadratic reflected_component(const Vector3& b, const Vector3& c) {
   const double dot = b.dot(c);
-  return {2 * b.z() * c.z() - dot,
-          -2 * (b.x() * c.z() + b.z() * c.x()),
-          -2 * (b.y() * c.z() + b.z() * c.y()),
-          2 * b.x() * c.x() - dot,
-          2 * (b.x() * c.y() + b.y() * c.x()),
-          2 * b.y() * c.y() - dot};
+  return {2 * b.z() * c.z() - dot, -2 * (b.x() * c.z() + b.z() * c.x()), -2 * (b.y() * c.z() + b.z() * c.y()),
+          2 * b.x() * c.x() - dot, 2 * (b.x() * c.y() + b.y() * c.x()),  2 * b.y() * c.y() - dot};
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // theta: which light line a point with slopes (p, q) = (f_x, f_y) reflects to the viewer (paper, section 2.1).
 //
-// With N = (-p, -q, 1) and d the projection of the reflected direction onto the plane perpendicular to the lines, r1 = d.a_perp
-// and r2 = d.v_a are quadratic in (p, q), so theta = arg w with w = r2 + i r1 a complex quadratic polynomial, and every
-// derivative of theta is the imaginary part of a derivative of log w: no branch cut, no atan in the solver.
+// With N = (-p, -q, 1) and d the projection of the reflected direction onto the plane perpendicular to the lines, r1 =
+// d.a_perp and r2 = d.v_a are quadratic in (p, q), so theta = arg w with w = r2 + i r1 a complex quadratic polynomial,
+// and every derivative of theta is the imaginary part of a derivative of log w: no branch cut, no atan in the solver.
 #pragma once
 
 #include <complex>
@@ -14,9 +14,9 @@ namespace reflines {
 
 // Derivatives of theta with respect to the slopes.
 struct ThetaDerivatives {
-  double p = 0, q = 0;                             // first
-  double pp = 0, pq = 0, qq = 0;                   // second
-  double ppp = 0, ppq = 0, pqq = 0, qqq = 0;       // third
+  double p = 0, q = 0;                        // first
+  double pp = 0, pq = 0, qq = 0;              // second
+  double ppp = 0, ppq = 0, pqq = 0, qqq = 0;  // third
 };
 
 class ReflectionFunction {

@@ -10,8 +10,8 @@
 namespace reflines {
 namespace {
 
-// What directional smoothing keeps of the isotropic one: without it nothing couples a line with its neighbours, and the system
-// is singular wherever a line crosses fewer than three triangles.
+// What directional smoothing keeps of the isotropic one: without it nothing couples a line with its neighbours, and the
+// system is singular wherever a line crosses fewer than three triangles.
 constexpr double kAcrossLines = 1e-3;
 
 // The region's stencils with the mean over the triangle in the place of f_x, and nothing in that of f_y.
@@ -35,7 +35,8 @@ Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& 
   Energy::ElementHessians result = Energy::ElementHessians::Zero(field.triangle_count(), 15);
   for (int t = 0; t < field.triangle_count(); ++t) {
     const Eigen::Matrix3d K =
-        field.area(t) * stiffness * second_order_energy(options.directional, options.directional ? Vector2(along.row(t)) : Vector2());
+        field.area(t) * stiffness *
+        second_order_energy(options.directional, options.directional ? Vector2(along.row(t)) : Vector2());
     // Upper triangle of a 5 x 5 matrix row by row: 0 is the mean's, 9 .. 14 are those of f_xx, f_xy, f_yy.
     result(t, 0) = field.area(t);
     result.row(t).tail<6>() << K(0, 0), K(0, 1), K(0, 2), K(1, 1), K(1, 2), K(2, 2);
@@ -49,7 +50,8 @@ FieldSmoother::FieldSmoother(const HeightField& field, const Stencils& stencils,
                              const PlaneVectors& along, const SpdFactorize& factorize)
     : field_(field) {
   if (!(options.length > 0) || !std::isfinite(options.length)) {
-    throw InvalidInput("The smoothing length must be a positive length in scene units, not " + std::to_string(options.length) + ".");
+    throw InvalidInput("The smoothing length must be a positive length in scene units, not " +
+                       std::to_string(options.length) + ".");
   }
   const Stencils means = with_means(stencils);
   const StencilEntries entries(means, field.vertex_count());

@@ -1,9 +1,9 @@
 // Smoothing of a field of gradients over a surface (paper, section 4, "Smoothing"), by one implicit step.
 //
-// G (a vector at every vertex) minimises sum_T A_T (|mean of G over T - g_T|^2 + l^4 |Hessian of G|^2), l = length / 2 pi. A
-// wave of wavelength w keeps 1 / (1 + (length / w)^4) of its amplitude: half at w = length, 6 % at half of it, 94 % at twice.
-// The Hessian's energy knows linear fields as zero also at the border, so a field that is already fair is not bent there
-// (diffusion bends it; the squared Laplacian leaves every harmonic border wave).
+// G (a vector at every vertex) minimises sum_T A_T (|mean of G over T - g_T|^2 + l^4 |Hessian of G|^2), l = length / 2
+// pi. A wave of wavelength w keeps 1 / (1 + (length / w)^4) of its amplitude: half at w = length, 6 % at half of it, 94
+// % at twice. The Hessian's energy knows linear fields as zero also at the border, so a field that is already fair is
+// not bent there (diffusion bends it; the squared Laplacian leaves every harmonic border wave).
 #pragma once
 
 #include <functional>
@@ -25,8 +25,8 @@ struct SmoothOptions {
 class FieldSmoother {
  public:
   // `along` (#T x 2) gives the gradient whose level lines are the direction; read only for directional smoothing.
-  FieldSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options, const PlaneVectors& along,
-                const SpdFactorize& factorize);
+  FieldSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
+                const PlaneVectors& along, const SpdFactorize& factorize);
 
   // The smoothed field (#T x 2) of `gradient` (#T x 2).
   PlaneVectors smooth(const PlaneVectors& gradient) const;

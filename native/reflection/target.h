@@ -10,8 +10,8 @@ namespace reflines {
 struct Target {
   PlaneVectors gradient;  // #F x 2: wanted grad theta in the image plane, radians / length (eq. 4)
   Vector weight;          // #F, >= 0; empty: 1 everywhere
-  Vector theta;           // #F: wanted theta, radians. If not empty, values are fitted (eq. 3) and `gradient` is not read
-  int family = 0;         // which of the optimizer's families of light lines
+  Vector theta;    // #F: wanted theta, radians. If not empty, values are fitted (eq. 3) and `gradient` is not read
+  int family = 0;  // which of the optimizer's families of light lines
 };
 
 }  // namespace reflines

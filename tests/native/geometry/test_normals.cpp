@@ -8,8 +8,8 @@ namespace {
 
 TEST(NormalFit, IsExactOnAQuadraticGraphSeenAlongItsNormal) {
   // Heights over the plane of the fit are a quadratic only at the apex, where the initial normal is the axis.
-  const samples::Mesh mesh =
-      samples::lifted(samples::grid(6), [](double x, double y) { return 0.4 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5)); });
+  const samples::Mesh mesh = samples::lifted(
+      samples::grid(6), [](double x, double y) { return 0.4 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5)); });
   NormalFit fit(mesh.V, mesh.F);
   const Positions N = fit.normals(mesh.V);
   EXPECT_LT((N.row(3 * 7 + 3) - Eigen::RowVector3d(0, 0, 1)).norm(), 1e-12);
@@ -38,7 +38,9 @@ TEST(NormalFit, ConvergesAtSecondOrderOnIrregularMeshesUpToTheBorder) {
 TEST(NormalFit, KeepsItsCoefficientsForSmallMotionsAndRefitsForLarge) {
   const samples::Mesh flat = samples::grid(8, 0.2);
   NormalFit fit(flat.V, flat.F, 0.35);
-  const auto tilted = [&](double slope) { return samples::lifted(flat, [=](double x, double) { return slope * x; }).V; };
+  const auto tilted = [&](double slope) {
+    return samples::lifted(flat, [=](double x, double) { return slope * x; }).V;
+  };
   EXPECT_LT((fit.normals(tilted(0.1)).row(40) - Eigen::RowVector3d(-0.1, 0, 1).normalized()).norm(), 1e-12);
   EXPECT_EQ(fit.refit_count(), 0);
   EXPECT_LT((fit.normals(tilted(1.0)).row(40) - Eigen::RowVector3d(-1, 0, 1).normalized()).norm(), 1e-12);
@@ -46,7 +48,8 @@ TEST(NormalFit, KeepsItsCoefficientsForSmallMotionsAndRefitsForLarge) {
 }
 
 TEST(NormalFit, RefitsNothingThatHasNotTurnedHoweverSmallTheAngle) {
-  const samples::Mesh mesh = samples::lifted(samples::grid(8, 0.3), [](double x, double y) { return x * x * x + 0.5 * y * y; });
+  const samples::Mesh mesh =
+      samples::lifted(samples::grid(8, 0.3), [](double x, double y) { return x * x * x + 0.5 * y * y; });
   NormalFit fit(mesh.V, mesh.F, 1e-6);
   const Positions N = fit.normals(mesh.V);
   EXPECT_EQ(fit.normals(mesh.V), N);

@@ -86,8 +86,8 @@ TEST(Stencil, SixPointsOnACircleAreFoundByTheConicTest) {
 }
 
 TEST(Stencil, GradientIsExactOnLinearFunctions) {
-  const HeightField field =
-      samples::height_field(samples::lifted(samples::grid(6, 0.3), [](double x, double y) { return 3 * x - 2 * y + 1; }));
+  const HeightField field = samples::height_field(
+      samples::lifted(samples::grid(6, 0.3), [](double x, double y) { return 3 * x - 2 * y + 1; }));
   TriangleDerivatives u;
   apply_stencils(make_stencils(field, StencilKind::kConsistent), field.z, u);
   EXPECT_LT((u.col(0).array() - 3).abs().maxCoeff(), 1e-13);

@@ -53,14 +53,15 @@ TEST_F(EnergyTest, GradientAgreesWithCentralDifferences) {
     plus(v) += h;
     minus(v) -= h;
     const double difference = (energy_.evaluate(plus, nullptr) - energy_.evaluate(minus, nullptr)) / (2 * h);
-    // Truncation h^2 / 6 E''' and rounding eps E / h. One height moves curvatures by 1 / spacing^2 (16), so derivatives of order
-    // k grow like 16^k E: 1e-12 * 4096 E + 1e-16 E / 1e-6.
+    // Truncation h^2 / 6 E''' and rounding eps E / h. One height moves curvatures by 1 / spacing^2 (16), so derivatives
+    // of order k grow like 16^k E: 1e-12 * 4096 E + 1e-16 E / 1e-6.
     EXPECT_NEAR(gradient(v), difference, 1e-8 * E + 1e-7 * gradient.norm());
   }
 }
 
 TEST_F(EnergyTest, FullHessianBeforeProjectionAgreesWithCentralDifferencesOfTheGradient) {
-  // Projection is switched off by looking where it does nothing: at the target itself full and Gauss-Newton Hessian agree.
+  // Projection is switched off by looking where it does nothing: at the target itself full and Gauss-Newton Hessian
+  // agree.
   TriangleDerivatives u;
   apply_stencils(stencils_, z_, u);
   const ImagePlane frame(Vector3::UnitZ(), Vector3::UnitY());
@@ -132,7 +133,8 @@ TEST_F(EnergyTest, AssemblyOverFreeVerticesIsTheSubmatrix) {
     vertex.push_back(v);
   }
   HessianAssembly assembly(stencils_, energy_.entries(), column, static_cast<int>(vertex.size()));
-  const SparseMatrix& lower = assembly.assemble(energy_.element_hessians(z_, HessianModel::kGaussNewton), energy_.proximity_hessian());
+  const SparseMatrix& lower =
+      assembly.assemble(energy_.element_hessians(z_, HessianModel::kGaussNewton), energy_.proximity_hessian());
   const Eigen::MatrixXd part = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
   for (size_t i = 0; i < vertex.size(); ++i) {
     for (size_t j = 0; j < vertex.size(); ++j) EXPECT_NEAR(part(i, j), all(vertex[i], vertex[j]), 1e-12 * all.norm());

@@ -73,8 +73,10 @@ TEST_F(Reflection, DerivativesAgreeWithCentralDifferences) {
     const auto p1 = reflection.derivatives(p + h, q, 2), p0 = reflection.derivatives(p - h, q, 2);
     const auto q1 = reflection.derivatives(p, q + h, 2), q0 = reflection.derivatives(p, q - h, 2);
     const double tolerance = 1e-7;
-    EXPECT_NEAR(d.p, std::remainder(reflection.theta(p + h, q) - reflection.theta(p - h, q), 2 * M_PI) / (2 * h), tolerance);
-    EXPECT_NEAR(d.q, std::remainder(reflection.theta(p, q + h) - reflection.theta(p, q - h), 2 * M_PI) / (2 * h), tolerance);
+    EXPECT_NEAR(d.p, std::remainder(reflection.theta(p + h, q) - reflection.theta(p - h, q), 2 * M_PI) / (2 * h),
+                tolerance);
+    EXPECT_NEAR(d.q, std::remainder(reflection.theta(p, q + h) - reflection.theta(p, q - h), 2 * M_PI) / (2 * h),
+                tolerance);
     EXPECT_NEAR(d.pp, (p1.p - p0.p) / (2 * h), tolerance * (1 + std::abs(d.pp)));
     EXPECT_NEAR(d.pq, (q1.p - q0.p) / (2 * h), tolerance * (1 + std::abs(d.pq)));
     EXPECT_NEAR(d.qq, (q1.q - q0.q) / (2 * h), tolerance * (1 + std::abs(d.qq)));

@@ -1,0 +1,100 @@
+#include "native/geometry/crease.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace reflines {
+namespace {
+
+constexpr double kChainShare = 0.25;   // of the crease angle: edges of a chain
+constexpr double kChainMedian = 25.0;  // times the median edge
+constexpr double kChainReach = 0.08;   // of the region's diagonal
+
+using Bends = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+Vector3 unit_normal(const Positions& V, const Triangles& F, int t) {
+  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
+  return (b - a).cross(c - a).normalized();
+}
+
+// Angle between the triangles on both sides of each edge, radians; 0 on borders.
+Bends bends(const Positions& V, const Triangles& F, const Triangles& neighbors) {
+  Bends result = Bends::Zero(F.rows(), 3);
+  for (int t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (neighbors(t, i) < 0) continue;
+      const Vector3 a = unit_normal(V, F, t), b = unit_normal(V, F, neighbors(t, i));
+      result(t, i) = std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  }
+  return result;
+}
+
+double median_bend(const Bends& bend, const Triangles& neighbors) {
+  std::vector<double> inner;
+  for (int t = 0; t < neighbors.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (neighbors(t, i) > t) inner.push_back(bend(t, i));
+    }
+  }
+  if (inner.empty()) return 0.0;
+  std::nth_element(inner.begin(), inner.begin() + inner.size() / 2, inner.end());
+  return inner[inner.size() / 2];
+}
+
+int root(std::vector<int>& parent, int v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+// For every vertex the extent of the chain of marked edges it belongs to.
+Vector chain_extent(const Positions& V, const Triangles& F, const EdgeMask& marked) {
+  std::vector<int> parent(V.rows());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (int t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (!marked(t, i)) continue;
+      const int a = root(parent, F(t, (i + 1) % 3)), b = root(parent, F(t, (i + 2) % 3));
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  Positions low = V, high = V;
+  for (int v = 0; v < V.rows(); ++v) {
+    const int r = root(parent, v);
+    low.row(r) = low.row(r).cwiseMin(V.row(v));
+    high.row(r) = high.row(r).cwiseMax(V.row(v));
+  }
+  Vector extent(V.rows());
+  for (int v = 0; v < V.rows(); ++v) extent(v) = (high.row(root(parent, v)) - low.row(root(parent, v))).norm();
+  return extent;
+}
+
+double diagonal(const Positions& V, const Triangles& F) {
+  Vector3 low = V.row(F(0, 0)), high = low;
+  for (int k = 0; k < F.size(); ++k) {
+    low = low.cwiseMin(V.row(F.data()[k]).transpose());
+    high = high.cwiseMax(V.row(F.data()[k]).transpose());
+  }
+  return (high - low).norm();
+}
+
+}  // namespace
+
+EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& neighbors, double angle) {
+  const Bends bend = bends(V, F, neighbors);
+  const double chained = std::min(angle, std::max(kChainShare * angle, kChainMedian * median_bend(bend, neighbors)));
+  EdgeMask result = bend > chained;
+  const Vector extent = chain_extent(V, F, result);
+  const double reach = kChainReach * diagonal(V, F);
+  for (int t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      result(t, i) = result(t, i) && (bend(t, i) > angle || extent(F(t, (i + 1) % 3)) > reach);
+    }
+  }
+  return result;
+}
+
+}  // namespace reflines
