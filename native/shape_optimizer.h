@@ -24,7 +24,7 @@ struct ShapeOptions {
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
   double crease_angle = kCreaseAngle;  // radians: sharper edges are held and no stencil reaches across
-  double proximity = -1.0;  // weight of staying near the start; negative: 0, or 1e-6 for a piece with a free border
+  double proximity = -1.0;  // weight of staying near the start; negative: 0, or 10 for a piece with a free border
 };
 
 // What became of the triangles and vertices that were handed in.

@@ -1,0 +1,153 @@
+"""The optimizer through numpy: cancelling, watching, back ends, refusals; what a script or an add-on relies on."""
+import threading
+import time
+
+import numpy as np
+import pytest
+import reflines
+from sample_panels import LINE, VIEW, inside, panel, rippled
+
+
+def made(positions, triangles, **options):
+    return reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW, line_direction=LINE, **options)
+
+
+def ripples(cells):
+    positions, triangles = panel(cells)
+    return rippled(positions, amplitude=3e-4, wavelength=0.1), triangles
+
+
+def test_cancel_from_another_thread_leaves_every_bit():
+    positions, triangles = ripples(120)
+    solver = made(positions, triangles)
+    target = reflines.smooth(solver, length=0.3)
+    progress, reports = reflines.Progress(), []
+    worker = threading.Thread(target=lambda: reports.append(solver.solve(target, gradient_tolerance=0.0, progress=progress)))
+    worker.start()
+    while not progress.stage:
+        time.sleep(0.001)  # the solver does not hold the GIL: this loop runs beside it
+    progress.cancel()
+    worker.join(30)
+    assert progress.cancelled and reports[0].termination == "cancelled"
+    assert np.array_equal(solver.positions, positions)
+    assert solver.solve(target).converged  # and the optimizer is as good as new
+
+
+def test_python_runs_while_the_solver_does():
+    positions, triangles = ripples(120)
+    solver = made(positions, triangles)
+    target = reflines.smooth(solver, length=0.3)
+    done, ticks = threading.Event(), 0
+
+    def solve():
+        solver.solve(target)
+        done.set()
+
+    threading.Thread(target=solve).start()
+    while not done.is_set():
+        ticks += 1
+        time.sleep(0.001)
+    assert ticks > 10
+
+
+def test_both_linear_solvers_find_the_same_surface():
+    positions, triangles = ripples(32)
+    heights = []
+    for name in ("cholmod", "umfpack"):
+        solver = made(positions, triangles, linear_solver=name)
+        report = solver.solve(reflines.smooth(solver, length=0.3), gradient_tolerance=1e-9)
+        assert report.linear_solver == name and report.converged
+        heights.append(solver.heights)
+    assert np.abs(heights[0] - heights[1]).max() < 1e-9
+
+
+def test_same_input_same_bits_and_the_callers_arrays_stay():
+    positions, triangles = ripples(24)
+    kept = positions.copy()
+    results = []
+    for _ in range(2):
+        solver = made(positions, triangles)
+        solver.solve(reflines.smooth(solver, length=0.3))
+        results.append(solver.positions)
+    assert np.array_equal(results[0], results[1]) and np.array_equal(positions, kept)
+
+
+def test_reset_brings_the_start_back_bit_for_bit():
+    positions, triangles = ripples(24)
+    solver = made(positions, triangles)
+    solver.solve(reflines.smooth(solver, length=0.3))
+    assert not np.array_equal(solver.positions, positions)
+    solver.reset()
+    assert np.array_equal(solver.positions, positions)
+
+
+def test_border_by_segment_clamps_one_side_and_frees_another():
+    positions, triangles = ripples(24)
+    codes = np.full(len(positions), 2)
+    right = positions[:, 0] > 0.75 - 1e-9
+    codes[right] = 0
+    solver = made(positions, triangles, border=codes)
+    free = solver.free
+    assert free[right & (abs(positions[:, 1]) < 0.5)].all()
+    assert not free[positions[:, 0] < -0.7].any()
+
+
+def test_free_border_moves_nothing_that_is_not_asked_for():
+    positions, triangles = panel(24)
+    solver = made(positions, triangles, border="free")
+    report = solver.solve(reflines.Target(solver.field()))
+    assert report.termination == "already_optimal" and np.array_equal(solver.positions, positions)
+
+
+def test_free_border_does_not_drift():
+    # One family does not see g(y) added along the lines, nor an affine function: neither may appear.
+    clean, triangles = panel(32)
+    bump = 1e-3 * inside(clean, margin=0.4)
+    solver = made(clean + bump[:, None] * VIEW, triangles, border="free")
+    wanted = made(clean, triangles, border="free").field()
+    assert solver.solve(reflines.Target(wanted)).converged
+    rest = solver.positions @ VIEW - clean @ VIEW
+    assert np.abs(rest).max() < bump.max()  # the crossing family keeps part of the bump along the lines, nothing else
+
+
+def test_two_crossing_families_in_one_call_see_what_one_does_not():
+    clean, triangles = panel(32)
+    frame = reflines.image_plane(VIEW, LINE)
+    along = clean @ frame[1]
+    blind = 1e-3 * inside(clean, margin=0.4, rim=0.1) * np.cos(3 * along)
+    lines = np.array([LINE, frame[0]])
+    solver = made(clean + blind[:, None] * VIEW, triangles)
+    both = reflines.ShapeOptimizer(clean + blind[:, None] * VIEW, triangles, view_direction=VIEW, line_direction=lines)
+    exact = reflines.ShapeOptimizer(clean, triangles, view_direction=VIEW, line_direction=lines)
+    targets = [reflines.Target(exact.field(k), family=k) for k in range(2)]
+    assert both.solve(targets).converged and solver.solve(targets[0]).converged
+    assert np.abs(both.heights - exact.heights).max() < 1e-3 * blind.max()
+
+
+def test_pieces_between_silhouettes_are_counted_and_solved_each():
+    positions, triangles = ripples(20)
+    shifted = positions + [3.0, 0, 0]
+    V, F = np.concatenate([positions, shifted]), np.concatenate([triangles, triangles + len(positions)])
+    both = made(V, F)
+    alone = made(positions, triangles)
+    assert both.region.pieces == 2
+    both.solve(reflines.smooth(both, length=0.3))
+    alone.solve(reflines.smooth(alone, length=0.3))
+    assert np.abs(both.heights[:len(positions)] - alone.heights).max() < 1e-9
+
+
+@pytest.mark.parametrize("options, words", [
+    ({"border": "glued"}, "border"), ({"stencil": "magic"}, "stencil"), ({"linear_solver": "pardiso"}, "linear solver"),
+    ({"border": np.array([7])}, "codes"), ({"fixed": np.array([True])}, "one entry"),
+])
+def test_options_that_are_none_get_a_sentence(options, words):
+    with pytest.raises(reflines.InvalidInput, match=words):
+        made(*panel(4), **options)
+
+
+def test_region_without_a_free_vertex_is_refused():
+    with pytest.raises(reflines.InvalidInput, match="No vertex of the region is free"):
+        made(*panel(2))
+    positions, triangles = panel(2)
+    with pytest.raises(reflines.InvalidInput, match="No vertex of the region is free"):
+        made(positions, triangles[:1])
