@@ -12,8 +12,8 @@ namespace {
 // 8 x 8 grid). A second family across the first, asked to stay as it is, leaves only affine functions; the proximity
 // holds those. Of the two, the second family is blind to position and bends nothing, so it may be the stronger one.
 constexpr double kCrossingWeight = 1e-3;
-// Measured with a clean panel as target for a rippled one, free on all sides: with 1e-6 it tilts by 7 times the ripples (the lines
-// hardly see it), with 10 by 1 %, and up to 1000 the lines come out the same.
+// Measured with a clean panel as target for a rippled one, free on all sides: with 1e-6 it tilts by 7 times the ripples
+// (the lines hardly see it), with 10 by 1 %, and up to 1000 the lines come out the same.
 constexpr double kFreeBorderProximity = 10.0;
 
 // Mean vertex distances between the knots of the coarse motions.
