@@ -5,10 +5,13 @@ Modules stand in the order of their dependencies; `register` walks the list forw
 import importlib
 
 from . import native
-from .bridge import refusal, versions, view, region, gather, apply, surface
-from . import properties, session
+from .targets import falloff, smooth as smooth_target, direction as direction_target, untwist as untwist_target
+from .targets import warp as warp_target, pattern as pattern_target
+from .bridge import refusal, versions, view, region, gather, apply, surface, lattice, picture, place, curve
+from . import tool_settings, properties, session, tool
 from .overlay import stripes, shader, draw
-from .operators import add_light_direction, add_view_camera, smooth
+from .operators import add_light_direction, add_view_camera, add_warp_lattice
+from .operators import direction, pattern, pick_direction, smooth, untwist, warp
 from . import preferences, panels
 
 bl_info = {
@@ -21,8 +24,11 @@ bl_info = {
     "category": "Mesh",
 }
 
-MODULES = (native, refusal, versions, view, region, gather, apply, surface, properties, session, stripes, shader, draw,
-           add_light_direction, add_view_camera, smooth, preferences, panels)
+MODULES = (native, falloff, smooth_target, direction_target, untwist_target, warp_target, pattern_target,
+           refusal, versions, view, region, gather, apply, surface, lattice, picture, place, curve,
+           tool_settings, properties, session, tool, stripes, shader, draw,
+           add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth, untwist,
+           warp, preferences, panels)
 
 if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.
     for module in MODULES:

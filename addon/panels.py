@@ -62,16 +62,95 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         return "Faces of the last run" if ob.reflection_lines.report.termination else "Select faces in Edit Mode"
 
 
-class VIEW3D_PT_reflines_smooth(ReflinesPanel, bpy.types.Panel):
-    bl_label = "Smooth"
+class ToolPanel(ReflinesPanel):
+    """Settings of one tool, and its button."""
 
     def draw(self, context: bpy.types.Context) -> None:
-        settings = context.scene.reflection_lines
-        layout = self.layout
-        layout.use_property_split, layout.use_property_decorate = True, False
+        self.layout.use_property_split, self.layout.use_property_decorate = True, False
+        self.draw_tool(self.layout, context, context.scene.reflection_lines)
+
+    def draw_falloff(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup,
+                     curve: bpy.types.NodeTree | None) -> None:
+        layout.prop(settings, "centre")
+        if settings.centre == 'EVERYWHERE':
+            return
+        layout.prop(settings, "radius", text="Radius" if settings.radius else "Radius (automatic)")
+        layout.prop(settings, "shape")
+        if settings.shape == 'CURVE' and curve is not None and len(curve.nodes):
+            layout.template_curve_mapping(curve.nodes[0], "mapping")
+        layout.prop(settings, "emphasis")
+
+
+class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
+    bl_label = "Smooth"
+
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         layout.prop(settings, "length", text="Length" if settings.length else "Length (automatic)")
         layout.prop(settings, "strength")
+        layout.prop(settings, "directional")
         layout.operator("reflines.smooth", icon='MOD_SMOOTH')
+
+
+class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
+    bl_label = "Direction and Density"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+        own = settings.direction
+        layout.prop(own, "direction")
+        if own.direction == 'ANGLE':
+            layout.prop(own, "angle")
+        elif own.direction == 'POINTS':
+            layout.operator("reflines.pick_direction", icon='EYEDROPPER')
+        layout.prop(own, "unit")
+        layout.prop(own, "density", text="At the Start" if own.axis != 'NONE' else "Value")
+        layout.prop(own, "axis")
+        if own.axis != 'NONE':
+            layout.prop(own, "density_end")
+        layout.prop(own, "strength")
+        self.draw_falloff(layout, own, settings.curve)
+        layout.operator("reflines.direction", icon='ALIGN_JUSTIFY')
+
+
+class VIEW3D_PT_reflines_untwist(ToolPanel, bpy.types.Panel):
+    bl_label = "Untwist"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+        layout.prop(settings.untwist, "angle")
+        self.draw_falloff(layout, settings.untwist, settings.curve)
+        layout.operator("reflines.untwist", icon='LOOP_BACK')
+
+
+class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
+    bl_label = "Warp"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
+                  settings: bpy.types.PropertyGroup) -> None:
+        own = settings.warp
+        layout.prop(own, "lattice")
+        layout.operator("reflines.add_warp_lattice", icon='ADD')
+        layout.prop(own, "fit")
+        layout.prop(own, "cells")
+        if context.mode == 'EDIT_LATTICE':
+            paragraph(layout, context, "Leave the lattice's Edit Mode to warp", 'INFO')
+        layout.operator("reflines.warp", icon='MOD_LATTICE')
+
+
+class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
+    bl_label = "Image Pattern"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+        own = settings.pattern
+        layout.template_ID(own, "image", new="image.new", open="image.open")
+        for name in ("strength", "blur", "keep_lines"):
+            layout.prop(own, name)
+        layout.prop(own, "width", text="Width" if own.width else "Width (of the region)")
+        layout.prop(own, "angle")
+        layout.prop(own, "offset")
+        layout.operator("reflines.pattern", icon='IMAGE_DATA')
 
 
 class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
@@ -89,8 +168,8 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         column.label(text=report.termination.replace('_', ' ').capitalize(), icon=icon)
         column.label(text=f"{report.iterations} iterations, {report.seconds:.2f} s")
         column.label(text=f"Wobble {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
-        move = bpy.utils.units.to_string(context.scene.unit_settings.system, 'LENGTH', report.largest_move, precision=5)
-        column.label(text=f"Largest move {move}")
+        column.label(text=f"Residual {report.residual_before:.3g} \u2192 {report.residual_after:.3g}")
+        column.label(text=f"Largest move {report.moved()}")
         for note in report.notes.splitlines():
             paragraph(column, context, note, 'ERROR')
 
@@ -111,5 +190,6 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_result,
+    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_direction,
+    VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
     VIEW3D_PT_reflines_stripes])

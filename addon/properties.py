@@ -3,6 +3,8 @@ import bpy
 from bpy.props import (BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty,
                        StringProperty)
 
+from .tool_settings import (ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings)
+
 BORDERS = (
     ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly"),
     ('fixed', "Fixed", "Border vertices stay; the slope across the border may change"),
@@ -12,17 +14,6 @@ EYES = (
     ('CAMERA', "View Camera", "Stripes as the solver sees them: from the view camera's direction"),
     ('VIEWPORT', "Viewport", "Stripes slide over the panel as you orbit around it"),
 )
-
-
-def length_property(**options: object) -> object:
-    return FloatProperty(
-        name="Length", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **options,
-        description="Detail of the lines finer than this is removed; 0 takes a sixth of the panel's diagonal")
-
-
-def strength_property(**options: object) -> object:
-    return FloatProperty(name="Strength", default=1.0, min=0.0, max=1.0, subtype='FACTOR', **options,
-                         description="How much of that detail is removed: 0 leaves the panel as it is")
 
 
 def border_property(**options: object) -> object:
@@ -46,22 +37,37 @@ class ReflinesReport(bpy.types.PropertyGroup):
     score_before: FloatProperty(name="Wobble Before", description="Wobble of the reflection lines, in degrees")
     score_after: FloatProperty(name="Wobble After", description="Wobble of the reflection lines, in degrees")
     largest_move: FloatProperty(name="Largest Move", unit='LENGTH', precision=6)
+    residual_before: FloatProperty(name="Residual Before", description="What the lines' gradient lacked of the "
+                                   "wanted one: root mean square, radians per unit of length")
+    residual_after: FloatProperty(name="Residual After", description="What it still lacks")
 
-    def fill(self, solution: object) -> None:
+    def fill(self, solution: object, notes: tuple[str, ...]) -> None:
         """Takes over a finished `session.Solution`."""
         for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move"):
             setattr(self, name, getattr(solution.report, name))
-        for name in ("length", "score_before", "score_after"):
+        for name in ("length", "score_before", "score_after", "residual_before", "residual_after"):
             setattr(self, name, getattr(solution, name))
-        self.notes = "\n".join(solution.notes)
+        self.notes = "\n".join(notes)
 
     def summary(self) -> str:
         return (f"{self.termination.replace('_', ' ')} after {self.iterations} iterations in {self.seconds:.2f} s, "
-                f"wobble {self.score_before:.4g} -> {self.score_after:.4g} degrees at length {self.length:.4g}")
+                f"wobble {self.score_before:.4g} -> {self.score_after:.4g} degrees at length {self.length:.4g}, "
+                f"residual {self.residual_before:.4g} -> {self.residual_after:.4g}, largest move {self.moved()}")
+
+    def moved(self) -> str:
+        """In the scene's units."""
+        system = bpy.context.scene.unit_settings.system
+        return bpy.utils.units.to_string(system, 'LENGTH', self.largest_move, precision=5)
+
+
+def is_mesh(_: object, ob: bpy.types.Object) -> bool:
+    return ob.type == 'MESH'
 
 
 class ReflinesObject(bpy.types.PropertyGroup):
     report: PointerProperty(type=ReflinesReport)
+    panel: PointerProperty(name="Panel", type=bpy.types.Object, poll=is_mesh,
+                           description="The mesh that this lattice warps")
     center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
 
 
@@ -88,14 +94,17 @@ def is_empty(_: object, ob: bpy.types.Object) -> bool:
     return ob.type == 'EMPTY'
 
 
-class ReflinesScene(bpy.types.PropertyGroup):
+class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     camera: PointerProperty(name="View Camera", type=bpy.types.Object, poll=is_camera,
                             description="The view that the reflection lines are judged from")
     light: PointerProperty(name="Light Direction", type=bpy.types.Object, poll=is_empty,
                            description="An empty whose local Z axis is the direction of the line lights")
-    length: length_property()
-    strength: strength_property()
     border: border_property()
+    direction: PointerProperty(type=ReflinesDirection)
+    untwist: PointerProperty(type=ReflinesUntwist)
+    warp: PointerProperty(type=ReflinesWarp)
+    pattern: PointerProperty(type=ReflinesPattern)
+    curve: PointerProperty(type=bpy.types.NodeTree, description="Holds the artist's own fall-off curve")
     stripes: PointerProperty(type=ReflinesStripes)
 
     def missing(self) -> str:

@@ -2,6 +2,7 @@
 
 Nothing here is saved, and nothing here knows Blender's mesh data: panels come in as arrays, solutions go out as arrays.
 """
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import bpy
@@ -20,10 +21,9 @@ REFIT_ANGLE = 0.005  # radians a normal may turn before its fit is made anew: a 
 
 @dataclass(frozen=True)
 class Settings:
-    """What the artist chose for a solve. Lengths are world units; length 0 is a share of the panel's size."""
-    length: float
-    strength: float
+    """What every solve needs beside its target."""
     border: str
+    length: float  # detail finer than this counts as wobble, world units; 0: a share of the panel's size
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,10 @@ class Solution:
     panel: Panel
     positions: np.ndarray  # #V x 3, world space
     report: object
+    target: object
+    residual: np.ndarray   # #F, |grad theta - target|, radians / length
+    residual_before: float  # root mean square over the region, weighted as the target says
+    residual_after: float
     length: float
     score_before: float
     score_after: float
@@ -80,15 +84,28 @@ def optimizer_of(panel: Panel, seen: View, border: str) -> object:
     return live.optimizer
 
 
-def smooth(panel: Panel, seen: View, settings: Settings) -> Solution:
-    """Raises Refusal, with the object's name, where the solver cannot use the panel or breaks down."""
-    length = settings.length or AUTOMATIC_LENGTH * panel.diagonal
+def length_of(panel: Panel, length: float) -> float:
+    return length or AUTOMATIC_LENGTH * panel.diagonal
+
+
+def solve(panel: Panel, seen: View, settings: Settings, build_target: Callable[[object], object]) -> Solution:
+    """`build_target` makes the target from the optimizer.
+
+    Raises Refusal, with the object's name, where the solver cannot use the panel or breaks down.
+    """
     try:
         optimizer = optimizer_of(panel, seen, settings.border)
         refuse_closed(panel.name, int(panel.faces.sum()), optimizer.region.closed)
-        target = native.reflines.smooth(optimizer, length=length, strength=settings.strength)
-        return solve(panel, optimizer, target, length)
+        return solved(panel, optimizer, build_target(optimizer), length_of(panel, settings.length))
     except (native.InvalidInput, native.SolverFailure) as error:
+        raise Refusal(f"{panel.name}: {error}") from error
+
+
+def frame_of(panel: Panel, seen: View) -> np.ndarray:
+    """3 x 3, rows: the image plane's x and y, and the direction to the viewer, in world space."""
+    try:
+        return native.reflines.image_plane(seen.view_direction, seen.line_direction)
+    except native.InvalidInput as error:
         raise Refusal(f"{panel.name}: {error}") from error
 
 
@@ -99,11 +116,18 @@ def refuse_closed(name: str, faces: int, closed: bool) -> None:
                       "select only the faces of the panel")
 
 
-def solve(panel: Panel, optimizer: object, target: object, length: float) -> Solution:
-    before = optimizer.score(length)
+def solved(panel: Panel, optimizer: object, target: object, length: float) -> Solution:
+    score, lacking = optimizer.score(length), root_mean_square(optimizer, target)
     report = optimizer.solve(target)
-    return Solution(panel, optimizer.positions, report, length, before, optimizer.score(length),
+    return Solution(panel, optimizer.positions, report, target, optimizer.residual(target), lacking,
+                    root_mean_square(optimizer, target), length, score, optimizer.score(length),
                     tuple(optimizer.region.messages))
+
+
+def root_mean_square(optimizer: object, target: object) -> float:
+    """Of the residual, over the triangles in use and weighted as the target says."""
+    weight = (target.weight if len(target.weight) else 1.0) * optimizer.active  # none given: 1
+    return float(np.sqrt(weight @ optimizer.residual(target)**2 / max(weight.sum(), 1e-300)))
 
 
 def view_of(scene: bpy.types.Scene, center: np.ndarray) -> View:

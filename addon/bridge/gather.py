@@ -33,18 +33,28 @@ class Panel:
         return float(np.linalg.norm(self.V.max(axis=0) - self.V.min(axis=0)))
 
 
+def active(context: bpy.types.Context) -> bpy.types.Object | None:
+    """The active object; for a warp lattice the panel that it warps.
+
+    A lattice in Edit Mode stands for none: undo would give back the lattice only, and not the panel.
+    """
+    ob = context.view_layer.objects.active
+    is_warp = ob is not None and ob.type == 'LATTICE' and ob.mode == 'OBJECT' and ob.reflection_lines.panel is not None
+    return ob.reflection_lines.panel if is_warp else ob
+
+
 def subjects(context: bpy.types.Context) -> list[bpy.types.Object]:
     """The objects an operator works on: all meshes in Edit Mode that have selected faces, else the active mesh."""
-    active = context.view_layer.objects.active
-    if active is None or active.mode != 'EDIT':
-        return [active]
+    chosen = active(context)
+    if chosen is None or chosen.mode != 'EDIT':
+        return [chosen]
     editing = {ob.data: ob for ob in context.view_layer.objects if ob.mode == 'EDIT' and ob.type == 'MESH'}
-    chosen = [ob for ob in editing.values() if ob.data.total_face_sel > 0]
-    if not chosen:
+    selected = [ob for ob in editing.values() if ob.data.total_face_sel > 0]
+    if not selected:
         loose = sum(ob.data.total_vert_sel for ob in editing.values())
         also = f" (the {loose} selected vertices span no face)" if loose else ""
         raise Refusal(f"No faces are selected{also}: select the faces of the panel")
-    return chosen
+    return selected
 
 
 def gather(ob: bpy.types.Object) -> Panel:

@@ -1,0 +1,45 @@
+"""The warp lattice: a Blender Lattice that lies in the image plane over a region."""
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..targets.warp import Lattice
+from .gather import Panel
+from .refusal import Refusal
+
+LIFT = 0.1  # of the panel's diagonal, towards the viewer: the lattice is to be seen before the panel
+
+
+def add(panel: Panel, frame: np.ndarray, *, columns: int, rows: int, kind: str,
+        collection: bpy.types.Collection) -> bpy.types.Object:
+    """Lies over the region's extent along the image-plane axes `frame` (3 x 3, rows x, y and towards the viewer)."""
+    data = bpy.data.lattices.new("Warp Lattice")
+    data.points_u, data.points_v, data.points_w = columns, rows, 1
+    data.interpolation_type_u = data.interpolation_type_v = data.interpolation_type_w = kind
+    seen = panel.V @ frame.T
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    centre = np.append((low + high)[:2] / 2.0, high[2] + LIFT * panel.diagonal)
+    last = np.array(data.points[-1].co)  # a lattice given more points is larger in its own space, with the middle at 0
+    size = (high - low)[:2] / (2.0 * last[:2])
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = frame.T * np.append(size, size.max()), frame.T @ centre
+    lattice = bpy.data.objects.new("Warp Lattice", data)
+    lattice.matrix_world = Matrix(matrix.tolist())
+    collection.objects.link(lattice)
+    return lattice
+
+
+def read(ob: bpy.types.Object) -> Lattice:
+    """As it is now, in Edit Mode too: unlike a mesh a lattice shows there what is being edited."""
+    data = ob.data
+    count = len(data.points)
+    rest, now = np.empty(3 * count, np.float32), np.empty(3 * count, np.float32)
+    data.points.foreach_get("co", rest)
+    data.points.foreach_get("co_deform", now)
+    rest, now = rest.reshape(-1, 3).astype(float), now.reshape(-1, 3).astype(float)
+    matrix = np.array(ob.matrix_world, dtype=np.float64)
+    if np.linalg.matrix_rank(matrix[:3, :2]) < 2 or data.points_u < 2 or data.points_v < 2:
+        raise Refusal(f"{ob.name} has no area: give it at least 2 x 2 points and a scale other than zero")
+    shape = (data.points_w, data.points_v, data.points_u, 3)
+    kinds = (data.interpolation_type_u, data.interpolation_type_v, data.interpolation_type_w)
+    return Lattice(rest[0], rest[-1], (now - rest).reshape(shape), kinds, matrix)

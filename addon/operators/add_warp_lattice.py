@@ -1,0 +1,47 @@
+"""Add Warp Lattice."""
+import bpy
+
+from .. import session
+from ..bridge import apply, gather, lattice
+from ..bridge.refusal import Refusal
+from ..tool import Tool
+from ..tool_settings import SPLINES
+
+
+class REFLINES_OT_add_warp_lattice(bpy.types.Operator):
+    """Add a lattice over the selected faces, in the plane that the view camera sees.
+
+Move its control points in the lattice's Edit Mode, then press Warp: the lines go where the lattice takes them"""
+    bl_idname = "reflines.add_warp_lattice"
+    bl_label = "Add Warp Lattice"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    # Hidden: in Edit Mode undo does not take the lattice away, so a redo would add a second one.
+    columns: bpy.props.IntProperty(name="Columns", default=5, min=2, max=64, options={'HIDDEN'})
+    rows: bpy.props.IntProperty(name="Rows", default=5, min=2, max=64, options={'HIDDEN'})
+    interpolation: bpy.props.EnumProperty(name="Interpolation", items=SPLINES, default='KEY_BSPLINE',
+                                          options={'HIDDEN'})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return Tool.poll.__func__(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        context.view_layer.update()
+        settings = context.scene.reflection_lines
+        try:
+            ob = gather.subjects(context)[0]
+            panel = gather.gather(ob)
+            frame = session.frame_of(panel, session.view_of(context.scene, panel.center))
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        apply.keep_region(ob, panel)
+        added = lattice.add(panel, frame, columns=self.columns, rows=self.rows, kind=self.interpolation,
+                            collection=context.collection)
+        settings.warp.lattice = added
+        added.reflection_lines.panel = ob
+        return {'FINISHED'}
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_add_warp_lattice])

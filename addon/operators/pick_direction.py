@@ -1,0 +1,53 @@
+"""Pick Line Direction."""
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import region_2d_to_location_3d
+
+from ..bridge import gather, view
+
+NAVIGATION = {'MIDDLEMOUSE', 'WHEELUPMOUSE', 'WHEELDOWNMOUSE'}
+
+
+class REFLINES_OT_pick_direction(bpy.types.Operator):
+    """Click twice in the 3D view: the lines are to run from the first point to the second"""
+    bl_idname = "reflines.pick_direction"
+    bl_label = "Pick Two Points"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = gather.active(context)
+        cls.poll_message_set("Make the panel's mesh the active object, and the 3D view visible")
+        return ob is not None and ob.type == 'MESH' and context.area is not None and context.area.type == 'VIEW_3D'
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        self.points = []
+        self.window = next(region for region in context.area.regions if region.type == 'WINDOW')
+        context.window_manager.modal_handler_add(self)
+        context.workspace.status_text_set("Click where the line starts, then where it goes. Esc: leave all as it is")
+        return {'RUNNING_MODAL'}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type in {'ESC', 'RIGHTMOUSE'}:
+            context.workspace.status_text_set(None)
+            return {'CANCELLED'}
+        if event.type != 'LEFTMOUSE' or event.value != 'PRESS':
+            return {'PASS_THROUGH'} if event.type in NAVIGATION else {'RUNNING_MODAL'}
+        self.points.append(self.under(context, event))
+        return {'RUNNING_MODAL'} if len(self.points) < 2 else self.finish(context)
+
+    def under(self, context: bpy.types.Context, event: bpy.types.Event) -> np.ndarray:
+        """World point under the mouse, as far away as the panel's middle: what counts is the direction."""
+        at = (event.mouse_x - self.window.x, event.mouse_y - self.window.y)
+        centre = view.extent(gather.active(context))[0]
+        return np.array(region_2d_to_location_3d(self.window, context.space_data.region_3d, at, centre))
+
+    def finish(self, context: bpy.types.Context) -> set[str]:
+        context.workspace.status_text_set(None)
+        settings = context.scene.reflection_lines.direction
+        settings.start, settings.end = self.points
+        settings.direction = 'POINTS'
+        return {'FINISHED'}
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_pick_direction])

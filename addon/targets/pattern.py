@@ -1,0 +1,27 @@
+"""Lines bent after a picture."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import native
+from .falloff import in_plane
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """The picture lies in the image plane, its bottom edge along `right` turned by `angle`."""
+    grey: np.ndarray          # #rows x #columns, first row at the bottom, 0 black to 1 white
+    centre: np.ndarray        # 3, world space
+    right: np.ndarray         # 3, world space
+    width: float              # of the picture, world units
+    angle: float = 0.0        # radians, counter-clockwise as the viewer sees it
+    strength: float = 1.0     # radians of theta from black to white
+    blur: float = 0.0         # pixels
+    keep: float = 1.0         # share of the present lines that the pattern is added to
+
+
+def target(optimizer: object, settings: Pattern) -> object:
+    x, y = in_plane(optimizer, settings.right)
+    return native.reflines.pattern(
+        optimizer, image=settings.grey, strength=settings.strength, blur=settings.blur, keep=settings.keep,
+        centre=in_plane(optimizer, settings.centre), width=settings.width, angle=settings.angle + np.arctan2(y, x))

@@ -1,0 +1,93 @@
+"""What the operators that solve share: when they can run, gathering, applying, and telling the artist what happened."""
+from collections.abc import Callable
+
+import bpy
+
+from . import session
+from .bridge import apply, curve, gather, place
+from .bridge.gather import Panel
+from .bridge.refusal import Refusal
+from .properties import border_property
+from .targets import falloff
+from .targets.falloff import Falloff
+
+BuildTarget = Callable[[object], object]  # of the optimizer; what it returns is a native Target
+AUTOMATIC_RADIUS = 1.0 / 3.0  # of the region's diagonal
+
+
+class Tool:
+    """A tool adds its settings, says where the scene keeps them, and how a target is built from them."""
+    bl_options = {'REGISTER', 'UNDO'}
+
+    border: border_property(options={'SKIP_SAVE'})
+
+    def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
+        """The set of settings that stands for those not given."""
+        raise NotImplementedError
+
+    def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> BuildTarget:
+        raise NotImplementedError
+
+    def remarks(self, _solution: session.Solution) -> tuple[str, ...]:
+        """Sentences about a finished solve beside the solver's own."""
+        return ()
+
+    def detail(self, scene: bpy.types.Scene) -> float:
+        """Detail finer than this counts as wobble in the score; 0 is a share of the panel's size."""
+        return scene.reflection_lines.length
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = gather.active(context)
+        if ob is None or ob.type != 'MESH' or ob.mode not in {'EDIT', 'OBJECT'}:
+            cls.poll_message_set("Make the panel's mesh the active object, in Edit Mode or Object Mode")
+            return False
+        obstacle = session.obstacle(context.scene)
+        cls.poll_message_set(obstacle)
+        return not obstacle
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        context.view_layer.update()  # transforms set by a script a moment ago
+        self.take_settings(context.scene)
+        try:
+            solutions = [self.solved(context, ob) for ob in gather.subjects(context)]
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        for solution in solutions:
+            self.keep(bpy.data.objects[solution.panel.name], solution)
+        return {'FINISHED'}
+
+    def take_settings(self, scene: bpy.types.Scene) -> None:
+        own = self.scene_settings(scene)
+        for name, _ in self.properties.bl_rna.properties.items():
+            holder = scene.reflection_lines if name == "border" else own
+            taken = holder.bl_rna.properties.get(name)
+            if taken is not None and taken.type != 'POINTER' and not self.properties.is_property_set(name):
+                setattr(self, name, getattr(holder, name))
+
+    def solved(self, context: bpy.types.Context, ob: bpy.types.Object) -> session.Solution:
+        panel = gather.gather(ob)
+        build = self.build_target(context, ob, panel)
+        settings = session.Settings(self.border, self.detail(context.scene))
+        return session.solve(panel, session.view_of(context.scene, panel.center), settings, build)
+
+    def keep(self, ob: bpy.types.Object, solution: session.Solution) -> None:
+        apply.keep_region(ob, solution.panel)
+        apply.apply(ob, solution.panel, solution.positions)
+        stored = ob.reflection_lines
+        stored.center = solution.panel.local_center
+        stored.report.fill(solution, (*solution.notes, *self.remarks(solution)))
+        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")
+        for note in stored.report.notes.splitlines():
+            self.report({'WARNING'}, f"{ob.name}: {note}")
+
+
+def placed_falloff(settings: Tool, scene: bpy.types.Scene, ob: bpy.types.Object, panel: Panel) -> Falloff | None:
+    """Of a tool with tool_settings.FalloffSettings; None where it acts everywhere alike."""
+    if settings.centre == 'EVERYWHERE':
+        return None
+    own = settings.shape == 'CURVE'
+    values = curve.table(scene.reflection_lines.curve or curve.ensure()) if own else falloff.preset(settings.shape)
+    centre = place.centre_of(settings.centre, scene, ob, panel)
+    return Falloff(centre, settings.radius or AUTOMATIC_RADIUS * panel.diagonal, values)
