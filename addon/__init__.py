@@ -7,12 +7,13 @@ import importlib
 from . import native
 from .targets import falloff, smooth as smooth_target, direction as direction_target, untwist as untwist_target
 from .targets import warp as warp_target, pattern as pattern_target
-from .bridge import refusal, versions, view, region, gather, apply, surface, lattice, picture, place, curve
-from . import tool_settings, properties, session, tool
-from .overlay import stripes, shader, draw
+from .bridge import refusal, versions, view, region, gather, apply, surface, environment
+from .bridge import lattice, picture, place, curve
+from . import tool_settings, stripe_settings, properties, session, tool
+from .overlay import stripes, shader, normals, seen, draw
 from .operators import add_light_direction, add_view_camera, add_warp_lattice
-from .operators import direction, pattern, pick_direction, smooth, untwist, warp
-from . import preferences, panels
+from .operators import direction, pattern, pick_direction, smooth, untwist, warp, stripes as stripes_operators
+from . import preferences, panels, stripes_panel
 
 bl_info = {
     "name": "Reflection Lines",
@@ -25,10 +26,10 @@ bl_info = {
 }
 
 MODULES = (native, falloff, smooth_target, direction_target, untwist_target, warp_target, pattern_target,
-           refusal, versions, view, region, gather, apply, surface, lattice, picture, place, curve,
-           tool_settings, properties, session, tool, stripes, shader, draw,
+           refusal, versions, view, region, gather, apply, surface, environment, lattice, picture, place, curve,
+           tool_settings, stripe_settings, properties, session, tool, stripes, shader, normals, seen, draw,
            add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth, untwist,
-           warp, preferences, panels)
+           warp, stripes_operators, preferences, panels, stripes_panel)
 
 if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.
     for module in MODULES:

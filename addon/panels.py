@@ -174,22 +174,6 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
             paragraph(column, context, note, 'ERROR')
 
 
-class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
-    bl_label = "Stripes"
-
-    def draw_header(self, context: bpy.types.Context) -> None:
-        self.layout.prop(context.scene.reflection_lines.stripes, "show", text="")
-
-    def draw(self, context: bpy.types.Context) -> None:
-        stripes = context.scene.reflection_lines.stripes
-        layout = self.layout
-        layout.use_property_split, layout.use_property_decorate = True, False
-        layout.active = stripes.show
-        for name in ("eye", "cage_on_top", "count", "width", "softness", "color", "gap_color", "opacity"):
-            layout.prop(stripes, name)
-
-
 register, unregister = bpy.utils.register_classes_factory([
     VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_direction,
-    VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
-    VIEW3D_PT_reflines_stripes])
+    VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result])

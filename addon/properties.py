@@ -1,28 +1,20 @@
 """What is saved in the .blend file: settings on the scene, the last result on the object."""
 import bpy
-from bpy.props import (BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty,
-                       StringProperty)
+from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
 
-from .tool_settings import (ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings)
+from .stripe_settings import ReflinesSetups, ReflinesStripes
+from .tool_settings import ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings
 
 BORDERS = (
     ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly"),
     ('fixed', "Fixed", "Border vertices stay; the slope across the border may change"),
     ('free', "Free", "Border vertices may move along the view, as the rest does"),
 )
-EYES = (
-    ('CAMERA', "View Camera", "Stripes as the solver sees them: from the view camera's direction"),
-    ('VIEWPORT', "Viewport", "Stripes slide over the panel as you orbit around it"),
-)
 
 
 def border_property(**options: object) -> object:
     return EnumProperty(name="Border", items=BORDERS, default='clamped', **options,
                         description="What happens at the border of the region")
-
-
-def color_property(name: str, default: tuple[float, float, float, float]) -> object:
-    return FloatVectorProperty(name=name, subtype='COLOR', size=4, min=0.0, max=1.0, default=default)
 
 
 class ReflinesReport(bpy.types.PropertyGroup):
@@ -71,21 +63,6 @@ class ReflinesObject(bpy.types.PropertyGroup):
     center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
 
 
-class ReflinesStripes(bpy.types.PropertyGroup):
-    show: BoolProperty(name="Show Stripes", description="Draw the reflection of line lights over the active mesh")
-    eye: EnumProperty(name="Seen From", items=EYES, default='CAMERA')
-    cage_on_top: BoolProperty(name="Cage on Top", description="In Edit Mode, edges hide the stripes below")
-    count: IntProperty(name="Count", default=60, min=1, soft_max=200, max=2000,
-                       description="Line lights in a full turn around the light direction")
-    width: FloatProperty(name="Width", default=0.5, min=0.0, max=1.0, subtype='FACTOR',
-                         description="Share of the distance between two line lights that is light")
-    softness: FloatProperty(name="Soft Edge", default=0.1, min=0.0, max=1.0, subtype='FACTOR',
-                            description="Blur of the edges of the stripes, as a share of their width")
-    color: color_property("Light", (0.9, 0.93, 1.0, 1.0))
-    gap_color: color_property("Gap", (0.01, 0.012, 0.016, 1.0))
-    opacity: FloatProperty(name="Opacity", default=0.9, min=0.0, max=1.0, subtype='FACTOR')
-
-
 def is_camera(_: object, ob: bpy.types.Object) -> bool:
     return ob.type == 'CAMERA'
 
@@ -106,6 +83,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     pattern: PointerProperty(type=ReflinesPattern)
     curve: PointerProperty(type=bpy.types.NodeTree, description="Holds the artist's own fall-off curve")
     stripes: PointerProperty(type=ReflinesStripes)
+    setups: PointerProperty(type=ReflinesSetups)
 
     def missing(self) -> str:
         """What must be there before any tool can run, as a sentence; empty where nothing is missing."""
@@ -123,7 +101,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
         return self.present(self.camera) and self.camera.data.type != 'ORTHO'
 
 
-CLASSES = (ReflinesReport, ReflinesObject, ReflinesStripes, ReflinesScene)
+CLASSES = (ReflinesReport, ReflinesObject, ReflinesScene)
 
 
 def register() -> None:

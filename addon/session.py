@@ -3,20 +3,19 @@
 Nothing here is saved, and nothing here knows Blender's mesh data: panels come in as arrays, solutions go out as arrays.
 """
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
 from bpy.props import PointerProperty, StringProperty
 
 from . import native
-from .bridge import surface, view
+from .bridge import view
 from .bridge.gather import Panel
 from .bridge.refusal import Refusal
 from .bridge.view import View
 
 AUTOMATIC_LENGTH = 1.0 / 6.0  # of the panel's diagonal
-REFIT_ANGLE = 0.005  # radians a normal may turn before its fit is made anew: a twentieth of the usual stripes' period
 
 
 @dataclass(frozen=True)
@@ -57,15 +56,7 @@ class Live:
                 and np.array_equal(self.panel.V, panel.V) and np.array_equal(self.panel.F, panel.F))
 
 
-@dataclass(frozen=True)
-class Fit:
-    """A quadratic normal fit with the triangles it was built for."""
-    F: np.ndarray
-    normal_fit: object
-
-
 _live: dict[str, Live] = {}
-_fits: dict[str, Fit] = {}
 
 
 def obstacle(scene: bpy.types.Scene) -> str:
@@ -147,28 +138,9 @@ def shown_directions(scene: bpy.types.Scene, ob: bpy.types.Object) -> tuple[np.n
         return None, None
 
 
-def shown_surface(ob: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> surface.Surface:
-    """What the viewport shows of an object, in object space, with fitted normals where they can be had."""
-    shown = surface.read(ob, depsgraph)
-    if not native.STATE.usable or not len(shown.F):
-        return shown
-    try:
-        return replace(shown, normals=fitted_normals(ob.name, shown.V, shown.F))
-    except (native.InvalidInput, native.SolverFailure):
-        return shown  # Blender's own normals: a mesh too broken to be fitted is still to be seen
-
-
-def fitted_normals(name: str, V: np.ndarray, F: np.ndarray) -> np.ndarray:
-    fit = _fits.get(name)
-    if fit is None or not np.array_equal(fit.F, F):
-        fit = _fits[name] = Fit(F, native.reflines.NormalFit(V, F, refit_angle=REFIT_ANGLE))
-    return fit.normal_fit.normals(V)
-
-
 @bpy.app.handlers.persistent
 def forget(*_: object) -> None:
     _live.clear()
-    _fits.clear()
 
 
 class ReflinesSession(bpy.types.PropertyGroup):

@@ -121,13 +121,19 @@ def mean_normal(ob: bpy.types.Object) -> np.ndarray:
     return normal / np.linalg.norm(normal)
 
 
+def corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """The vertices of all faces, corner by corner, and the number of corners of each face."""
+    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
+    vertices = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    mesh.loops.foreach_get("vertex_index", vertices)
+    return vertices, sizes
+
+
 def face_vertices(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
     """The vertices of the chosen faces, corner by corner."""
-    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-    corners = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    mesh.loops.foreach_get("vertex_index", corners)
-    return corners[np.repeat(faces, sizes)]
+    vertices, sizes = corners(mesh)
+    return vertices[np.repeat(faces, sizes)]
 
 
 def coordinates(ob: bpy.types.Object) -> np.ndarray:

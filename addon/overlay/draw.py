@@ -1,24 +1,35 @@
-"""Draws the stripes over the active mesh. A batch is rebuilt when the surface changes, never when a setting does."""
+"""Draws the stripes over meshes. A batch is rebuilt when its surface changes, never when a setting does."""
 from dataclasses import dataclass, field
 
 import bpy
 import gpu
 import numpy as np
 
-from .. import session
-from . import shader, stripes
+from ..bridge import environment, surface
+from . import seen, shader, stripes
+from .normals import Fits
+
+POLL = 0.05  # seconds between two looks at the fits in threads
+
+
+@dataclass
+class Shown:
+    """What is on the GPU of one object."""
+    kind: tuple = ()              # how it was read: mode and part
+    stale: bool = True            # the surface may have changed since it was uploaded
+    topology: object = None
+    uploaded: tuple = ()          # the arrays of the batch
+    batch: object = None
 
 
 @dataclass
 class Cache:
-    """What is on the GPU, for the one object that is shown."""
-    name: str = ""
-    mode: str = ""
-    stale: bool = True            # the surface may have changed since it was uploaded
-    signature: bytes = b""
-    batch: object = None
+    """Of all viewports. Shader and textures are kept: Blender 5.2 crashes when a texture dies after its shader."""
+    shown: dict[str, Shown] = field(default_factory=dict)
+    fits: Fits = field(default_factory=Fits)
     shader: object = None
-    uniforms: object = None
+    uniforms: dict = field(default_factory=dict)   # one buffer an object: drawing is not done when the next is filled
+    textures: dict = field(default_factory=dict)
     builds: int = 0               # batches made so far
     handles: list = field(default_factory=list)
 
@@ -30,114 +41,150 @@ def batch_builds() -> int:
     return _cache.builds
 
 
+def is_waiting() -> bool:
+    """Whether a fit of normals is on its way."""
+    return bool(_cache.fits.jobs)
+
+
 def draw() -> None:
     """In a viewport's POST_VIEW."""
     context = bpy.context
-    ob = context.view_layer.objects.active
-    if not context.scene.reflection_lines.stripes.show or not is_shown(ob, context.space_data):
-        return
-    values = uniforms(context, ob)
-    if values is None:
-        return
-    refresh(ob, context.evaluated_depsgraph_get())
-    if _cache.batch is not None:
-        paint(values)
-
-
-def is_shown(ob: bpy.types.Object | None, space: bpy.types.SpaceView3D) -> bool:
-    if ob is None or ob.type != 'MESH':
-        return False
-    return ob.mode in {'OBJECT', 'EDIT'} and ob.visible_get(viewport=space)
-
-
-def uniforms(context: bpy.types.Context, ob: bpy.types.Object) -> np.ndarray | None:
-    """None where the light is missing or parallel to the view: there are no reflection lines then."""
     settings = context.scene.reflection_lines.stripes
-    view_direction, line_direction = session.shown_directions(context.scene, ob)
-    if line_direction is None:
-        return None
-    locked = settings.eye == 'CAMERA' and view_direction is not None
-    eye = stripes.Eye(view_direction) if locked else viewport_eye(context.region_data)
-    axes = stripes.zero_axes(eye.direction, line_direction)
-    if axes is None:
-        return None
-    region_3d = context.region_data
-    return stripes.uniforms(model=array(ob.matrix_world), view_matrix=array(region_3d.view_matrix),
-                            projection=array(region_3d.window_matrix), eye=eye, axes=axes,
-                            look=look(settings, ob.mode))
-
-
-def array(matrix: object) -> np.ndarray:
-    return np.array(matrix, dtype=np.float64)
-
-
-def viewport_eye(region_3d: bpy.types.RegionView3D) -> stripes.Eye:
-    back = array(region_3d.view_matrix.inverted_safe())
-    return stripes.Eye(back[:3, 2], back[:3, 3] if region_3d.is_perspective else None)
-
-
-def look(settings: bpy.types.PropertyGroup, mode: str) -> stripes.Look:
-    offset = stripes.ABOVE_CAGE if mode == 'EDIT' and not settings.cage_on_top else stripes.BELOW_CAGE
-    return stripes.Look(settings.count, settings.width, settings.softness,
-                        tuple(settings.color), tuple(settings.gap_color), settings.opacity, offset)
-
-
-def refresh(ob: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> None:
-    if not _cache.stale and (_cache.name, _cache.mode) == (ob.name, ob.mode):
+    if not settings.show:
         return
-    shown = session.shown_surface(ob, depsgraph)
-    signature = stripes.signature(shown.V, shown.F, shown.normals)
-    if signature != _cache.signature:
-        _cache.batch = make_batch(shown.V, shown.F, shown.normals) if len(shown.F) else None
-        _cache.signature = signature
-    _cache.name, _cache.mode, _cache.stale = ob.name, ob.mode, False
+    objects = seen.shown_objects(context, settings)
+    for ob in objects:
+        values = seen.uniforms(context, ob)
+        if values is None:
+            continue
+        shown = _cache.shown.setdefault(ob.name, Shown())
+        refresh(shown, ob, settings, context.evaluated_depsgraph_get())
+        if shown.batch is not None:
+            paint(ob.name, shown.batch, values, texture_of(settings))
+    if is_waiting() and not bpy.app.timers.is_registered(poll_fits):
+        bpy.app.timers.register(poll_fits, first_interval=POLL)
 
 
-def make_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray) -> gpu.types.GPUBatch:
+def refresh(shown: Shown, ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
+            depsgraph: bpy.types.Depsgraph) -> None:
+    kind = (ob.mode, seen.is_part_only(ob, settings))
+    if not shown.stale and shown.kind == kind:
+        return
+    read = surface.read(ob, depsgraph, shown.topology)
+    arrays = part(ob.name, read) if kind[1] else whole(ob.name, read)
+    if len(arrays) != len(shown.uploaded) or not all(map(np.array_equal, arrays, shown.uploaded)):
+        shown.batch = make_batch(*arrays) if len(arrays[1]) else None
+        shown.uploaded = arrays
+    shown.topology, shown.kind, shown.stale = read.topology, kind, False
+
+
+def whole(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Positions, triangles and normals of a batch."""
+    return read.V, read.F, _cache.fits.normals(name, read.V, read.F)
+
+
+def part(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The selected triangles, with the normals that they have in the whole."""
+    inside = stripes.around(read.F, read.selected, len(read.V), rings=3)
+    used, F = np.unique(read.F[inside], return_inverse=True)
+    V, F = read.V[used], F.reshape(-1, 3).astype(np.int32)
+    return V, F[read.selected[inside]], _cache.fits.normals(name, V, F)
+
+
+def make_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
+               share: np.ndarray | None = None) -> gpu.types.GPUBatch:
     _cache.builds += 1
     layout = gpu.types.GPUVertFormat()
     layout.attr_add(id="pos", comp_type='F32', len=3, fetch_mode='FLOAT')
     layout.attr_add(id="nor", comp_type='F32', len=3, fetch_mode='FLOAT')
+    layout.attr_add(id="val", comp_type='F32', len=1, fetch_mode='FLOAT')
     vertices = gpu.types.GPUVertBuf(len=len(V), format=layout)
     # attr_fill takes other types and orders as well, and draws them wrongly.
     vertices.attr_fill(id="pos", data=np.ascontiguousarray(V, np.float32))
     vertices.attr_fill(id="nor", data=np.ascontiguousarray(normals, np.float32))
+    values = np.zeros((len(V), 1)) if share is None else share.reshape(-1, 1)
+    vertices.attr_fill(id="val", data=np.ascontiguousarray(values, np.float32))
     triangles = gpu.types.GPUIndexBuf(type='TRIS', seq=np.ascontiguousarray(F, np.uint32))
     return gpu.types.GPUBatch(type='TRIS', buf=vertices, elem=triangles)
 
 
-def paint(values: np.ndarray) -> None:
+def texture_of(settings: bpy.types.PropertyGroup) -> gpu.types.GPUTexture:
+    """Of the environment image; a grey point where none is wanted or none can be had."""
+    wanted = settings.image if settings.mode == 'IMAGE' else None
+    key = environment.key(wanted) if wanted is not None else None
+    if key not in _cache.textures:
+        pixels = environment.read(wanted) if wanted is not None else None
+        _cache.textures[key] = make_texture(np.full((1, 1, 4), 0.2, np.float32) if pixels is None else pixels)
+    return _cache.textures[key]
+
+
+def make_texture(pixels: np.ndarray) -> gpu.types.GPUTexture:
+    wrapped = np.ascontiguousarray(np.concatenate([pixels[:, -1:], pixels, pixels[:, :1]], axis=1))
+    height, width = wrapped.shape[:2]
+    return gpu.types.GPUTexture((width, height), format='RGBA16F',
+                                data=gpu.types.Buffer('FLOAT', wrapped.size, wrapped.ravel()))
+
+
+def paint(name: str, batch: gpu.types.GPUBatch, values: np.ndarray, texture: gpu.types.GPUTexture) -> None:
     data = gpu.types.Buffer('FLOAT', len(values), values)
     if _cache.shader is None:
         _cache.shader = shader.compile_shader()
-        _cache.uniforms = gpu.types.GPUUniformBuf(data)
+    if name in _cache.uniforms:
+        _cache.uniforms[name].update(data)
     else:
-        _cache.uniforms.update(data)
+        _cache.uniforms[name] = gpu.types.GPUUniformBuf(data)
     gpu.state.depth_test_set('LESS_EQUAL')
     gpu.state.depth_mask_set(False)
     gpu.state.blend_set('ALPHA')
     _cache.shader.bind()
-    _cache.shader.uniform_block("ub", _cache.uniforms)
-    _cache.batch.draw(_cache.shader)
+    _cache.shader.uniform_block("ub", _cache.uniforms[name])
+    _cache.shader.uniform_sampler("environment", texture)
+    batch.draw(_cache.shader)
     gpu.state.blend_set('NONE')
     gpu.state.depth_test_set('NONE')
 
 
+def poll_fits() -> float | None:
+    """A timer, so on Blender's own thread: draws again what has better normals now."""
+    for name in _cache.fits.finished():
+        _cache.fits.collect(name)
+        _cache.shown.setdefault(name, Shown()).stale = True
+        for window in bpy.context.window_manager.windows:
+            for area in window.screen.areas:
+                if area.type == 'VIEW_3D':
+                    area.tag_redraw()
+    return POLL if is_waiting() else None
+
+
 @bpy.app.handlers.persistent
-def note_changes(_: object, depsgraph: bpy.types.Depsgraph) -> None:
+def note_changes(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """A new selection is no new geometry, but it says which part is shown."""
+    any_update = scene.reflection_lines.stripes.scope == 'SELECTION'
     for update in depsgraph.updates:
-        if update.is_updated_geometry and isinstance(update.id, bpy.types.Object) and update.id.name == _cache.name:
-            _cache.stale = True
+        if not (update.is_updated_geometry or any_update):
+            continue
+        if isinstance(update.id, bpy.types.Object) and update.id.name in _cache.shown:
+            _cache.shown[update.id.name].stale = True
+        elif any_update:
+            note_everything()
 
 
 @bpy.app.handlers.persistent
 def note_everything(*_: object) -> None:
-    """Undo and a new file exchange objects without saying which."""
-    _cache.stale = True
+    """Undo exchanges objects without saying which."""
+    for shown in _cache.shown.values():
+        shown.stale = True
+
+
+@bpy.app.handlers.persistent
+def forget(*_: object) -> None:
+    _cache.shown.clear()
+    _cache.textures.clear()
+    _cache.fits.forget()
 
 
 HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", note_everything), ("redo_post", note_everything),
-            ("load_post", note_everything))
+            ("load_post", forget))
 
 
 def register() -> None:
@@ -153,4 +200,6 @@ def unregister() -> None:
         bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
         for name, handler in HANDLERS:
             getattr(bpy.app.handlers, name).remove(handler)
-    _cache.batch, _cache.signature, _cache.stale = None, b"", True
+    if bpy.app.timers.is_registered(poll_fits):
+        bpy.app.timers.unregister(poll_fits)
+    forget()

@@ -1,10 +1,12 @@
 """The stripes' shader. theta here is theta of the solver (paper, eq. 1), evaluated in every pixel."""
 import gpu
 
+from .stripes import RAMP
+
 STRUCT = """
 struct StripeData {
   mat4 mvp; mat4 model; mat4 normals;
-  vec4 depth_axis; vec4 eye; vec4 v_a; vec4 a_perp; vec4 shape; vec4 color; vec4 gap_color; vec4 opacity;
+  vec4 depth_axis; vec4 eye; vec4 v_a; vec4 a_perp; vec4 line; vec4 shape; vec4 color; vec4 gap_color; vec4 paint;
 };
 """
 
@@ -17,6 +19,43 @@ void main()
   gl_Position = vec4(clip.xy, nearer.z / nearer.w * clip.w, clip.w);
   world = (ub.model * vec4(pos, 1.0)).xyz;
   normal = (ub.normals * vec4(nor, 0.0)).xyz;
+  share = val;
+}
+"""
+
+BAND = """
+// Light of the stripes at the angle of (c, s), with `rate` line lights a radian.
+float band(float c, float s, float rate)
+{
+  float t = atan(s, c) * rate;
+  // Width of a pixel in t, from c and s instead of t: the branch cut of atan has no derivative.
+  float across = abs(c * dFdx(s) - s * dFdx(c)) + abs(c * dFdy(s) - s * dFdy(c));
+  float pixel = across * rate / max(c * c + s * s, 1e-12);
+  float width = ub.shape.y;
+  float from_center = abs(fract(t + 0.5) - 0.5);  // a line light stands at angle 0
+  float edge = max(max(0.7 * pixel, 0.5 * ub.shape.z * min(width, 1.0 - width)), 1e-5);
+  float light = 1.0 - smoothstep(-edge, edge, from_center - 0.5 * width);
+  return mix(light, width, smoothstep(0.4, 0.8, pixel));  // too fine to be drawn: their mean
+}
+"""
+
+ENVIRONMENT = """
+// Colour of the image in a world direction, laid out as Blender's environment textures are. The texture has one more
+// column at each end, a copy of the other end's, so that its filter knows no seam.
+vec3 environment_color(vec3 d)
+{
+  float columns = float(textureSize(environment, 0).x);
+  float u = fract(0.5 - atan(d.y, d.x) / 6.283185307179586 + ub.paint.z);
+  float v = atan(d.z, length(d.xy)) / 3.141592653589793 + 0.5;
+  return texture(environment, vec2((u * (columns - 2.0) + 1.0) / columns, v)).rgb;
+}
+
+// Mean of four points of the pixel.
+vec3 mirrored_color(vec3 r)
+{
+  vec3 x = dFdx(r), y = dFdy(r);
+  return 0.25 * (environment_color(r + 0.125 * x + 0.375 * y) + environment_color(r - 0.375 * x + 0.125 * y) +
+                 environment_color(r - 0.125 * x - 0.375 * y) + environment_color(r + 0.375 * x - 0.125 * y));
 }
 """
 
@@ -26,21 +65,34 @@ void main()
   vec3 n = normalize(normal);
   vec3 v = normalize(ub.eye.xyz - ub.eye.w * world);
   vec3 r = 2.0 * dot(n, v) * n - v;
-  float c = dot(r, ub.v_a.xyz);
-  float s = dot(r, ub.a_perp.xyz);
-  float t = atan(s, c) * ub.shape.x;
-  // Width of a pixel in t, from c and s instead of t: the branch cut of atan has no derivative.
-  float across = abs(c * dFdx(s) - s * dFdx(c)) + abs(c * dFdy(s) - s * dFdy(c));
-  float pixel = across * ub.shape.x / max(c * c + s * s, 1e-12);
-  float width = ub.shape.y;
-  float from_center = abs(fract(t + 0.5) - 0.5);  // a line light stands at theta = 0
-  float edge = max(max(0.7 * pixel, 0.5 * ub.shape.z * min(width, 1.0 - width)), 1e-5);
-  float light = 1.0 - smoothstep(-edge, edge, from_center - 0.5 * width);
-  light = mix(light, width, smoothstep(0.4, 0.8, pixel));  // too fine to be drawn: their mean
-  vec4 color = mix(ub.gap_color, ub.color, light);
-  fragColor = vec4(color.rgb, color.a * ub.opacity.x);
+  vec3 a = ub.line.xyz;
+  int mode = int(ub.paint.y + 0.5);
+  vec4 color;
+  if (mode == 3) {
+    color = vec4(mirrored_color(r), 1.0);
+  }
+  else if (mode == 4) {
+    color = vec4(ramp_color(share), 1.0);
+  }
+  else {
+    // A normal turns half as much as its reflection: twice the rate draws the stripes as densely in all three modes.
+    vec3 direction = mode == 0 ? r : n;
+    float rate = mode == 0 ? ub.shape.x : 2.0 * ub.shape.x;
+    float c = mode == 2 ? dot(n, a) : dot(direction, ub.v_a.xyz);
+    float s = mode == 2 ? length(cross(n, a)) : dot(direction, ub.a_perp.xyz);
+    color = mix(ub.gap_color, ub.color, band(c, s, rate));
+  }
+  fragColor = vec4(color.rgb, color.a * ub.paint.x);
 }
 """
+
+
+def ramp_source() -> str:
+    """stripes.ramp in GLSL."""
+    colors = [f"vec3({r:.6f}, {g:.6f}, {b:.6f})" for r, g, b in RAMP]
+    steps = "".join(f"  c = mix(c, {color}, clamp(x - {k}.0, 0.0, 1.0));\n" for k, color in enumerate(colors[1:]))
+    return (f"vec3 ramp_color(float given)\n{{\n  float x = clamp(given, 0.0, 1.0) * {len(RAMP) - 1}.0;\n"
+            f"  vec3 c = {colors[0]};\n{steps}  return c;\n}}\n")
 
 
 def compile_shader() -> gpu.types.GPUShader:
@@ -48,13 +100,16 @@ def compile_shader() -> gpu.types.GPUShader:
     info = gpu.types.GPUShaderCreateInfo()
     info.typedef_source(STRUCT)
     info.uniform_buf(0, "StripeData", "ub")
+    info.sampler(0, 'FLOAT_2D', "environment")
     info.vertex_in(0, 'VEC3', "pos")
     info.vertex_in(1, 'VEC3', "nor")
+    info.vertex_in(2, 'FLOAT', "val")
     between = gpu.types.GPUStageInterfaceInfo("stripes_iface")
     between.smooth('VEC3', "world")
     between.smooth('VEC3', "normal")
+    between.smooth('FLOAT', "share")
     info.vertex_out(between)
     info.fragment_out(0, 'VEC4', "fragColor")
     info.vertex_source(VERTEX)
-    info.fragment_source(FRAGMENT)
+    info.fragment_source(BAND + ENVIRONMENT + ramp_source() + FRAGMENT)
     return gpu.shader.create_from_info(info)

@@ -1,5 +1,4 @@
 """Stripes as plain arrays: what the shader is given. No Blender, no GPU."""
-import hashlib
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,17 +8,25 @@ TURN = 2.0 * np.pi
 BELOW_CAGE = 1e-3  # Blender's edges and vertices of Edit Mode stay in front
 ABOVE_CAGE = 3e-2  # hides them
 
+# Numbers of the modes in the shader.
+MODES = {'REFLECTION': 0, 'HIGHLIGHT': 1, 'ISOPHOTE': 2, 'IMAGE': 3, 'RESIDUAL': 4, 'DEVIATION': 4}
+
+# Colours of the maps, linear, from 0 to the full value: dark, then cold, then warm, so that grey prints keep the order.
+RAMP = ((0.012, 0.015, 0.06), (0.05, 0.16, 0.55), (0.06, 0.55, 0.35), (0.92, 0.70, 0.10), (0.90, 0.09, 0.05))
+
 
 @dataclass(frozen=True)
 class Look:
     """How stripes are painted. Colours are linear RGBA; width and softness are shares."""
+    mode: str
     count: int
     width: float
     softness: float
     color: tuple[float, float, float, float]
     gap_color: tuple[float, float, float, float]
     opacity: float
-    depth_offset: float  # how much nearer to the eye than the surface, as a share of the distance
+    image_rotation: float  # radians
+    depth_offset: float    # how much nearer to the eye than the surface, as a share of the distance
 
 
 @dataclass(frozen=True)
@@ -29,35 +36,56 @@ class Eye:
     position: np.ndarray | None = None
 
 
-def zero_axes(direction: np.ndarray, line_direction: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """v_a and a_perp of the paper's section 2.1: theta is the angle from the first towards the second.
+@dataclass(frozen=True)
+class Lights:
+    """The paper's section 2.1: theta is the angle around `line` from v_a towards a_perp. Unit vectors, world space."""
+    line: np.ndarray
+    v_a: np.ndarray
+    a_perp: np.ndarray
 
-    None where light and view are parallel.
-    """
+
+def lights(direction: np.ndarray, line_direction: np.ndarray) -> Lights | None:
+    """With theta = 0 towards the viewer in `direction`; None where light and view are parallel."""
     across = direction - np.dot(direction, line_direction) * line_direction
     length = np.linalg.norm(across)
     if length < 1e-6:
         return None
-    return across / length, np.cross(line_direction, across / length)
+    return Lights(line_direction, across / length, np.cross(line_direction, across / length))
 
 
-def signature(V: np.ndarray, F: np.ndarray, normals: np.ndarray) -> bytes:
-    """Equal where a batch of these arrays would be the same."""
-    digest = hashlib.blake2b(digest_size=16)
-    for array in (V, F, normals):
-        digest.update(np.ascontiguousarray(array))
-    return digest.digest()
+def ramp(share: np.ndarray) -> np.ndarray:
+    """The map's colours, #N x 3, at shares of the full value."""
+    place = np.clip(share, 0.0, 1.0) * (len(RAMP) - 1)
+    return np.column_stack([np.interp(place, range(len(RAMP)), channel) for channel in zip(*RAMP, strict=True)])
 
 
-def uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.ndarray, eye: Eye,
-             axes: tuple[np.ndarray, np.ndarray], look: Look) -> np.ndarray:
+def around(F: np.ndarray, chosen: np.ndarray, count: int, *, rings: int) -> np.ndarray:
+    """#F bool: the chosen triangles and those that reach them over shared vertices in so many steps."""
+    inside = chosen
+    for _ in range(rings):
+        touched = np.zeros(count, dtype=bool)
+        touched[F[inside]] = True
+        inside = touched[F].any(axis=1)
+    return inside
+
+
+def area_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """#V x 3, of any length: the sum of the triangles' normals by area. Cheap, and as rough as Blender's own."""
+    corner = V[F]
+    across = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    where = F.T.ravel()
+    return np.column_stack([np.bincount(where, np.tile(across[:, k], 3), len(V)) for k in range(3)])
+
+
+def uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.ndarray, eye: Eye, lights: Lights,
+             look: Look) -> np.ndarray:
     """The shader's uniform block (see shader.STRUCT), float32. Matrices are 4 x 4, column vectors to their right."""
     blocks = [
         (projection @ view_matrix @ model).T, model.T, normal_matrix(model).T, depth_axis(projection),
         np.append(eye.direction, 0.0) if eye.position is None else np.append(eye.position, 1.0),
-        np.append(axes[0], 0.0), np.append(axes[1], 0.0),
+        np.append(lights.v_a, 0.0), np.append(lights.a_perp, 0.0), np.append(lights.line, 0.0),
         [look.count / TURN, look.width, look.softness, look.depth_offset],
-        look.color, look.gap_color, [look.opacity, 0.0, 0.0, 0.0],
+        look.color, look.gap_color, [look.opacity, MODES[look.mode], look.image_rotation / TURN, 0.0],
     ]
     return np.concatenate([np.ravel(block) for block in blocks]).astype(np.float32)
 

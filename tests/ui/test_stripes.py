@@ -1,11 +1,9 @@
 """Stripes in a real window: every pixel against the solver's theta; and what rebuilds a batch, counted."""
 import sys
-from collections.abc import Generator
 from pathlib import Path
 
 import bmesh
 import bpy
-import gpu
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -13,88 +11,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import window  # noqa: E402  (found through the line above)
 
 import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-
-CELLS = 40
-COUNT, WIDTH = 40, 0.5
-SOFT_EDGE = 0.25  # of a period to each side: softness 1 at width 0.5, wider than any pixel here
-
-Steps = Generator[float, None, None]
-
-
-def prepare(driver: window.Window, ob: bpy.types.Object) -> None:
-    """Black and white stripes, nothing else drawn, and the viewport looking as the view camera does."""
-    stripes = bpy.context.scene.reflection_lines.stripes
-    stripes.show, stripes.count, stripes.width, stripes.softness, stripes.opacity = True, COUNT, WIDTH, 1.0, 1.0
-    stripes.eye, stripes.cage_on_top = 'CAMERA', False
-    stripes.color, stripes.gap_color = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 1.0)
-    driver.area().spaces.active.overlay.show_overlays = False
-    region_3d = driver.region_3d()
-    region_3d.view_perspective = 'ORTHO'
-    region_3d.view_rotation = bpy.context.scene.reflection_lines.camera.matrix_world.to_quaternion()
-    region_3d.view_location = ob.matrix_world.translation
-    region_3d.view_distance = 2.0
-
-
-def fresh_panel(driver: window.Window, name: str) -> bpy.types.Object:
-    with driver.override():
-        if bpy.context.mode != 'OBJECT':
-            bpy.ops.object.mode_set(mode='OBJECT')
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
-        ob = scenes.panel(name, cells=CELLS)
-        scenes.look_from_above(light_degrees=60.0)
-        bpy.context.view_layer.update()
-    return ob
-
-
-def captured(driver: window.Window) -> Generator[float, None, np.ndarray]:
-    """Linear brightness (height x width, bottom row first) of the 3D view, after the stripes were drawn."""
-    pictures = []
-    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_VIEW')
-    driver.redraw()
-    yield 0.5
-    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
-    encoded = pictures[-1][:, :, 1] / 255.0
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-
-
-def pixels() -> np.ndarray:
-    x, y, width, height = gpu.state.viewport_get()
-    data = gpu.state.active_framebuffer_get().read_color(x, y, width, height, 4, 0, 'UBYTE')
-    data.dimensions = width * height * 4
-    return np.array(data).reshape(height, width, 4)
-
-
-def smoothstep(low: float, high: float, x: np.ndarray) -> np.ndarray:
-    t = np.clip((x - low) / (high - low), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
-
-
-def expected_light(theta: np.ndarray) -> np.ndarray:
-    period = theta * COUNT / (2.0 * np.pi)
-    from_center = np.abs(period - np.round(period))
-    return 1.0 - smoothstep(-SOFT_EDGE, SOFT_EDGE, from_center - 0.5 * WIDTH)
-
-
-def samples(driver: window.Window, V: np.ndarray, F: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(pixel #S x 2, triangle #S, barycentric #S x 3): the pixel at each triangle's centroid, where it lies inside."""
-    matrix = np.array(driver.region_3d().perspective_matrix)
-    size = np.array([driver.region().width, driver.region().height])
-    clip = np.column_stack([V, np.ones(len(V))]) @ matrix.T
-    screen = ((clip[:, :2] / clip[:, 3:] + 1.0) * 0.5 * size)[F]
-    pixel = np.floor(screen.mean(axis=1)).astype(int)
-    edges = np.stack([screen[:, 1] - screen[:, 0], screen[:, 2] - screen[:, 0]], axis=2)
-    two = np.linalg.solve(edges, (pixel + 0.5 - screen[:, 0])[:, :, None])[:, :, 0]
-    barycentric = np.column_stack([1.0 - two.sum(axis=1), two])
-    inside = (barycentric > 0.02).all(axis=1) & (pixel > 0).all(axis=1) & (pixel < size - 1).all(axis=1)
-    return pixel[inside], np.flatnonzero(inside), barycentric[inside]
-
-
-def triangles(ob: bpy.types.Object) -> np.ndarray:
-    if ob.mode == 'EDIT':
-        ob.update_from_editmode()
-    ob.data.calc_loop_triangles()
-    return np.array([triangle.vertices for triangle in ob.data.loop_triangles], dtype=np.int32)
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, triangles  # noqa: E402
 
 
 def agrees_with_theta(driver: window.Window, ob: bpy.types.Object, share: float = 1.0) -> Steps:

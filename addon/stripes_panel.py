@@ -1,0 +1,70 @@
+"""The part of the sidebar tab that says how stripes look."""
+import bpy
+
+from .panels import ReflinesPanel, paragraph
+
+BANDS = {'REFLECTION', 'HIGHLIGHT', 'ISOPHOTE'}
+MAPS = {'RESIDUAL', 'DEVIATION'}
+
+
+class REFLINES_UL_stripes(bpy.types.UIList):
+    def draw_item(self, _context: bpy.types.Context, layout: bpy.types.UILayout, _data: object,
+                  item: bpy.types.PropertyGroup, _icon: int, _active_data: object, _active_property: str) -> None:
+        layout.prop(item, "name", text="", emboss=False, icon='SHADING_RENDERED')
+
+
+class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Stripes"
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.scene.reflection_lines.stripes, "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reflection_lines
+        stripes = settings.stripes
+        layout = self.layout
+        layout.active = stripes.show
+        if settings.setups.entries:
+            self.draw_setups(layout, settings.setups)
+        else:
+            layout.operator("reflines.add_stripes", text="Keep as Set-up", icon='ADD')
+        layout.use_property_split, layout.use_property_decorate = True, False
+        layout.prop(stripes, "mode")
+        layout.prop(stripes, "scope")
+        if stripes.scope == 'COLLECTION':
+            layout.prop(stripes, "collection")
+        if stripes.mode not in MAPS:
+            self.draw_eye(layout, settings)
+        if stripes.mode == 'IMAGE':
+            self.draw_image(layout, stripes)
+        for name in self.look(stripes.mode):
+            layout.prop(stripes, name)
+
+    def draw_setups(self, layout: bpy.types.UILayout, setups: bpy.types.PropertyGroup) -> None:
+        row = layout.row()
+        row.template_list("REFLINES_UL_stripes", "", setups, "entries", setups, "index", rows=2)
+        buttons = row.column(align=True)
+        buttons.operator("reflines.add_stripes", text="", icon='ADD')
+        buttons.operator("reflines.remove_stripes", text="", icon='REMOVE')
+
+    def draw_eye(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+        layout.prop(settings.stripes, "eye")
+        if settings.stripes.eye == 'CAMERA' and settings.is_perspective():
+            layout.prop(settings.stripes, "per_point")
+        elif settings.stripes.eye == 'FROZEN':
+            layout.operator("reflines.freeze_eye", icon='FREEZE')
+
+    def draw_image(self, layout: bpy.types.UILayout, stripes: bpy.types.PropertyGroup) -> None:
+        column = layout.column()
+        column.use_property_split = False
+        column.template_ID(stripes, "image", open="image.open")
+        if stripes.image is None:
+            paragraph(column, bpy.context, "Open an equirectangular image, as World environments use", 'INFO')
+
+    def look(self, mode: str) -> tuple[str, ...]:
+        bands = ("count", "width", "softness", "color", "gap_color") if mode in BANDS else ()
+        own = {'IMAGE': ("image_rotation",), 'RESIDUAL': ("map_range",), 'DEVIATION': ("map_range",)}.get(mode, ())
+        return (*bands, *own, "opacity", "cage_on_top")
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_UL_stripes, VIEW3D_PT_reflines_stripes])

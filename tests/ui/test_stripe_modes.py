@@ -1,0 +1,276 @@
+"""Every mode, eye and scope of the stripes in a real window: pixels against theta or the formula of the mode."""
+import sys
+from collections.abc import Callable, Generator
+from math import pi
+from pathlib import Path
+
+import bpy
+import numpy as np
+from mathutils import Euler
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import window  # noqa: E402  (found through the line above)
+
+import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, triangles  # noqa: E402
+
+
+class Sample:
+    """Pixels of the panel: what they show, and the surface behind them in world space."""
+
+    def __init__(self, shown: np.ndarray, normals: np.ndarray, points: np.ndarray) -> None:
+        settings = bpy.context.scene.reflection_lines
+        self.shown, self.points = shown, points
+        self.normals = normals / np.linalg.norm(normals, axis=1)[:, None]
+        self.v, self.a = (np.array(ob.matrix_world)[:3, 2] for ob in (settings.camera, settings.light))
+        across = self.v - self.v @ self.a * self.a
+        self.v_a = across / np.linalg.norm(across)
+        self.a_perp = np.cross(self.a, self.v_a)
+
+    def views(self, eye: np.ndarray) -> np.ndarray:
+        return (eye - self.points) / np.linalg.norm(eye - self.points, axis=1)[:, None]
+
+    def theta(self, views: np.ndarray) -> np.ndarray:
+        """The solver's theta in these views, of lights that stand where the view camera has them."""
+        reflines = sys.modules["reflection_lines"].native.reflines
+        return reflines.theta(self.normals, views, self.a) + np.arctan2(views @ self.a_perp, views @ self.v_a)
+
+    def mirrored(self) -> np.ndarray:
+        return 2.0 * (self.normals @ self.v)[:, None] * self.normals - self.v
+
+    def agree(self, light: np.ndarray, tolerance: float = 4.0 / 255.0, share: float = 0.999) -> None:
+        difference = np.abs(self.shown - light)
+        good = (difference < tolerance).mean()
+        print(f"{len(light)} pixels, {good:.4%} agree, largest difference {difference.max():.4f}")
+        assert len(light) > 1000
+        assert np.ptp(light) > 0.5
+        assert good >= share
+
+
+def sampled(driver: window.Window, ob: bpy.types.Object) -> Generator[float, None, Sample]:
+    picture = yield from captured(driver)
+    reflines = sys.modules["reflection_lines"].native.reflines
+    F, V = triangles(ob), scenes.world(ob)
+    pixel, triangle, barycentric = samples(driver, V, F)
+    normals, points = ((array[F[triangle]] * barycentric[:, :, None]).sum(axis=1)
+                       for array in (reflines.NormalFit(V, F).normals(V), V))
+    return Sample(picture[pixel[:, 1], pixel[:, 0]], normals, points)
+
+
+def stripes() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines.stripes
+
+
+def mode_agrees(driver: window.Window, mode: str, angle: Callable[[Sample], np.ndarray]) -> Steps:
+    ob = fresh_panel(driver, mode)
+    prepare(driver, ob)
+    stripes().mode, stripes().count = mode, 60
+    sample = yield from sampled(driver, ob)
+    sample.agree(expected_light(angle(sample), 60))
+
+
+def test_highlight_lines(driver: window.Window) -> Steps:
+    yield from mode_agrees(driver, 'HIGHLIGHT',
+                           lambda at: 2.0 * np.arctan2(at.normals @ at.a_perp, at.normals @ at.v_a))
+
+
+def test_isophotes(driver: window.Window) -> Steps:
+    yield from mode_agrees(driver, 'ISOPHOTE', lambda at: 2.0 * np.arccos(at.normals @ at.a))
+
+
+def equirectangular(width: int = 256, height: int = 128) -> np.ndarray:
+    """height x width, smooth, and with a seam that only wrapping hides."""
+    u, v = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
+    return 0.5 + 0.45 * np.cos(2.0 * pi * (3.0 * u + 0.2)) * np.cos(pi * (4.0 * v - 0.3))
+
+
+def looked_up(values: np.ndarray, directions: np.ndarray, rotation: float) -> np.ndarray:
+    height, width = values.shape
+    x, y, z = directions.T
+    column = ((0.5 - np.arctan2(y, x) / (2.0 * pi) + rotation / (2.0 * pi)) % 1.0) * width - 0.5
+    row = np.clip((np.arctan2(z, np.hypot(x, y)) / pi + 0.5) * height - 0.5, 0.0, height - 1.0)
+    low, left = np.floor(row).astype(int), np.floor(column).astype(int)
+    up, right = row - low, column - left
+    high = np.minimum(low + 1, height - 1)
+    return ((1.0 - up) * ((1.0 - right) * values[low, left % width] + right * values[low, (left + 1) % width])
+            + up * ((1.0 - right) * values[high, left % width] + right * values[high, (left + 1) % width]))
+
+
+def test_environment_image(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Image")
+    prepare(driver, ob)
+    values = equirectangular()
+    image = bpy.data.images.new("Surroundings", values.shape[1], values.shape[0], float_buffer=True, is_data=True)
+    image.pixels.foreach_set(np.repeat(values[:, :, None], 4, axis=2).astype(np.float32).ravel())
+    ob.rotation_euler = (0.5, 0.3, 0.2)
+    with driver.override():
+        bpy.context.view_layer.update()
+    for rotation in (0.0, pi):  # one of them looks across the seam
+        stripes().mode, stripes().image, stripes().image_rotation = 'IMAGE', image, rotation
+        sample = yield from sampled(driver, ob)
+        sample.agree(looked_up(values, sample.mirrored(), rotation), tolerance=0.02)
+
+
+def test_no_image_is_no_error(driver: window.Window) -> Steps:
+    prepare(driver, fresh_panel(driver, "No Image"))
+    stripes().mode, stripes().image = 'IMAGE', None
+    picture = yield from captured(driver)
+    assert abs(np.median(picture) - 0.2) < 0.02
+
+
+def perspective_view(driver: window.Window, ob: bpy.types.Object, tilt: float = 0.3) -> np.ndarray:
+    """Looks at the object from near by; returns the eye."""
+    region_3d = driver.region_3d()
+    region_3d.view_perspective = 'PERSP'
+    region_3d.view_rotation = Euler((tilt, 0.0, 0.4)).to_quaternion()
+    region_3d.view_location, region_3d.view_distance = ob.matrix_world.translation, 3.0
+    region_3d.update()
+    return np.array(region_3d.view_matrix.inverted().translation)
+
+
+def test_this_view_in_perspective(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Perspective")
+    prepare(driver, ob)
+    stripes().eye = 'VIEWPORT'
+    eye = perspective_view(driver, ob)
+    sample = yield from sampled(driver, ob)
+    sample.agree(expected_light(sample.theta(sample.views(eye))))
+
+
+def test_a_perspective_camera_point_by_point(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Camera")
+    prepare(driver, ob)
+    camera = bpy.context.scene.reflection_lines.camera
+    camera.data.type, camera.location = 'PERSP', (0.3, 0.2, 2.5)
+    with driver.override():
+        bpy.context.view_layer.update()
+    for per_point in (True, False):
+        stripes().per_point = per_point
+        sample = yield from sampled(driver, ob)
+        place = np.array(camera.matrix_world.translation)
+        center = 0.5 * (np.array(ob.bound_box).min(axis=0) + np.array(ob.bound_box).max(axis=0))
+        seen = (place - center) / np.linalg.norm(place - center)
+        sample.v_a = seen - seen @ sample.a * sample.a
+        sample.v_a /= np.linalg.norm(sample.v_a)
+        sample.a_perp = np.cross(sample.a, sample.v_a)
+        views = sample.views(place) if per_point else np.tile(seen, (len(sample.points), 1))
+        sample.agree(expected_light(sample.theta(views)))
+
+
+def test_a_frozen_eye_stays_while_the_view_turns(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Frozen")
+    prepare(driver, ob)
+    eye = perspective_view(driver, ob)
+    with driver.override():
+        assert bpy.ops.reflines.freeze_eye() == {'FINISHED'}
+    perspective_view(driver, ob, tilt=-0.4)
+    sample = yield from sampled(driver, ob)
+    sample.agree(expected_light(sample.theta(sample.views(eye))))
+
+
+def test_edges_are_soft_at_any_zoom(driver: window.Window) -> Steps:
+    """Far away, where many lines share a pixel, the picture is their mean; near by, an edge is about a pixel wide."""
+    ob = fresh_panel(driver, "Zoom")
+    prepare(driver, ob)
+    stripes().softness, stripes().count, stripes().width = 0.0, 2000, 0.3
+    driver.region_3d().view_distance = 30.0
+    far = yield from captured(driver)
+    height, width = far.shape
+    middle = far[height // 2 - 8:height // 2 + 8, width // 2 - 8:width // 2 + 8]
+    print(f"far: {middle.mean():.3f} +- {middle.std():.3f}")
+    assert abs(middle.mean() - 0.3) < 0.02
+    assert middle.std() < 0.05
+    stripes().count = 200
+    driver.region_3d().view_distance = 1.0
+    near = yield from captured(driver)
+    column = near[:, width // 2]
+    between = ((column > 0.03) & (column < 0.97)).sum()
+    edges = (np.diff((column > 0.5).astype(int)) != 0).sum()
+    print(f"near: {between} pixels between light and dark at {edges} edges")
+    assert edges >= 2
+    assert edges <= between <= 4 * edges
+
+
+def test_only_the_selected_faces(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Part")
+    prepare(driver, ob)
+    stripes().mode, stripes().scope = 'IMAGE', 'SELECTION'
+    stripes().image = None
+    with driver.override():
+        scenes.edit(ob)
+        scenes.select_faces(ob, lambda face: face % CELLS < CELLS // 2)
+    yield 0.3
+    half = yield from captured(driver)
+    height, width = half.shape
+    middle = half[height // 2 - 20:height // 2 + 20]
+    assert np.abs(middle[:, width // 2 - 60:width // 2 - 10] - 0.2).max() < 0.02
+    assert np.abs(middle[:, width // 2 + 10:width // 2 + 60] - 0.2).min() > 0.02
+    with driver.override():
+        scenes.select_faces(ob, lambda face: face % CELLS >= CELLS // 2)
+    yield 0.3
+    other = yield from captured(driver)
+    assert np.abs(other[height // 2 - 20:height // 2 + 20, width // 2 + 10:width // 2 + 60] - 0.2).max() < 0.02
+
+
+def test_a_part_has_the_normals_of_the_whole(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Part of the Whole")
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit(ob)
+        scenes.select_faces(ob, lambda face: (face // CELLS) % 2 == 0)
+    whole = yield from captured(driver)
+    stripes().scope = 'SELECTION'
+    part = yield from captured(driver)
+    F, V = triangles(ob), scenes.world(ob)
+    pixel, triangle, _ = samples(driver, V, F)
+    chosen = (triangle // 2 // CELLS) % 2 == 0
+    rows, columns = pixel[chosen, 1], pixel[chosen, 0]
+    assert np.abs(whole[rows, columns] - part[rows, columns]).max() < 2.0 / 255.0
+
+
+def test_a_collection(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "One")
+    prepare(driver, ob)
+    with driver.override():
+        other = scenes.panel("Other", cells=8)
+        other.location.x = 2.5
+        both = bpy.data.collections.new("Both")
+        both.objects.link(ob)
+        both.objects.link(other)
+        bpy.context.scene.collection.children.link(both)
+    stripes().mode, stripes().image = 'IMAGE', None
+    driver.region_3d().view_distance = 5.0
+    yield from captured(driver)
+    active = yield from captured(driver)
+    stripes().scope, stripes().collection = 'COLLECTION', both
+    picture = yield from captured(driver)
+    one, two = ((np.abs(shot - 0.2) < 0.01).sum() for shot in (active, picture))
+    print(f"{one} pixels of the active object, {two} of the collection")
+    assert 1.8 * one < two < 2.2 * one
+
+
+def test_named_setups_are_kept_and_picked(driver: window.Window) -> Steps:
+    prepare(driver, fresh_panel(driver, "Set-ups"))
+    setups = bpy.context.scene.reflection_lines.setups
+    with driver.override():
+        bpy.ops.reflines.add_stripes(name="Fine")
+        stripes().count = 111
+        bpy.ops.reflines.add_stripes(name="Coarse")
+        stripes().count, stripes().mode = 7, 'ISOPHOTE'
+        setups.index = 0
+        assert (stripes().count, stripes().mode) == (111, 'REFLECTION')
+        setups.index = 1
+        assert (stripes().count, stripes().mode) == (7, 'ISOPHOTE')
+        bpy.ops.reflines.remove_stripes()
+        assert [entry.name for entry in setups.entries] == ["Fine"]
+        assert stripes().count == 111
+        bpy.ops.reflines.remove_stripes()
+        assert not bpy.ops.reflines.remove_stripes.poll()
+    yield 0.1
+
+
+window.run(test_highlight_lines, test_isophotes, test_environment_image, test_no_image_is_no_error,
+           test_this_view_in_perspective, test_a_perspective_camera_point_by_point,
+           test_a_frozen_eye_stays_while_the_view_turns, test_edges_are_soft_at_any_zoom, test_only_the_selected_faces,
+           test_a_part_has_the_normals_of_the_whole, test_a_collection, test_named_setups_are_kept_and_picked)
