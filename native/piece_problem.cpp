@@ -19,16 +19,12 @@ constexpr double kFreeBorderProximity = 10.0;
 // Mean vertex distances between the knots of the coarse motions.
 constexpr double kKnotSpacing = 6.0;
 
-Mask free_mask(const Piece& piece) {
-  Mask is_free(piece.field.vertex_count());
-  for (int v = 0; v < piece.field.vertex_count(); ++v) is_free(v) = piece.field.role[v] == VertexRole::kFree;
-  return is_free;
-}
-
+// Creases that a cage moves are no border: the heights of both sides are one.
 bool has_free_border(const HeightField& field) {
+  const Triangles neighbors = edge_neighbors(field.F);
   for (int t = 0; t < field.triangle_count(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      if (field.neighbors(t, i) >= 0) continue;
+      if (neighbors(t, i) >= 0) continue;
       for (int j = 1; j < 3; ++j) {
         if (field.role[field.F(t, (i + j) % 3)] == VertexRole::kFree) return true;
       }
@@ -44,13 +40,13 @@ double default_proximity(double proximity, bool free_border) {
 
 }  // namespace
 
-PieceProblem::PieceProblem(Piece piece, StencilKind stencil, std::vector<ReflectionFunction> families, double proximity,
-                           LinearSolverKind solver)
+PieceProblem::PieceProblem(Piece piece, Unknowns unknowns, StencilKind stencil, std::vector<ReflectionFunction> families,
+                           double proximity, LinearSolverKind solver)
     : piece_(std::move(piece)),
       stencils_(make_stencils(piece_.field, stencil)),
       families_(std::move(families)),
       free_border_(has_free_border(piece_.field)),
-      unknowns_(Unknowns::free_vertices(free_mask(piece_), piece_.field.z)),
+      unknowns_(std::move(unknowns)),
       energy_(piece_.field, stencils_, default_proximity(proximity, free_border_)),
       minimizer_(solver),
       solver_(solver),
@@ -73,6 +69,11 @@ void PieceProblem::find_hidden() {
 void PieceProblem::set_heights(const Vector& x) {
   x_ = x;
   unknowns_.heights(x_, z_);
+}
+
+void PieceProblem::rest_at(const Vector& x) {
+  set_heights(x);
+  energy_.set_start(z_);
 }
 
 void PieceProblem::reset() {
@@ -202,13 +203,16 @@ double PieceProblem::evaluate(const Vector& x, Vector* gradient) {
 
 const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
   if (!assembly_) {
-    assembly_ = std::make_unique<HessianAssembly>(stencils_, energy_.entries(), unknowns_.column(), unknowns_.size());
+    assembly_ = std::make_unique<HessianAssembly>(stencils_, energy_.entries(), unknowns_.column(), unknowns_.moving_count());
+    if (unknowns_.modes().size() > 0) product_ = std::make_unique<GalerkinProduct>(unknowns_.modes());
   }
   unknowns_.heights(x, trial_z_);
-  return assembly_->assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
+  const SparseMatrix& whole = assembly_->assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
+  return product_ ? product_->project(whole) : whole;
 }
 
 const SparseMatrix* PieceProblem::smooth_modes() {
+  if (unknowns_.modes().size() > 0) return nullptr;  // few unknowns: their own factor is cheap
   if (!smooth_modes_)
     smooth_modes_ = std::make_unique<SparseMatrix>(reflines::smooth_modes(piece_.field, kKnotSpacing));
   return smooth_modes_.get();

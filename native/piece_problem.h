@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "native/geometry/pieces.h"
+#include "native/optimization/galerkin.h"
 #include "native/optimization/minimizer.h"
 #include "native/optimization/unknowns.h"
 #include "native/reflection/energy.h"
@@ -19,8 +20,8 @@ namespace reflines {
 
 class PieceProblem : public Problem {
  public:
-  PieceProblem(Piece piece, StencilKind stencil, std::vector<ReflectionFunction> families, double proximity,
-               LinearSolverKind solver);
+  PieceProblem(Piece piece, Unknowns unknowns, StencilKind stencil, std::vector<ReflectionFunction> families,
+               double proximity, LinearSolverKind solver);
 
   const Piece& piece() const { return piece_; }
   const Stencils& stencils() const { return stencils_; }
@@ -28,6 +29,7 @@ class PieceProblem : public Problem {
   int hidden_count() const { return hidden_count_; }
 
   void set_heights(const Vector& x);
+  void rest_at(const Vector& x);  // sets the heights, and those the proximity pulls to
   void reset();  // as built, also in what later solves see: the same target then gives the same bits
   const Vector& unknowns() const { return x_; }
 
@@ -72,6 +74,7 @@ class PieceProblem : public Problem {
   Unknowns unknowns_;
   Energy energy_;
   std::unique_ptr<HessianAssembly> assembly_;   // made when first asked for
+  std::unique_ptr<GalerkinProduct> product_;    // likewise; only where unknowns are not heights of vertices
   std::unique_ptr<SparseMatrix> smooth_modes_;  // likewise
   std::optional<Minimizer> minimizer_;          // always there; a new one after reset
   LinearSolverKind solver_;

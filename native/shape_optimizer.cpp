@@ -19,7 +19,7 @@ const Vector3& first_of(const std::vector<Vector3>& line_directions) {
 }
 
 Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
-  Boundary boundary{options.border, options.held, options.crease_angle};
+  Boundary boundary{options.border, options.held, options.crease_angle, options.motion.empty()};
   if (boundary.border.empty()) boundary.border.assign(vertex_count, Border::kClamped);
   if (static_cast<Eigen::Index>(boundary.border.size()) != vertex_count ||
       (boundary.held.size() > 0 && boundary.held.size() != vertex_count)) {
@@ -60,15 +60,17 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
       triangle_count_(static_cast<int>(F.rows())),
       family_count_(static_cast<int>(line_directions.size())) {
   check_surface(V, F);
-  const HeightField field = make_height_field(V, F, frame_, boundary_of(options, V.rows()));
+  HeightField field = make_height_field(V, F, frame_, boundary_of(options, V.rows()));
+  if (!options.motion.empty()) moving_ = couple(options.motion, field);
   std::vector<ReflectionFunction> families;
   for (const Vector3& a : line_directions) families.emplace_back(frame_, frame_.z(), a);
   families.emplace_back(frame_, frame_.z(), frame_.x());  // across the first family: see PieceProblem
   describe(field);
   for (Piece& piece : split_pieces(field)) {
     region_.unused_pieces += piece.free_count == 0;
-    pieces_.push_back(std::make_unique<PieceProblem>(std::move(piece), options.stencil, families, options.proximity,
-                                                     options.linear_solver));
+    Unknowns unknowns = unknowns_of(options.motion, moving_, piece);
+    pieces_.push_back(std::make_unique<PieceProblem>(std::move(piece), std::move(unknowns), options.stencil, families,
+                                                     options.proximity, options.linear_solver));
     region_.hidden += pieces_.back()->hidden_count();
   }
   if (region_.free == 0) {
@@ -309,5 +311,8 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
 void ShapeOptimizer::reset() {
   for (const auto& piece : pieces_) piece->reset();
 }
+
+const Vector& ShapeOptimizer::unknowns() const { return pieces_.front()->unknowns(); }
+void ShapeOptimizer::rest_at(const Vector& unknowns) { pieces_.front()->rest_at(unknowns); }
 
 }  // namespace reflines

@@ -8,6 +8,7 @@
 
 #include "native/geometry/height_field.h"
 #include "native/geometry/stencil.h"
+#include "native/motion.h"
 #include "native/optimization/minimizer.h"
 #include "native/reflection/region_field.h"
 #include "native/reflection/target.h"
@@ -24,6 +25,7 @@ struct ShapeOptions {
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
   double crease_angle = kCreaseAngle;  // radians: sharper edges are held and no stencil reaches across
+  Motion motion;            // or none: how vertices follow fewer unknowns, as those of a subdivided cage do
   double proximity = -1.0;  // weight of staying near the start; negative: 0, or 10 for a piece with a free border
 };
 
@@ -82,6 +84,14 @@ class ShapeOptimizer {
 
   void reset();  // the heights it was built with
 
+ protected:
+  // The numbers of the motion's unknowns that can move, and their heights; empty without a motion.
+  const std::vector<int>& moving() const { return moving_; }
+  const Vector& unknowns() const;
+  void rest_at(const Vector& unknowns);  // sets them, and what the proximity pulls to
+
+  Region region_;
+
  private:
   void check(const Target& target) const;
   void check_family(int family) const;
@@ -93,8 +103,8 @@ class ShapeOptimizer {
   Triangles F_;
   int triangle_count_;
   int family_count_;
+  std::vector<int> moving_;
   std::vector<std::unique_ptr<PieceProblem>> pieces_;
-  Region region_;
 };
 
 }  // namespace reflines

@@ -12,5 +12,6 @@ void bind_target(pybind11::module_& module);
 void bind_builders(pybind11::module_& module);
 void bind_report(pybind11::module_& module);
 void bind_optimizer(pybind11::module_& module);
+void bind_cage_optimizer(pybind11::module_& module);
 
 }  // namespace reflines

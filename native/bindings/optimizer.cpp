@@ -1,11 +1,11 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <map>
 #include <optional>
 #include <variant>
 
 #include "native/bindings/bind.h"
+#include "native/bindings/names.h"
 #include "native/errors.h"
 #include "native/optimization/progress.h"
 #include "native/shape_optimizer.h"
@@ -18,28 +18,10 @@ namespace {
 using Codes = Eigen::VectorXi;
 using Targets = std::variant<Target, std::vector<Target>>;
 
-// The enumerator of a name, or InvalidInput that lists the names.
-template <typename Enum>
-Enum named(const std::map<std::string, Enum>& names, const std::string& name, const std::string& what) {
-  const auto found = names.find(name);
-  if (found != names.end()) return found->second;
-  std::string list;
-  for (const auto& entry : names) list += (list.empty() ? "" : ", ") + entry.first;
-  throw InvalidInput("There is no " + what + " named '" + name + "'; choose one of " + list + ".");
-}
-
-const std::map<std::string, Border> kBorders = {
-    {"free", Border::kFree}, {"fixed", Border::kFixed}, {"clamped", Border::kClamped}};
-const std::map<std::string, StencilKind> kStencils = {{"averaged", StencilKind::kAveraged},
-                                                      {"quadratic", StencilKind::kQuadratic},
-                                                      {"hybrid", StencilKind::kHybrid},
-                                                      {"consistent", StencilKind::kConsistent}};
 const std::map<std::string, Strategy> kStrategies = {{"adaptive", Strategy::kAdaptive},
                                                      {"linearized", Strategy::kLinearized},
                                                      {"gauss_newton", Strategy::kGaussNewton},
                                                      {"newton", Strategy::kNewton}};
-const std::map<std::string, LinearSolverKind> kSolvers = {{"cholmod", LinearSolverKind::kCholmod},
-                                                          {"umfpack", LinearSolverKind::kUmfpack}};
 
 std::vector<Border> border_codes(const std::variant<std::string, Codes>& border, Eigen::Index vertex_count) {
   if (std::holds_alternative<std::string>(border)) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "native/bindings/bind.h"
+#include "native/bindings/cage_arrays.h"
 #include "native/errors.h"
 
 namespace reflines {
@@ -15,8 +16,6 @@ namespace {
 
 namespace py = pybind11;
 using py::literals::operator""_a;
-using Indices = py::array_t<int, py::array::c_style | py::array::forcecast>;
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 // A subdivided cage and how many vertices the cage has.
@@ -25,38 +24,13 @@ struct SubdividedCage {
   Subdivision result;
 };
 
-IndexVector index_vector(const Indices& array) { return Eigen::Map<const IndexVector>(array.data(), array.size()); }
-
-Vector number_vector(const Numbers& array) { return Eigen::Map<const Vector>(array.data(), array.size()); }
-
-SubdivisionScheme scheme_named(const std::string& name) {
-  if (name == "catmull_clark") return SubdivisionScheme::kCatmullClark;
-  if (name == "loop") return SubdivisionScheme::kLoop;
-  throw InvalidInput("There is no subdivision scheme '" + name + "': use 'catmull_clark' or 'loop'.");
-}
-
-SubdivisionBoundary boundary_named(const std::string& name) {
-  if (name == "all") return SubdivisionBoundary::kAll;
-  if (name == "preserve_corners") return SubdivisionBoundary::kPreserveCorners;
-  throw InvalidInput("There is no boundary rule '" + name + "': use 'all' or 'preserve_corners'.");
-}
-
 std::unique_ptr<SubdividedCage> make(const Indices& face_offsets, const Indices& face_vertices, int vertices, int level,
                                      const std::string& scheme, const std::string& boundary, const Indices& creases,
                                      const Numbers& crease_sharpness, const Indices& corners,
                                      const Numbers& corner_sharpness, bool limit) {
-  if (creases.size() > 0 && (creases.ndim() != 2 || creases.shape(1) != 2)) {
-    throw InvalidInput("The creases must be an array of 2 columns, the vertices of an edge: reshape it.");
-  }
-  Cage cage;
-  cage.vertices = vertices;
-  cage.face_offsets = index_vector(face_offsets);
-  cage.face_vertices = index_vector(face_vertices);
-  cage.creases = Eigen::Map<const decltype(cage.creases)>(creases.data(), creases.size() / 2, 2);
-  cage.crease_sharpness = number_vector(crease_sharpness);
-  cage.corners = index_vector(corners);
-  cage.corner_sharpness = number_vector(corner_sharpness);
-  const SubdivisionOptions options = {scheme_named(scheme), boundary_named(boundary), level, limit};
+  const Cage cage =
+      cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness}, vertices);
+  const SubdivisionOptions options = subdivision_options(level, scheme, boundary, limit);
   const py::gil_scoped_release release;
   return std::make_unique<SubdividedCage>(SubdividedCage{vertices, subdivide(cage, options)});
 }

@@ -41,7 +41,7 @@ Mask refined_border(const Subdivision& subdivision, const Mask& region) {
 Mask held_by_border(const Subdivision& subdivision, const Mask& region, BorderHold hold) {
   const Mask border = refined_border(subdivision, region);
   Mask held = Mask::Constant(subdivision.positions.cols(), false);
-  mark_columns(subdivision.positions, border, &held);
+  if (hold != BorderHold::kNothing) mark_columns(subdivision.positions, border, &held);
   if (hold == BorderHold::kPositionAndTangent) {
     mark_columns(subdivision.tangent_u, border, &held);
     mark_columns(subdivision.tangent_v, border, &held);

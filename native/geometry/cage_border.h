@@ -8,6 +8,7 @@
 namespace reflines {
 
 enum class BorderHold {
+  kNothing,             // a free border: only what lies outside the region stays
   kPosition,            // a fixed border
   kPositionAndTangent,  // a clamped border: limit tangents stay, too
 };

@@ -160,9 +160,11 @@ HeightField make_height_field(const Positions& V, const Triangles& F, const Imag
   project(V, frame, field);
   field.neighbors = edge_neighbors(field.F);
   field.triangles_of_vertex = vertex_triangles(field.F, field.vertex_count());
+  Mask held = left_out;
   const Mask on_crease = cut_creases(V, boundary.crease_angle, field);
-  assign_roles(F, edge_vertices(F, neighbors, on_crease), boundary, left_out || on_crease, field);
-  find_pieces(left_out || on_crease, field);
+  if (boundary.hold_creases) held = held || on_crease;
+  assign_roles(F, edge_vertices(F, neighbors, on_crease), boundary, held, field);
+  find_pieces(held, field);
   return field;
 }
 

@@ -30,6 +30,7 @@ struct Boundary {
   std::vector<Border> border;          // #V, read at border vertices only
   Mask held;                           // #V, or empty: vertices that stay whatever the border says
   double crease_angle = kCreaseAngle;  // radians; see crease_edges
+  bool hold_creases = true;            // false: no stencil reaches across a crease, but its vertices may move
 };
 
 // Triangles whose unit normal n has |n.v| below this are silhouettes: nothing seen there can be controlled by heights.

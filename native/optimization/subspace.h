@@ -1,8 +1,7 @@
 // A problem restricted to a few smooth motions: E(origin + P c) over the m coefficients c, by Galerkin projection.
 #pragma once
 
-#include <vector>
-
+#include "native/optimization/galerkin.h"
 #include "native/optimization/problem.h"
 
 namespace reflines {
@@ -30,29 +29,14 @@ class Subspace final : public Problem {
   const SparseMatrix& hessian(const Vector& c, HessianModel model) override;  // P^T H P
 
  private:
-  // Unknowns that begin with the same mode; they touch nearly the same modes, so that their share of P^T H P is one
-  // small dense block: `rows` are the modes of the group itself, `columns` those of its neighbours in H.
-  struct Group {
-    std::vector<int> unknowns, rows, columns;
-  };
-  void find_groups();
-  void find_modes(const SparseMatrix& hessian, int index);
-  void make_pattern();
-  void add_block(const Group& group);
-  void accumulate(const SparseMatrix& hessian, const Group& group);
-
   Problem& whole_;
   const SparseMatrix& modes_;
   const Vector origin_;
   Point point_;  // the last one asked for: a second run starts where the first one ended
   Vector c_;     // its coefficients
   int evaluations_ = 0;
-  std::vector<Group> groups_;
-  SparseMatrix reduced_;
+  GalerkinProduct product_;
   Vector whole_diagonal_;
-  std::vector<int> row_place_, column_place_;  // m: where a mode stands in the block at hand
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block_;
-  Eigen::RowVectorXd line_;
 };
 
 }  // namespace reflines

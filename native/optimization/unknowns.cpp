@@ -1,5 +1,7 @@
 #include "native/optimization/unknowns.h"
 
+#include <utility>
+
 namespace reflines {
 
 Unknowns Unknowns::free_vertices(const Mask& is_free, const Vector& z) {
@@ -13,17 +15,31 @@ Unknowns Unknowns::free_vertices(const Mask& is_free, const Vector& z) {
     unknowns.start_(n) = z(v);
     unknowns.column_[v] = n++;
   }
+  unknowns.moving_count_ = n;
   return unknowns;
 }
 
-Unknowns::Unknowns(SparseMatrix B, Vector x, const Vector& z) : B_(std::move(B)), start_(std::move(x)) {
-  offset_ = z - B_ * start_;
+Unknowns::Unknowns(const SparseMatrix& B, Vector x, const Vector& z)
+    : rows_(B), transposed_(B.transpose()), column_(z.size(), -1), start_(std::move(x)) {
+  offset_ = z - rows_ * start_;
+  for (int v = 0; v < z.size(); ++v) {
+    if (rows_.outerIndexPtr()[v] < rows_.outerIndexPtr()[v + 1]) column_[v] = moving_count_++;
+    else offset_(v) = z(v);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int v = 0; v < z.size(); ++v) {
+    for (decltype(rows_)::InnerIterator it(rows_, v); it; ++it) {
+      entries.emplace_back(static_cast<int>(it.col()), column_[v], it.value());
+    }
+  }
+  modes_.resize(size(), moving_count_);
+  modes_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void Unknowns::heights(const Vector& x, Vector& z) const {
-  if (column_.empty()) {
+  if (modes_.size() > 0) {
     z = offset_;
-    z.noalias() += B_ * x;
+    z.noalias() += rows_ * x;
     return;
   }
   z.resize(offset_.size());
@@ -31,8 +47,8 @@ void Unknowns::heights(const Vector& x, Vector& z) const {
 }
 
 void Unknowns::pull_back(const Vector& along_z, Vector& along_x) const {
-  if (column_.empty()) {
-    along_x.noalias() = B_.transpose() * along_z;
+  if (modes_.size() > 0) {
+    along_x.noalias() = transposed_ * along_z;
     return;
   }
   for (size_t v = 0; v < column_.size(); ++v) {

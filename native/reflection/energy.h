@@ -27,6 +27,8 @@ class Energy {
 
   void set_terms(std::vector<EnergyTerm> terms) { terms_ = std::move(terms); }
 
+  void set_start(const Vector& z) { start_ = z; }  // #V: where the pull goes to
+
   // E(z); dE/dz (#V) into `gradient` where it is not null.
   double evaluate(const Vector& z, Vector* gradient);
 

@@ -1,0 +1,36 @@
+// The names that Python gives to enumerators.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "native/errors.h"
+#include "native/geometry/subdivision.h"
+#include "native/shape_optimizer.h"
+
+namespace reflines {
+
+// The enumerator of a name, or InvalidInput that lists the names.
+template <typename Enum>
+Enum named(const std::map<std::string, Enum>& names, const std::string& name, const std::string& what) {
+  const auto found = names.find(name);
+  if (found != names.end()) return found->second;
+  std::string list;
+  for (const auto& entry : names) list += (list.empty() ? "" : ", ") + entry.first;
+  throw InvalidInput("There is no " + what + " named '" + name + "'; choose one of " + list + ".");
+}
+
+inline const std::map<std::string, Border> kBorders = {
+    {"free", Border::kFree}, {"fixed", Border::kFixed}, {"clamped", Border::kClamped}};
+inline const std::map<std::string, StencilKind> kStencils = {{"averaged", StencilKind::kAveraged},
+                                                             {"quadratic", StencilKind::kQuadratic},
+                                                             {"hybrid", StencilKind::kHybrid},
+                                                             {"consistent", StencilKind::kConsistent}};
+inline const std::map<std::string, LinearSolverKind> kSolvers = {{"cholmod", LinearSolverKind::kCholmod},
+                                                                 {"umfpack", LinearSolverKind::kUmfpack}};
+inline const std::map<std::string, SubdivisionScheme> kSchemes = {{"catmull_clark", SubdivisionScheme::kCatmullClark},
+                                                                  {"loop", SubdivisionScheme::kLoop}};
+inline const std::map<std::string, SubdivisionBoundary> kBoundaries = {
+    {"all", SubdivisionBoundary::kAll}, {"preserve_corners", SubdivisionBoundary::kPreserveCorners}};
+
+}  // namespace reflines

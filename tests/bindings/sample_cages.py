@@ -1,0 +1,32 @@
+"""Cages as arrays, for tests: V (#V x 3), faces as offsets and corners, made afresh by every call."""
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+Array = np.ndarray
+MESHES = Path(os.environ.get("REFLINES_MESHES", Path(__file__).resolve().parents[3] / "shared" / "meshes"))
+VIEW = np.array([0.0, -0.5, 1.0]) / np.hypot(0.5, 1.0)
+LINE = np.array([0.0, 1.0, 0.1])
+
+
+def hood(columns: int = 16, rows: int = 14) -> tuple[Array, Array, Array]:
+    """A bonnet of 1.4 x 1.2 metres that is exactly symmetric about x = 0, seen from above and before it."""
+    right = np.linspace(0.0, 0.7, columns // 2 + 1)
+    x, y = np.meshgrid(np.concatenate([-right[:0:-1], right]), np.linspace(-0.6, 0.6, rows + 1))
+    V = np.stack([x, y, -0.13 * x**2 - 0.14 * x**4 - 0.06 * y**2 + 0.1 * y], axis=2).reshape(-1, 3)
+    corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    quads = np.stack([corner, corner + 1, corner + columns + 2, corner + columns + 1], axis=1)
+    return V, np.arange(0, 4 * len(quads) + 1, 4), quads.ravel()
+
+
+def roof() -> tuple[Array, Array, Array]:
+    """The roof of a real car as its authors modelled it, in metres."""
+    path = MESHES / "subaru_roof_cage.obj"
+    if not path.is_file():
+        pytest.skip(f"{path.name} is not at hand: real meshes are not part of the project")
+    rows = [line.split() for line in path.read_text().splitlines() if line.strip()]
+    faces = [[int(word.split("/")[0]) - 1 for word in row[1:]] for row in rows if row[0] == "f"]
+    V = np.array([row[1:4] for row in rows if row[0] == "v"], float)
+    return V, np.cumsum([0] + [len(face) for face in faces]), np.concatenate(faces)
