@@ -28,19 +28,20 @@ void check_lengths(const Cage& cage, const Positions& V, const CageOptions& opti
   check_length(options.partner.size(), cage.vertices, "list of mirror partners");
 }
 
-// Numbers 0 .. of the refined vertices in faces of the region, in their order, or -1; fills `refined` with the way back.
+// Numbers 0 .. of the refined vertices in faces of the region, or -1; fills `refined` with the way back. In the order
+// of the faces, whose neighbours in the list are neighbours on the surface: the energy then finds its heights close
+// together.
 std::vector<int> number_vertices(const Subdivision& whole, const Mask& region, IndexVector& refined) {
   std::vector<int> number(whole.positions.rows(), -1);
+  refined.resize(whole.positions.rows());
+  int count = 0;
   for (int f = 0; f < whole.faces.rows(); ++f) {
     if (!region(whole.face_parent(f))) continue;
-    for (const int v : whole.faces.row(f)) number[v] = 0;
-  }
-  int count = 0;
-  refined.resize(static_cast<int>(number.size()));
-  for (size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
-    refined(count) = static_cast<int>(v);
-    number[v] = count++;
+    for (const int v : whole.faces.row(f)) {
+      if (number[v] >= 0) continue;
+      refined(count) = v;
+      number[v] = count++;
+    }
   }
   refined.conservativeResize(count);
   return number;
@@ -107,7 +108,8 @@ CageOptimizer::Surface CageOptimizer::make_surface(const Cage& cage, const Posit
 
 CageOptimizer::CageOptimizer(const Cage& cage, const Positions& V, const Vector3& view_direction,
                              const std::vector<Vector3>& line_directions, const CageOptions& options)
-    : CageOptimizer(make_surface(cage, V, view_direction, options), V, view_direction, line_directions, options.shape) {}
+    : CageOptimizer(make_surface(cage, V, view_direction, options), V, view_direction, line_directions, options.shape) {
+}
 
 CageOptimizer::CageOptimizer(Surface surface, const Positions& V, const Vector3& view_direction,
                              const std::vector<Vector3>& line_directions, const ShapeOptions& options)

@@ -1,5 +1,6 @@
 // The optimizer of a region of a subdivision surface whose unknowns are heights of the cage: what the artist edits. The
-// energy, the targets and the minimizer are those of the surface's triangles: z = S x + c, gradient S^T g, Hessian S^T H S.
+// energy, the targets and the minimizer are those of the surface's triangles: z = S x + c, gradient S^T g, Hessian S^T
+// H S.
 #pragma once
 
 #include <vector>
@@ -12,12 +13,12 @@
 namespace reflines {
 
 struct CageOptions {
-  Mask region;          // #cage faces that may change; empty: all
+  Mask region;                                        // #cage faces that may change; empty: all
   BorderHold hold = BorderHold::kPositionAndTangent;  // of the region's border on the subdivided surface
-  Mask held;            // #V or empty: vertices that stay whatever the border says
-  IndexVector partner;  // #V or empty: mirror_pairs, whose partners rise alike
+  Mask held;                                          // #V or empty: vertices that stay whatever the border says
+  IndexVector partner;                                // #V or empty: mirror_pairs, whose partners rise alike
   SubdivisionOptions subdivision;
-  ShapeOptions shape;   // its border, held and motion are not read
+  ShapeOptions shape;  // its border, held and motion are not read
 };
 
 class CageOptimizer : public ShapeOptimizer {
@@ -35,8 +36,8 @@ class CageOptimizer : public ShapeOptimizer {
   const IndexVector& refined() const { return surface_.refined; }  // #region vertices: number among all refined ones
 
   // Moves the cage so that its surface is nearest to these heights along the view (#region vertices) by least squares;
-  // `weight` (#region vertices, >= 0) is 0 where there is no such height. That shape is then the one a free border is drawn
-  // to. Vertices of the cage that no weighted height depends on stay.
+  // `weight` (#region vertices, >= 0) is 0 where there is no such height. That shape is then the one a free border is
+  // drawn to. Vertices of the cage that no weighted height depends on stay.
   void fit(const Vector& heights, const Vector& weight);
 
  private:

@@ -20,6 +20,7 @@ namespace reflines {
 
 class PieceProblem : public Problem {
  public:
+  // A negative proximity is the default one: 10 with a free border, else 0, or 1e-6 for a cage.
   PieceProblem(Piece piece, Unknowns unknowns, StencilKind stencil, std::vector<ReflectionFunction> families,
                double proximity, LinearSolverKind solver);
 
@@ -30,7 +31,7 @@ class PieceProblem : public Problem {
 
   void set_heights(const Vector& x);
   void rest_at(const Vector& x);  // sets the heights, and those the proximity pulls to
-  void reset();  // as built, also in what later solves see: the same target then gives the same bits
+  void reset();                   // as built, also in what later solves see: the same target then gives the same bits
   const Vector& unknowns() const { return x_; }
 
   Vector changeable_area() const;  // #T: a triangle's projected area, 0 where none of its vertices is free

@@ -25,8 +25,8 @@ struct ShapeOptions {
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
   double crease_angle = kCreaseAngle;  // radians: sharper edges are held and no stencil reaches across
-  Motion motion;            // or none: how vertices follow fewer unknowns, as those of a subdivided cage do
-  double proximity = -1.0;  // weight of staying near the start; negative: 0, or 10 for a piece with a free border
+  Motion motion;                       // or none: how vertices follow fewer unknowns, as those of a subdivided cage do
+  double proximity = -1.0;             // weight of staying near the start; negative: see PieceProblem
 };
 
 // What became of the triangles and vertices that were handed in.

@@ -16,9 +16,8 @@ namespace {
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-const std::map<std::string, BorderHold> kHolds = {{"free", BorderHold::kNothing},
-                                                  {"fixed", BorderHold::kPosition},
-                                                  {"clamped", BorderHold::kPositionAndTangent}};
+const std::map<std::string, BorderHold> kHolds = {
+    {"free", BorderHold::kNothing}, {"fixed", BorderHold::kPosition}, {"clamped", BorderHold::kPositionAndTangent}};
 
 std::vector<Vector3> rows_of(const Eigen::MatrixXd& lines) {
   const bool one = lines.cols() == 1 && lines.rows() == 3;
@@ -32,11 +31,11 @@ std::vector<Vector3> rows_of(const Eigen::MatrixXd& lines) {
 std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
                                     const Vector3& view_direction, const Eigen::MatrixXd& line_direction,
                                     const std::optional<Mask>& region, const std::string& border,
-                                    const std::optional<Mask>& fixed, const std::optional<IndexVector>& partner, int level,
-                                    const std::string& scheme, const std::string& boundary, const Indices& creases,
-                                    const Numbers& crease_sharpness, const Indices& corners, const Numbers& corner_sharpness,
-                                    bool limit, const std::string& stencil, const std::string& linear_solver,
-                                    double crease_angle, double proximity) {
+                                    const std::optional<Mask>& fixed, const std::optional<IndexVector>& partner,
+                                    int level, const std::string& scheme, const std::string& boundary,
+                                    const Indices& creases, const Numbers& crease_sharpness, const Indices& corners,
+                                    const Numbers& corner_sharpness, bool limit, const std::string& stencil,
+                                    const std::string& linear_solver, double crease_angle, double proximity) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions options;

@@ -103,6 +103,34 @@ class ShapeOptimizer:
               max_iterations: int = 100, progress: Progress | None = None) -> Report: ...
     def reset(self) -> None: ...                                  # back to the heights it was built with
 
+class CageOptimizer(ShapeOptimizer):
+    """The optimizer of a region of a subdivision surface whose unknowns are the heights of its cage; see
+    native/cage_optimizer.h. The surface, cut into triangles, is the region of ShapeOptimizer: every builder of targets takes
+    it. Faces, creases, corners, scheme and boundary are those of Subdivision; `level` says how finely the surface is sampled.
+    """
+    cage_positions: np.ndarray  # #V x 3; vertices that did not move carry the bits they came with
+    cage_free: np.ndarray       # #V bool
+    triangles: np.ndarray       # #F x 3 of the region's vertices, those of `positions`
+    parent: np.ndarray          # #F: the cage's face
+    refined: np.ndarray         # #region vertices: which of Subdivision's refined vertices each is
+    def __init__(self, V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
+                 view_direction: Sequence[float], line_direction: Sequence[float] | np.ndarray,
+                 region: np.ndarray | None = None,    # #faces bool: those that may change; default all
+                 border: Border = "clamped",          # of the region, on the surface: its limit position and tangents stay
+                 fixed: np.ndarray | None = None,     # #V bool: held whatever the border says
+                 partner: np.ndarray | None = None,   # #V of mirror_pairs: partners rise alike
+                 level: int = 2, scheme: Scheme = "catmull_clark", boundary: Boundary = "all",
+                 creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
+                 corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit: bool = True,
+                 stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
+                 crease_angle: float = 0.5236, proximity: float = -1.0) -> None: ...
+    def fit(self, heights: np.ndarray, weight: np.ndarray) -> None:
+        """Moves the cage so that its surface is nearest to these heights along the view (#region vertices), by least squares
+        with these weights; 0 where there is no such height. A free border is then drawn to that shape."""
+
+def mirror_pairs(V: np.ndarray, *, point: Sequence[float], normal: Sequence[float], tolerance: float) -> np.ndarray:
+    """#V: the vertex in the place of each one's mirror image, itself on the plane, -1 where there is none."""
+
 # Builders of targets. `family` says which light lines; `weight` (#F, >= 0) multiplies each triangle's share of the energy;
 # `influence` (#F in [0, 1]) blends from the current field, 0 keeps it bit for bit. Directions and positions with two
 # coordinates are in the image plane: (p @ optimizer.frame[0], p @ optimizer.frame[1]) of a world point or direction p.

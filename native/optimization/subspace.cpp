@@ -5,7 +5,12 @@
 namespace reflines {
 
 Subspace::Subspace(Problem& whole, const SparseMatrix& modes, Point origin)
-    : whole_(whole), modes_(modes), origin_(origin.x), point_(std::move(origin)), c_(Vector::Zero(modes.rows())), product_(modes) {}
+    : whole_(whole),
+      modes_(modes),
+      origin_(origin.x),
+      point_(std::move(origin)),
+      c_(Vector::Zero(modes.rows())),
+      product_(modes) {}
 
 const Subspace::Point& Subspace::point(const Vector& c) {
   if (c == c_) return point_;

@@ -23,8 +23,10 @@ Unknowns::Unknowns(const SparseMatrix& B, Vector x, const Vector& z)
     : rows_(B), transposed_(B.transpose()), column_(z.size(), -1), start_(std::move(x)) {
   offset_ = z - rows_ * start_;
   for (int v = 0; v < z.size(); ++v) {
-    if (rows_.outerIndexPtr()[v] < rows_.outerIndexPtr()[v + 1]) column_[v] = moving_count_++;
-    else offset_(v) = z(v);
+    if (rows_.outerIndexPtr()[v] < rows_.outerIndexPtr()[v + 1])
+      column_[v] = moving_count_++;
+    else
+      offset_(v) = z(v);
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (int v = 0; v < z.size(); ++v) {

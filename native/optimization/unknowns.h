@@ -35,7 +35,7 @@ class Unknowns {
 
   // One orientation for each product: Eigen runs products whose sums lie in a row of memory on all cores, and each sum
   // on one of them.
-  Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows_;  // B, #V x n; empty for a selection
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows_;        // B, #V x n; empty for a selection
   Eigen::SparseMatrix<double, Eigen::RowMajor, int> transposed_;  // B^T
   SparseMatrix modes_;
   std::vector<int> column_;

@@ -1,0 +1,139 @@
+"""A cage under a Subdivision Surface is solved for itself: dents go, borders and symmetry stay, dense panels are fitted."""
+import numpy as np
+import pytest
+import reflines
+from sample_cages import LINE, VIEW, hood, roof
+
+DENT = 0.002
+ABOVE, ALONG = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.05])
+PANELS = {"hood": (hood, VIEW, LINE), "roof": (roof, ABOVE, ALONG)}
+
+
+def optimizer(cage, view=VIEW, line=LINE, **options):
+    return reflines.CageOptimizer(*cage, view_direction=view, line_direction=line, **options)
+
+
+def dented(cage, view, line):
+    """Every second vertex of the cage that may move, moved up or down."""
+    V, offsets, corners = cage
+    rng = np.random.default_rng(7)
+    free = np.flatnonzero(optimizer(cage, view, line).cage_free)
+    moved = V.copy()
+    pick = rng.choice(free, len(free) // 2, replace=False)
+    moved[pick] += DENT * rng.choice([-1.0, 1.0], len(pick))[:, None] * view
+    return moved, offsets, corners
+
+
+@pytest.mark.parametrize("name", PANELS)
+def test_a_dent_goes_when_the_clean_lines_are_asked_for(name: str) -> None:
+    make, view, line = PANELS[name]
+    clean = make()
+    solver = optimizer(dented(clean, view, line), view, line)
+    wanted = optimizer(clean, view, line).field()
+    assert np.abs(solver.cage_positions - clean[0]).max() > 0.5 * DENT
+    assert solver.solve(reflines.Target(wanted)).converged
+    assert np.abs(solver.cage_positions - clean[0]).max() < 0.01 * DENT
+
+
+@pytest.mark.parametrize("name", PANELS)
+@pytest.mark.parametrize("length", [0.4, 0.6])  # dents of a cage are two to four of its faces wide: 0.2 to 0.35
+def test_smoothing_alone_brings_the_lines_back(name: str, length: float) -> None:
+    make, view, line = PANELS[name]
+    clean = make()
+    solver = optimizer(dented(clean, view, line), view, line)
+    wanted, before = optimizer(clean, view, line).score(length), solver.score(length)
+    assert before > 1.01 * wanted
+    assert solver.solve(reflines.smooth(solver, length=length)).converged
+    assert solver.score(length) < 1.1 * wanted
+
+
+@pytest.mark.parametrize("region", [None, "inner"])
+def test_a_clamped_border_keeps_its_limit_position_and_normal(region: str | None) -> None:
+    cage = dented(hood(), VIEW, LINE)
+    V, offsets, corners = cage
+    faces = corners.reshape(-1, 4)
+    inner = (np.abs(V[faces][:, :, :2]) < 0.45).all(axis=(1, 2)) if region else np.ones(len(faces), bool)
+    solver = optimizer(cage, region=inner)
+    assert solver.solve(reflines.uniform(solver, density=1.2)).largest_move > 1e-3
+    surface = reflines.Subdivision(offsets, corners, vertices=len(V), level=3)
+    inside = surface.faces[inner[surface.face_parent]]
+    sides = np.sort(np.concatenate([inside[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+    sides, count = np.unique(sides, axis=0, return_counts=True)
+    border = np.unique(sides[count == 1])
+    before, after = surface.positions(V), surface.positions(solver.cage_positions)
+    assert np.array_equal(before[border], after[border])
+    assert np.array_equal(surface.normals(V)[border], surface.normals(solver.cage_positions)[border])
+    assert np.array_equal(solver.cage_positions[~solver.cage_free], V[~solver.cage_free])
+
+
+def test_only_along_the_view() -> None:
+    solver = optimizer(dented(hood(), VIEW, LINE))
+    before = solver.cage_positions
+    solver.solve(reflines.smooth(solver, length=0.4))
+    move = solver.cage_positions - before
+    assert np.allclose(move, (move @ VIEW)[:, None] * VIEW, rtol=0, atol=1e-15)
+
+
+def test_a_symmetric_cage_stays_symmetric_to_the_last_bit() -> None:
+    V, offsets, corners = hood()
+    V = V + 0.002 * np.sin(9.0 * np.abs(V[:, [0]]) + 7.0 * V[:, [1]]) * ABOVE
+    partner = reflines.mirror_pairs(V, point=(0, 0, 0), normal=(1, 0, 0), tolerance=1e-9)
+    image = V[partner] * (-1.0, 1.0, 1.0)
+    assert np.array_equal(image, V)
+    for options in ({"partner": partner}, {"partner": partner, "border": "fixed", "level": 3}):
+        solver = optimizer((V, offsets, corners), **options)
+        assert solver.solve(reflines.smooth(solver, length=0.5)).largest_move > 1e-4
+        result = solver.cage_positions
+        assert np.array_equal(result[partner] * (-1.0, 1.0, 1.0), result)
+
+
+def test_the_energy_falls_as_its_derivative_says_for_heights_of_the_cage() -> None:
+    """From outside: the energy of moved cages, each built anew, has its minimum where the solver stops."""
+    cage = dented(hood(10, 8), VIEW, LINE)
+    solver = optimizer(cage)
+    target = reflines.turn(solver, angle=0.05)
+    solver.solve(target, gradient_tolerance=1e-9)
+    rng = np.random.default_rng(3)
+    lowest = solver.energy(target)
+    for _ in range(5):
+        move = 1e-5 * (solver.cage_free * rng.standard_normal(len(cage[0])))[:, None] * VIEW
+        energies = [optimizer((solver.cage_positions + sign * move, *cage[1:])).energy(target) for sign in (-1, 1)]
+        assert min(energies) > lowest
+        assert abs(energies[1] - energies[0]) < 0.01 * (sum(energies) - 2 * lowest)
+
+
+def test_creases_reach_the_surface() -> None:
+    V, offsets, corners = hood()
+    row = np.flatnonzero(np.isclose(V[:, 1], V[len(V) // 2, 1]))
+    creases = np.stack([row[:-1], row[1:]], axis=1)
+    surface = reflines.Subdivision(offsets, corners, vertices=len(V), creases=creases,
+                                   crease_sharpness=np.full(len(creases), 10.0))
+    solver = optimizer((V, offsets, corners), creases=creases, crease_sharpness=np.full(len(creases), 10.0))
+    assert np.allclose(solver.positions, surface.positions(V)[solver.refined], rtol=0, atol=1e-14)
+
+
+def test_the_same_bits_for_any_number_of_targets_before() -> None:
+    results = []
+    for first in (0.02, -0.05):
+        solver = optimizer(dented(hood(), VIEW, LINE))
+        solver.solve(reflines.turn(solver, angle=first))
+        solver.reset()
+        solver.solve(reflines.smooth(solver, length=0.4))
+        results.append(solver.cage_positions)
+    assert np.array_equal(*results)
+
+
+@pytest.mark.parametrize(("options", "said"), [
+    ({"region": np.ones(3, bool)}, "region mask has 3 entries"),
+    ({"fixed": np.ones(3, bool)}, "held mask has 3 entries"),
+    ({"partner": np.zeros(3, int)}, "partners has 3 entries"),
+    ({"fixed": np.ones(255, bool)}, "No vertex"),
+    ({"level": 9}, "level is 9"),
+    ({"border": "glued"}, "'glued'"),
+    ({"view_direction": (0, 0, -1)}, "turn away"),
+])
+def test_unusable_input_gets_one_sentence(options: dict, said: str) -> None:
+    with pytest.raises(reflines.InvalidInput) as caught:
+        reflines.CageOptimizer(*hood(), **{"view_direction": VIEW, "line_direction": LINE} | options)
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
