@@ -14,6 +14,19 @@ namespace {
 // system is singular wherever a line crosses fewer than three triangles.
 constexpr double kAcrossLines = 1e-3;
 
+// Share of the data term that compares each corner, not only the triangle's mean, with the triangle's gradient. A triangle that
+// hangs on one vertex has two corners more than means; without this share they are undetermined and the system is singular.
+// Linear fields are bent by it at the border, by this share at most.
+constexpr double kCornerShare = 1e-4;
+
+Vector corner_weights(const HeightField& field) {
+  Vector weights = Vector::Zero(field.vertex_count());
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) weights(field.F(t, i)) += kCornerShare * field.area(t) / 3.0;
+  }
+  return weights;
+}
+
 // The region's stencils with the mean over the triangle in the place of f_x, and nothing in that of f_y.
 Stencils with_means(Stencils stencils) {
   stencils.gradient.setZero();
@@ -38,7 +51,7 @@ Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& 
         field.area(t) * stiffness *
         second_order_energy(options.directional, options.directional ? Vector2(along.row(t)) : Vector2());
     // Upper triangle of a 5 x 5 matrix row by row: 0 is the mean's, 9 .. 14 are those of f_xx, f_xy, f_yy.
-    result(t, 0) = field.area(t);
+    result(t, 0) = (1.0 - kCornerShare) * field.area(t);
     result.row(t).tail<6>() << K(0, 0), K(0, 1), K(0, 2), K(1, 1), K(1, 2), K(2, 2);
   }
   return result;
@@ -58,7 +71,7 @@ FieldSmoother::FieldSmoother(const HeightField& field, const Stencils& stencils,
   std::vector<int> column(field.vertex_count());
   std::iota(column.begin(), column.end(), 0);
   HessianAssembly assembly(means, entries, column, field.vertex_count());
-  solve_ = factorize(assembly.assemble(elements(field, options, along), {}));
+  solve_ = factorize(assembly.assemble(elements(field, options, along), corner_weights(field)));
 }
 
 PlaneVectors FieldSmoother::smooth(const PlaneVectors& gradient) const {
