@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "native/geometry/smooth_modes.h"
+#include "native/reflection/features.h"
 #include "native/reflection/scalar_gradient.h"
 
 namespace reflines {
@@ -156,12 +157,16 @@ EnergyTerm PieceProblem::term(const Target& target) const {
   return term;
 }
 
-EnergyTerm PieceProblem::crossing_term() const {
-  const int last = static_cast<int>(families_.size()) - 1;
+ReflectionField PieceProblem::start_field(int family) const {
   TriangleDerivatives u;
   apply_stencils(stencils_, piece_.field.z, u);
+  return reflection_field(families_[family], u);
+}
+
+EnergyTerm PieceProblem::crossing_term() const {
+  const int last = static_cast<int>(families_.size()) - 1;
   return {families_[last],
-          reflection_field(families_[last], u).gradient,
+          start_field(last).gradient,
           {},
           (kCrossingWeight * piece_.field.area.array() * visible_[last].array()).matrix()};
 }
@@ -180,22 +185,28 @@ Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progres
   return report;
 }
 
-const FieldSmoother& PieceProblem::kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along) {
+const FieldSmoother& PieceProblem::kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along,
+                                        int family) {
   const bool same_along = along.rows() == kept.along.rows() && along == kept.along;
-  if (kept.smoother && kept.length == options.length && same_along) return *kept.smoother;
+  if (kept.smoother && kept.length == options.length && kept.family == family && same_along) return *kept.smoother;
   const SpdFactorize factorize = [this](const SparseMatrix& matrix) -> SpdSolve {
     auto solver = std::make_shared<LinearSolver>(solver_);
     solver->analyze(matrix);
     solver->factorize(matrix);
     return [solver](Vector& x) { solver->solve(x); };
   };
-  kept = {std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, factorize), options.length, along};
+  kept = {std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, features(options.length, family), factorize),
+          options.length, along, family};
   return *kept.smoother;
 }
 
-PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options) {
-  const PlaneVectors isotropic = kept(isotropic_, {options.length, false}, PlaneVectors(0, 2)).smooth(gradient);
-  return options.directional ? kept(directional_, options, isotropic).smooth(gradient) : isotropic;
+PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options, int family) {
+  const PlaneVectors isotropic = kept(isotropic_, {options.length, false}, PlaneVectors(0, 2), family).smooth(gradient);
+  return options.directional ? kept(directional_, options, isotropic, family).smooth(gradient) : isotropic;
+}
+
+Mask PieceProblem::features(double length, int family) const {
+  return strong_features(piece_.field, start_field(family).gradient, length);
 }
 
 double PieceProblem::evaluate(const Vector& x, Vector* gradient) {

@@ -47,7 +47,10 @@ class PieceProblem : public Problem {
   void add_vertex_field(RegionField& region) const;
   // The direction of directional smoothing is that of the isotropically smoothed lines: along lines that wobble by 40
   // degrees their own wobble is no detail.
-  PlaneVectors smoothed(const PlaneVectors& gradient, const SmoothOptions& options);
+  PlaneVectors smoothed(const PlaneVectors& gradient, const SmoothOptions& options, int family);
+
+  // #T: what smoothing at `length` leaves alone in the field the piece started with.
+  Mask features(double length, int family) const;
 
   int size() const override { return unknowns_.size(); }
   double evaluate(const Vector& x, Vector* gradient) override;
@@ -60,12 +63,14 @@ class PieceProblem : public Problem {
     std::unique_ptr<FieldSmoother> smoother;
     double length = 0.0;
     PlaneVectors along;
+    int family = 0;
   };
 
   EnergyTerm term(const Target& target) const;
+  ReflectionField start_field(int family) const;
   EnergyTerm crossing_term() const;
   void find_hidden();
-  const FieldSmoother& kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along);
+  const FieldSmoother& kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along, int family);
   Vector2 slope_at(int t, int v, const TriangleDerivatives& u) const;
 
   Piece piece_;

@@ -233,6 +233,15 @@ Vector ShapeOptimizer::residual(const Target& target) const {
   return ((field(target.family) - target.gradient).rowwise().norm().array() * active().cast<double>()).matrix();
 }
 
+void ShapeOptimizer::count_features(double length, int family) {
+  int count = 0;
+  for (const auto& piece : pieces_) count += static_cast<int>(piece->features(length, family).count());
+  if (count == region_.features) return;
+  region_.features = count;
+  region_.messages.push_back(faces(count) + " bend far more than the panel over more than the smoothing length (fillets, hems, "
+                                            "gaps); their lines are kept.");
+}
+
 Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double strength, int family) {
   check_family(family);
   if (!(options.length >= 0) || !std::isfinite(options.length)) {
@@ -242,10 +251,11 @@ Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double streng
   Target target;
   target.family = family;
   target.gradient = PlaneVectors::Zero(triangle_count_, 2);
+  const bool changes = strength > 0 && options.length > 0;
+  if (changes) count_features(options.length, family);
   for (const auto& piece : pieces_) {
     const PlaneVectors own = piece->field(family).gradient;
-    const bool changes = strength > 0 && options.length > 0;
-    const PlaneVectors wanted = changes ? PlaneVectors(own + strength * (piece->smoothed(own, options) - own)) : own;
+    const PlaneVectors wanted = changes ? PlaneVectors(own + strength * (piece->smoothed(own, options, family) - own)) : own;
     for (int t = 0; t < own.rows(); ++t) target.gradient.row(piece->piece().field.source[t]) = wanted.row(t);
   }
   return target;
@@ -255,8 +265,8 @@ double ShapeOptimizer::score(double length, int family) {
   double sum = 0, area = 0;
   for (const auto& piece : pieces_) {
     const PlaneVectors own = piece->field(family).gradient;
-    const Vector A = piece->changeable_area();
-    sum += A.dot((own - piece->smoothed(own, {length, false})).rowwise().squaredNorm());
+    const Vector A = piece->features(length, family).select(Vector::Zero(own.rows()).array(), piece->changeable_area().array());
+    sum += A.dot((own - piece->smoothed(own, {length, false}, family)).rowwise().squaredNorm());
     area += A.sum();
   }
   return area > 0 ? std::sqrt(sum / area) * length * 180.0 / std::numbers::pi : 0.0;

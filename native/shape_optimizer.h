@@ -39,7 +39,8 @@ struct Region {
   int unused_pieces = 0;              // pieces without a free vertex
   int creases = 0;                    // edges held because they bend by more than the crease angle
   int hidden = 0;                     // triangles of less weight: their reflected ray is nearly parallel to the lines
-  bool closed = false;                // the region has no border edge
+  int features = 0;     // triangles the last smoothing left alone: strong bends that run on (see strong_features)
+  bool closed = false;  // the region has no border edge
   std::vector<std::string> messages;  // sentences for the user
 };
 
@@ -75,7 +76,7 @@ class ShapeOptimizer {
   // strength.
   Target smooth_target(const SmoothOptions& options, double strength, int family);
 
-  // Wobble of the lines in degrees: the root mean square, over the triangles that can change, of |field - field
+  // Wobble of the lines in degrees: the root mean square, over the triangles that can change and are no features, of |field - field
   // smoothed at `length`| times `length`: how far, within one length, the lines stray from their own smooth course.
   double score(double length, int family);
 
@@ -96,6 +97,7 @@ class ShapeOptimizer {
   void check(const Target& target) const;
   void check_family(int family) const;
   void describe(const HeightField& field);
+  void count_features(double length, int family);
   void measure(const std::vector<Target>& targets, Report& report) const;
 
   ImagePlane frame_;

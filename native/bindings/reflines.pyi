@@ -38,6 +38,7 @@ class Region:
     turned_away: int   # triangles with n.v <= 0, their vertices held
     unused_pieces: int # pieces without a free vertex
     creases: int       # edges held because they bend by more than the crease angle
+    features: int      # triangles the last smoothing left alone: strong bends longer than its length
     hidden: int        # triangles of less weight: the reflected ray is nearly parallel to the lines
     closed: bool       # the region has no border edge
     messages: list[str]

@@ -22,6 +22,7 @@ void bind_region(py::module_& module) {
       .def_readonly("turned_away", &Region::turned_away)
       .def_readonly("unused_pieces", &Region::unused_pieces)
       .def_readonly("creases", &Region::creases)
+      .def_readonly("features", &Region::features)
       .def_readonly("hidden", &Region::hidden)
       .def_readonly("closed", &Region::closed)
       .def_readonly("messages", &Region::messages);

@@ -19,12 +19,19 @@ constexpr double kAcrossLines = 1e-3;
 // Linear fields are bent by it at the border, by this share at most.
 constexpr double kCornerShare = 1e-4;
 
-Vector corner_weights(const HeightField& field) {
-  Vector weights = Vector::Zero(field.vertex_count());
+Vector corner_weights(const HeightField& field, const Vector& weight) {
+  Vector result = Vector::Zero(field.vertex_count());
   for (int t = 0; t < field.triangle_count(); ++t) {
-    for (int i = 0; i < 3; ++i) weights(field.F(t, i)) += kCornerShare * field.area(t) / 3.0;
+    for (int i = 0; i < 3; ++i) result(field.F(t, i)) += kCornerShare * weight(t) / 3.0;
   }
-  return weights;
+  return result;
+}
+
+// Weight of a feature's data against 1: it fixes the smoothed field where nothing else does, and bends nothing around it.
+constexpr double kFeatureWeight = 1e-3;
+
+Vector data_weights(const HeightField& field, const Mask& features) {
+  return (field.area.array() * features.select(Vector::Constant(field.area.size(), kFeatureWeight).array(), 1.0)).matrix();
 }
 
 // The region's stencils with the mean over the triangle in the place of f_x, and nothing in that of f_y.
@@ -43,7 +50,8 @@ Eigen::Matrix3d second_order_energy(bool directional, const Vector2& gradient) {
   return c * c.transpose() + kAcrossLines * isotropic;
 }
 
-Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& options, const PlaneVectors& along) {
+Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& options, const PlaneVectors& along,
+                                 const Vector& weight) {
   const double stiffness = std::pow(options.length / (2 * std::numbers::pi), 4);
   Energy::ElementHessians result = Energy::ElementHessians::Zero(field.triangle_count(), 15);
   for (int t = 0; t < field.triangle_count(); ++t) {
@@ -51,7 +59,7 @@ Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& 
         field.area(t) * stiffness *
         second_order_energy(options.directional, options.directional ? Vector2(along.row(t)) : Vector2());
     // Upper triangle of a 5 x 5 matrix row by row: 0 is the mean's, 9 .. 14 are those of f_xx, f_xy, f_yy.
-    result(t, 0) = (1.0 - kCornerShare) * field.area(t);
+    result(t, 0) = (1.0 - kCornerShare) * weight(t);
     result.row(t).tail<6>() << K(0, 0), K(0, 1), K(0, 2), K(1, 1), K(1, 2), K(2, 2);
   }
   return result;
@@ -60,8 +68,8 @@ Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& 
 }  // namespace
 
 FieldSmoother::FieldSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
-                             const PlaneVectors& along, const SpdFactorize& factorize)
-    : field_(field) {
+                             const PlaneVectors& along, Mask features, const SpdFactorize& factorize)
+    : field_(field), features_(std::move(features)), weight_(data_weights(field, features_)) {
   if (!(options.length > 0) || !std::isfinite(options.length)) {
     throw InvalidInput("The smoothing length must be a positive length in scene units, not " +
                        std::to_string(options.length) + ".");
@@ -71,7 +79,7 @@ FieldSmoother::FieldSmoother(const HeightField& field, const Stencils& stencils,
   std::vector<int> column(field.vertex_count());
   std::iota(column.begin(), column.end(), 0);
   HessianAssembly assembly(means, entries, column, field.vertex_count());
-  solve_ = factorize(assembly.assemble(elements(field, options, along), corner_weights(field)));
+  solve_ = factorize(assembly.assemble(elements(field, options, along, weight_), corner_weights(field, weight_)));
 }
 
 PlaneVectors FieldSmoother::smooth(const PlaneVectors& gradient) const {
@@ -79,11 +87,12 @@ PlaneVectors FieldSmoother::smooth(const PlaneVectors& gradient) const {
   for (int component = 0; component < 2; ++component) {
     Vector G = Vector::Zero(field_.vertex_count());
     for (int t = 0; t < field_.triangle_count(); ++t) {
-      for (int i = 0; i < 3; ++i) G(field_.F(t, i)) += field_.area(t) / 3.0 * gradient(t, component);
+      for (int i = 0; i < 3; ++i) G(field_.F(t, i)) += weight_(t) / 3.0 * gradient(t, component);
     }
     solve_(G);
     for (int t = 0; t < field_.triangle_count(); ++t) {
-      result(t, component) = (G(field_.F(t, 0)) + G(field_.F(t, 1)) + G(field_.F(t, 2))) / 3.0;
+      const double mean = (G(field_.F(t, 0)) + G(field_.F(t, 1)) + G(field_.F(t, 2))) / 3.0;
+      result(t, component) = features_(t) ? gradient(t, component) : mean;
     }
   }
   return result;

@@ -24,15 +24,18 @@ struct SmoothOptions {
 
 class FieldSmoother {
  public:
-  // `along` (#T x 2) gives the gradient whose level lines are the direction; read only for directional smoothing.
+  // `along` (#T x 2) gives the gradient whose level lines are the direction; read only for directional smoothing. `features`
+  // (#T, see strong_features) stay as they are and hardly count around them.
   FieldSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
-                const PlaneVectors& along, const SpdFactorize& factorize);
+                const PlaneVectors& along, Mask features, const SpdFactorize& factorize);
 
   // The smoothed field (#T x 2) of `gradient` (#T x 2).
   PlaneVectors smooth(const PlaneVectors& gradient) const;
 
  private:
   const HeightField& field_;
+  Mask features_;
+  Vector weight_;  // #T: of the data term
   SpdSolve solve_;
 };
 
