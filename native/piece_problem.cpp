@@ -195,7 +195,8 @@ const FieldSmoother& PieceProblem::kept(KeptSmoother& kept, const SmoothOptions&
     solver->factorize(matrix);
     return [solver](Vector& x) { solver->solve(x); };
   };
-  kept = {std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, features(options.length, family), factorize),
+  kept = {std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, features(options.length, family),
+                                          factorize),
           options.length, along, family};
   return *kept.smoother;
 }

@@ -238,8 +238,9 @@ void ShapeOptimizer::count_features(double length, int family) {
   for (const auto& piece : pieces_) count += static_cast<int>(piece->features(length, family).count());
   if (count == region_.features) return;
   region_.features = count;
-  region_.messages.push_back(faces(count) + " bend far more than the panel over more than the smoothing length (fillets, hems, "
-                                            "gaps); their lines are kept.");
+  region_.messages.push_back(faces(count) +
+                             " bend far more than the panel over more than the smoothing length (fillets, hems, "
+                             "gaps); their lines are kept.");
 }
 
 Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double strength, int family) {
@@ -255,7 +256,8 @@ Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double streng
   if (changes) count_features(options.length, family);
   for (const auto& piece : pieces_) {
     const PlaneVectors own = piece->field(family).gradient;
-    const PlaneVectors wanted = changes ? PlaneVectors(own + strength * (piece->smoothed(own, options, family) - own)) : own;
+    const PlaneVectors wanted =
+        changes ? PlaneVectors(own + strength * (piece->smoothed(own, options, family) - own)) : own;
     for (int t = 0; t < own.rows(); ++t) target.gradient.row(piece->piece().field.source[t]) = wanted.row(t);
   }
   return target;
@@ -265,7 +267,8 @@ double ShapeOptimizer::score(double length, int family) {
   double sum = 0, area = 0;
   for (const auto& piece : pieces_) {
     const PlaneVectors own = piece->field(family).gradient;
-    const Vector A = piece->features(length, family).select(Vector::Zero(own.rows()).array(), piece->changeable_area().array());
+    const Vector A =
+        piece->features(length, family).select(Vector::Zero(own.rows()).array(), piece->changeable_area().array());
     sum += A.dot((own - piece->smoothed(own, {length, false}, family)).rowwise().squaredNorm());
     area += A.sum();
   }

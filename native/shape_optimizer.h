@@ -34,13 +34,13 @@ struct Region {
   int triangles = 0;  // in height-field pieces
   int free = 0, fixed = 0, clamped = 0;
   int pieces = 0;
-  int silhouettes = 0;                // triangles left out, |n.v| < 0.02
-  int turned_away = 0;                // triangles left out, n.v < 0
-  int unused_pieces = 0;              // pieces without a free vertex
-  int creases = 0;                    // edges held because they bend by more than the crease angle
-  int hidden = 0;                     // triangles of less weight: their reflected ray is nearly parallel to the lines
-  int features = 0;     // triangles the last smoothing left alone: strong bends that run on (see strong_features)
-  bool closed = false;  // the region has no border edge
+  int silhouettes = 0;    // triangles left out, |n.v| < 0.02
+  int turned_away = 0;    // triangles left out, n.v < 0
+  int unused_pieces = 0;  // pieces without a free vertex
+  int creases = 0;        // edges held because they bend by more than the crease angle
+  int hidden = 0;         // triangles of less weight: their reflected ray is nearly parallel to the lines
+  int features = 0;       // triangles the last smoothing left alone: strong bends that run on (see strong_features)
+  bool closed = false;    // the region has no border edge
   std::vector<std::string> messages;  // sentences for the user
 };
 
@@ -76,8 +76,9 @@ class ShapeOptimizer {
   // strength.
   Target smooth_target(const SmoothOptions& options, double strength, int family);
 
-  // Wobble of the lines in degrees: the root mean square, over the triangles that can change and are no features, of |field - field
-  // smoothed at `length`| times `length`: how far, within one length, the lines stray from their own smooth course.
+  // Wobble of the lines in degrees: the root mean square, over the triangles that can change and are no features, of
+  // |field - field smoothed at `length`| times `length`: how far, within one length, the lines stray from their own
+  // smooth course.
   double score(double length, int family);
 
   // Moves the heights towards the targets, every piece on its own. On cancel or failure nothing has moved.

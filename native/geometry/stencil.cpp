@@ -9,9 +9,9 @@ namespace {
 
 // The paper's C: a six-point stencil with a larger coefficient times l_max^2 counts as unstable.
 constexpr double kPaperThreshold = 5.0;
-// Ours. Recovering a sphere's cap on a grid jittered by 0.2 cells, 128 a side, the error is 5.0e-5 of the depth with the ring
-// everywhere and 4.4e-5, 4.3e-5, 4.4e-5, 4.4e-5 for C = 5, 12, 20, 50: accuracy does not ask for the ring on sane stencils, and
-// every ring costs fill. 20 leaves it to borders, valence three and points close to a conic.
+// Ours. Recovering a sphere's cap on a grid jittered by 0.2 cells, 128 a side, the error is 5.0e-5 of the depth with
+// the ring everywhere and 4.4e-5, 4.3e-5, 4.4e-5, 4.4e-5 for C = 5, 12, 20, 50: accuracy does not ask for the ring on
+// sane stencils, and every ring costs fill. 20 leaves it to borders, valence three and points close to a conic.
 constexpr double kConsistentThreshold = 20.0;
 
 HessianStencil with_fallback(const HeightField& field, int t, StencilKind kind, bool& fell_back) {

@@ -14,9 +14,9 @@ namespace {
 // system is singular wherever a line crosses fewer than three triangles.
 constexpr double kAcrossLines = 1e-3;
 
-// Share of the data term that compares each corner, not only the triangle's mean, with the triangle's gradient. A triangle that
-// hangs on one vertex has two corners more than means; without this share they are undetermined and the system is singular.
-// Linear fields are bent by it at the border, by this share at most.
+// Share of the data term that compares each corner, not only the triangle's mean, with the triangle's gradient. A
+// triangle that hangs on one vertex has two corners more than means; without this share they are undetermined and the
+// system is singular. Linear fields are bent by it at the border, by this share at most.
 constexpr double kCornerShare = 1e-4;
 
 Vector corner_weights(const HeightField& field, const Vector& weight) {
@@ -27,11 +27,13 @@ Vector corner_weights(const HeightField& field, const Vector& weight) {
   return result;
 }
 
-// Weight of a feature's data against 1: it fixes the smoothed field where nothing else does, and bends nothing around it.
+// Weight of a feature's data against 1: it fixes the smoothed field where nothing else does, and bends nothing around
+// it.
 constexpr double kFeatureWeight = 1e-3;
 
 Vector data_weights(const HeightField& field, const Mask& features) {
-  return (field.area.array() * features.select(Vector::Constant(field.area.size(), kFeatureWeight).array(), 1.0)).matrix();
+  return (field.area.array() * features.select(Vector::Constant(field.area.size(), kFeatureWeight).array(), 1.0))
+      .matrix();
 }
 
 // The region's stencils with the mean over the triangle in the place of f_x, and nothing in that of f_y.

@@ -24,7 +24,8 @@ struct SmoothOptions {
 
 class FieldSmoother {
  public:
-  // `along` (#T x 2) gives the gradient whose level lines are the direction; read only for directional smoothing. `features`
+  // `along` (#T x 2) gives the gradient whose level lines are the direction; read only for directional smoothing.
+  // `features`
   // (#T, see strong_features) stay as they are and hardly count around them.
   FieldSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
                 const PlaneVectors& along, Mask features, const SpdFactorize& factorize);
