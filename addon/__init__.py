@@ -10,6 +10,7 @@ from .targets import warp as warp_target, pattern as pattern_target
 from .bridge import refusal, versions, view, region, gather, apply, surface, environment
 from .bridge import lattice, picture, place, curve
 from . import tool_settings, stripe_settings, properties, session, tool
+from .drag import motion, worker, pursuit, modal
 from .overlay import stripes, shader, normals, seen, draw
 from .operators import add_light_direction, add_view_camera, add_warp_lattice
 from .operators import direction, pattern, pick_direction, smooth, untwist, warp, stripes as stripes_operators
@@ -27,7 +28,8 @@ bl_info = {
 
 MODULES = (native, falloff, smooth_target, direction_target, untwist_target, warp_target, pattern_target,
            refusal, versions, view, region, gather, apply, surface, environment, lattice, picture, place, curve,
-           tool_settings, stripe_settings, properties, session, tool, stripes, shader, normals, seen, draw,
+           tool_settings, stripe_settings, properties, session, tool, motion, worker, pursuit, modal,
+           stripes, shader, normals, seen, draw,
            add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth, untwist,
            warp, stripes_operators, preferences, panels, stripes_panel)
 

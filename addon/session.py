@@ -2,7 +2,8 @@
 
 Nothing here is saved, and nothing here knows Blender's mesh data: panels come in as arrays, solutions go out as arrays.
 """
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
@@ -16,6 +17,9 @@ from .bridge.refusal import Refusal
 from .bridge.view import View
 
 AUTOMATIC_LENGTH = 1.0 / 6.0  # of the panel's diagonal
+
+
+BuildTarget = Callable[[object], object]  # of the optimizer; what it returns is a native Target
 
 
 @dataclass(frozen=True)
@@ -64,32 +68,46 @@ def obstacle(scene: bpy.types.Scene) -> str:
     return native.STATE.problem or scene.reflection_lines.missing()
 
 
-def optimizer_of(panel: Panel, seen: View, border: str) -> object:
-    """At the heights of `panel`. Built anew only if the panel, the view, the light or the border changed."""
-    live = _live.get(panel.name)
+def built(panel: Panel, seen: View, border: str) -> Live:
+    """Takes long. Refuses what is no panel; raises what the native module raises."""
+    optimizer = native.reflines.ShapeOptimizer(
+        panel.V, panel.F, view_direction=seen.view_direction, line_direction=seen.line_direction, border=border)
+    refuse_closed(panel.name, int(panel.faces.sum()), optimizer.region.closed)
+    return Live(panel, seen, border, optimizer)
+
+
+def lend(panel: Panel, seen: View, border: str) -> Live | None:
+    """The kept optimizer, at the heights of `panel`, for a thread to work with: nobody else has it until it is taken back."""
+    live = _live.pop(panel.name, None)
     if live is None or not live.suits(panel, seen, border):
-        optimizer = native.reflines.ShapeOptimizer(
-            panel.V, panel.F, view_direction=seen.view_direction, line_direction=seen.line_direction, border=border)
-        live = _live[panel.name] = Live(panel, seen, border, optimizer)
+        return None
     live.optimizer.reset()
-    return live.optimizer
+    return live
+
+
+def take_back(live: Live) -> None:
+    _live[live.panel.name] = live
 
 
 def length_of(panel: Panel, length: float) -> float:
     return length or AUTOMATIC_LENGTH * panel.diagonal
 
 
-def solve(panel: Panel, seen: View, settings: Settings, build_target: Callable[[object], object]) -> Solution:
-    """`build_target` makes the target from the optimizer.
-
-    Raises Refusal, with the object's name, where the solver cannot use the panel or breaks down.
-    """
+@contextmanager
+def refusing(panel: Panel) -> Generator[None, None, None]:
+    """Says with the object's name what the native module cannot use, or that it broke down."""
     try:
-        optimizer = optimizer_of(panel, seen, settings.border)
-        refuse_closed(panel.name, int(panel.faces.sum()), optimizer.region.closed)
-        return solved(panel, optimizer, build_target(optimizer), length_of(panel, settings.length))
+        yield
     except (native.InvalidInput, native.SolverFailure) as error:
         raise Refusal(f"{panel.name}: {error}") from error
+
+
+def solve(panel: Panel, seen: View, settings: Settings, build_target: BuildTarget) -> Solution:
+    """Built anew only if the panel, the view, the light or the border changed since the last time."""
+    with refusing(panel):
+        live = lend(panel, seen, settings.border) or built(panel, seen, settings.border)
+        take_back(live)
+        return solved(live, build_target, settings)
 
 
 def frame_of(panel: Panel, seen: View) -> np.ndarray:
@@ -107,10 +125,13 @@ def refuse_closed(name: str, faces: int, closed: bool) -> None:
                       "select only the faces of the panel")
 
 
-def solved(panel: Panel, optimizer: object, target: object, length: float) -> Solution:
+def solved(live: Live, build_target: BuildTarget, settings: Settings, progress: object = None) -> Solution:
+    """From the heights that the optimizer has. `progress`, a native one, lets another thread watch and cancel."""
+    optimizer, length = live.optimizer, length_of(live.panel, settings.length)
+    target = build_target(optimizer)
     score, lacking = optimizer.score(length), root_mean_square(optimizer, target)
-    report = optimizer.solve(target)
-    return Solution(panel, optimizer.positions, report, target, optimizer.residual(target), lacking,
+    report = optimizer.solve(target, progress=progress)
+    return Solution(live.panel, optimizer.positions, report, target, optimizer.residual(target), lacking,
                     root_mean_square(optimizer, target), length, score, optimizer.score(length),
                     tuple(optimizer.region.messages))
 

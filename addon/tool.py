@@ -1,6 +1,4 @@
 """What the operators that solve share: when they can run, gathering, applying, and telling the artist what happened."""
-from collections.abc import Callable
-
 import bpy
 
 from . import session
@@ -8,10 +6,10 @@ from .bridge import apply, curve, gather, place
 from .bridge.gather import Panel
 from .bridge.refusal import Refusal
 from .properties import border_property
+from .session import BuildTarget
 from .targets import falloff
 from .targets.falloff import Falloff
 
-BuildTarget = Callable[[object], object]  # of the optimizer; what it returns is a native Target
 AUTOMATIC_RADIUS = 1.0 / 3.0  # of the region's diagonal
 
 
@@ -55,7 +53,9 @@ class Tool:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
         for solution in solutions:
-            self.keep(bpy.data.objects[solution.panel.name], solution)
+            ob = bpy.data.objects[solution.panel.name]
+            apply.apply(ob, solution.panel, solution.positions)
+            self.keep(ob, solution)
         return {'FINISHED'}
 
     def take_settings(self, scene: bpy.types.Scene) -> None:
@@ -73,8 +73,8 @@ class Tool:
         return session.solve(panel, session.view_of(context.scene, panel.center), settings, build)
 
     def keep(self, ob: bpy.types.Object, solution: session.Solution) -> None:
+        """All that is remembered of a solution beside the positions."""
         apply.keep_region(ob, solution.panel)
-        apply.apply(ob, solution.panel, solution.positions)
         stored = ob.reflection_lines
         stored.center = solution.panel.local_center
         stored.report.fill(solution, (*solution.notes, *self.remarks(solution)))

@@ -6,19 +6,47 @@ import numpy as np
 from . import region
 from .gather import Panel
 
+SAMPLE = 64  # positions that are compared to know a mesh again
 
-def apply(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> int:
-    """Writes world positions (#V x 3) of the region; returns how many vertices changed.
+
+def apply(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> None:
+    """Writes world positions (#V x 3) of the region."""
+    show(ob, panel, local(panel, positions), start(panel))
+
+
+def start(panel: Panel) -> np.ndarray:
+    """#V x 3 float32, object space: what the mesh had."""
+    return panel.local.astype(np.float32)
+
+
+def local(panel: Panel, positions: np.ndarray) -> np.ndarray:
+    """#V x 3 float32, object space.
 
     What is added is the move, taken back to object space, so that a vertex leaves its place along the view only.
     """
     move = np.linalg.solve(panel.matrix[:3, :3], (positions - panel.V).T).T
-    old = panel.local.astype(np.float32)
-    new = (panel.local + move).astype(np.float32)
+    return (panel.local + move).astype(np.float32)
+
+
+def show(ob: bpy.types.Object, panel: Panel, new: np.ndarray, old: np.ndarray) -> None:
+    """Writes object-space positions (#V x 3 float32) over those that the mesh has now."""
     moved = (new != old).any(axis=1)
-    write = write_edit_mesh if ob.mode == 'EDIT' else write_mesh
-    write(ob.data, panel.index[moved], new[moved])
-    return int(moved.sum())
+    if moved.any():
+        write = write_edit_mesh if ob.mode == 'EDIT' else write_mesh
+        write(ob.data, panel.index[moved], new[moved])
+
+
+def still_has(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> bool:
+    """Whether nobody else changed the mesh: its size, and a sample of the positions (#V x 3 float32, object space)."""
+    mesh = bmesh.from_edit_mesh(ob.data) if ob.mode == 'EDIT' else ob.data
+    vertices, faces = (mesh.verts, mesh.faces) if ob.mode == 'EDIT' else (mesh.vertices, mesh.polygons)
+    if len(faces) != len(panel.faces) or panel.index[-1] >= len(vertices):
+        return False
+    if ob.mode == 'EDIT':
+        vertices.ensure_lookup_table()
+    sample = np.linspace(0, len(positions) - 1, SAMPLE).astype(int)
+    now = np.array([vertices[i].co for i in panel.index[sample].tolist()], dtype=np.float32)
+    return np.array_equal(now, positions[sample])
 
 
 def write_mesh(mesh: bpy.types.Mesh, index: np.ndarray, new: np.ndarray) -> None:

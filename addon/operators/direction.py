@@ -8,7 +8,8 @@ from ..bridge import place
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..targets import direction
-from ..tool import BuildTarget, Tool, placed_falloff
+from ..session import BuildTarget
+from ..tool import Tool, placed_falloff
 from ..tool_settings import DirectionSettings
 
 

@@ -5,18 +5,28 @@ import bpy
 
 from .. import session
 from ..bridge.gather import Panel
+from ..drag.modal import DraggedTool
+from ..drag.motion import Handle
+from ..session import BuildTarget
 from ..targets import smooth
-from ..tool import BuildTarget, Tool
 from ..tool_settings import SmoothSettings
 
 
-class REFLINES_OT_smooth(Tool, SmoothSettings, bpy.types.Operator):
+class REFLINES_OT_smooth(DraggedTool, SmoothSettings, bpy.types.Operator):
     """Move the vertices of the selected faces along the view so that their reflection lines run smoothly.
 
 In Object Mode the faces of the last run are taken; they are kept with the mesh as the face attribute "reflines_region".
 Quads and n-gons stay as they are"""
     bl_idname = "reflines.smooth"
     bl_label = "Smooth Reflection Lines"
+    wheel = "length"
+
+    def handles(self) -> tuple[Handle, ...]:
+        return (Handle("strength", "Strength", per_pixel=1.0 / 300.0, low=0.0, high=1.0),
+                Handle("length", "Length", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH'))
+
+    def automatic(self, name: str, panel: Panel) -> float:
+        return session.length_of(panel, 0.0) if name == "length" else 0.0
 
     def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines

@@ -5,7 +5,8 @@ import bpy
 
 from ..bridge.gather import Panel
 from ..targets import untwist
-from ..tool import BuildTarget, Tool, placed_falloff
+from ..session import BuildTarget
+from ..tool import Tool, placed_falloff
 from ..tool_settings import UntwistSettings
 
 

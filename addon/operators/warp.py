@@ -8,7 +8,8 @@ from ..bridge import lattice
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..targets import warp
-from ..tool import BuildTarget, Tool
+from ..session import BuildTarget
+from ..tool import Tool
 from ..tool_settings import WarpSettings
 
 

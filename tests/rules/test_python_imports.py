@@ -18,7 +18,11 @@ MAY_IMPORT = {
     "preferences": {"native"},
     "session": {"native", "bridge", "properties"},
     "tool": {"session", "bridge", "properties", "targets"},
-    "operators": {"tool", "tool_settings", "session", "bridge", "properties", "targets"},
+    "drag.motion": set(),
+    "drag.worker": set(),
+    "drag.pursuit": {"native", "session", "bridge"},
+    "drag.modal": {"drag.motion", "drag.worker", "drag.pursuit", "tool", "session", "bridge"},
+    "operators": {"drag.modal", "drag.motion", "tool", "tool_settings", "session", "bridge", "properties", "targets"},
     "overlay.stripes": set(),
     "overlay.shader": {"overlay.stripes"},
     "overlay.normals": {"overlay.stripes", "native"},
@@ -27,11 +31,12 @@ MAY_IMPORT = {
                      "properties"},
 }
 # Registration sees everything; the index of a package sees the package.
-INDEXES = {"__init__", "operators.__init__", "overlay.__init__"}
+INDEXES = {"__init__", "drag.__init__", "operators.__init__", "overlay.__init__"}
 
 # Module from elsewhere -> the only modules of addon/ that may import it.
 WALLS = {"reflines": ("native",), "bmesh": ("bridge",), "gpu": ("overlay",), "gpu_extras": ("overlay",)}
-PURE = {"targets": {"bpy", "gpu", "mathutils", "bmesh"}, "overlay.stripes": {"bpy", "gpu", "mathutils", "bmesh"},
+PURE = {"drag.motion": {"bpy", "mathutils"}, "drag.worker": {"bpy", "mathutils"}, "drag.pursuit": {"bpy", "mathutils"},
+        "targets": {"bpy", "gpu", "mathutils", "bmesh"}, "overlay.stripes": {"bpy", "gpu", "mathutils", "bmesh"},
         "overlay.shader": {"bpy", "bmesh"}}
 
 FORBIDDEN_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}

@@ -1,0 +1,256 @@
+"""Tools that start under the mouse: drag, and the panel follows; Enter keeps, Esc takes all back.
+
+Blender's side of a drag: events, the header, the timer, and the mesh. What is solved is in pursuit.py, in a thread.
+"""
+import time
+
+import bpy
+import numpy as np
+
+from .. import session
+from ..bridge import apply, gather
+from ..bridge.gather import Panel
+from ..bridge.refusal import Refusal
+from ..tool import Tool
+from .motion import Handle, Motion
+from .pursuit import Outcome, Pursuit, Request
+from .worker import Worker
+
+TICK = 0.03          # seconds between looks at what the thread has
+SAYS_BUSY = 0.3      # seconds of solving after which the status bar tells of it
+DIGITS = {name: str(digit) for digit, word in enumerate(
+    ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"))
+    for name in (word, f"NUMPAD_{digit}")}
+CHARACTERS = DIGITS | {'PERIOD': '.', 'NUMPAD_PERIOD': '.', 'COMMA': '.', 'MINUS': '-', 'NUMPAD_MINUS': '-'}
+NOTCHES = {'WHEELUPMOUSE': 1, 'WHEELDOWNMOUSE': -1}
+KEEP, LEAVE = {'LEFTMOUSE', 'RET', 'NUMPAD_ENTER'}, {'ESC', 'RIGHTMOUSE'}
+NAVIGATION = {'MIDDLEMOUSE', 'TRACKPADPAN', 'TRACKPADZOOM', 'NDOF_MOTION'}
+KEYS = "LMB, Enter: keep   RMB, Esc: cancel   Shift: precision   0-9: type   MMB: turn the view"
+
+
+class Drag:
+    """From the press of the button to its end."""
+
+    def __init__(self, tool: "DraggedTool", context: bpy.types.Context) -> None:
+        scene = context.scene
+        self.tool, self.area = tool, context.area
+        self.panels = [gather.gather(ob) for ob in gather.subjects(context)]
+        views = [session.view_of(scene, panel.center) for panel in self.panels]
+        self.shown = [apply.start(panel) for panel in self.panels]
+        self.motion = self.motion_of(scene)
+        self.request(context)  # refuses before anything is begun
+        self.pursuit = Pursuit(self.panels, views, tool.border)
+        self.worker = Worker(self.pursuit.run)
+        self.worker.submit(self.wanted)
+        self.keeping, self.busy_since, self.problem = False, time.monotonic(), ""
+        self.timer = context.window_manager.event_timer_add(TICK, window=context.window)
+
+    def motion_of(self, scene: bpy.types.Scene) -> Motion:
+        handles = self.tool.handles()
+        starts = [getattr(self.tool, handle.name) or self.tool.automatic(handle.name, self.panels[0]) for handle in handles]
+        return Motion(handles, starts, [typed_unit(handle, scene) for handle in handles])
+
+    def objects(self) -> list[bpy.types.Object]:
+        """Refuses where somebody else changed what is dragged."""
+        found = [bpy.data.objects.get(panel.name) for panel in self.panels]
+        for ob, panel, shown in zip(found, self.panels, self.shown):
+            if ob is None or ob.type != 'MESH' or not apply.still_has(ob, panel, shown):
+                raise Refusal(f"{panel.name} was changed while it was dragged: it is left as it is now")
+        return found
+
+    def request(self, context: bpy.types.Context, *, final: bool = False) -> None:
+        """Puts the mouse's values into the tool's properties, and what they ask for into `wanted`."""
+        for index, handle in enumerate(self.motion.handles):
+            if self.motion.touched(index):
+                setattr(self.tool, handle.name, self.motion.value(index))
+        builds = tuple(self.tool.build_target(context, ob, panel) for ob, panel in zip(self.objects(), self.panels))
+        self.wanted = Request(builds, session.Settings(self.tool.border, self.tool.detail(context.scene)), final)
+
+    def ask(self, context: bpy.types.Context, *, final: bool = False) -> None:
+        try:
+            self.request(context, final=final)
+        except Refusal as refusal:
+            self.problem = str(refusal)
+            return
+        self.keeping = final
+        if self.worker.idle():
+            self.busy_since = time.monotonic()
+        self.worker.submit(self.wanted)
+
+    def show(self, positions: tuple[np.ndarray, ...]) -> None:
+        new = [apply.local(panel, wanted) for panel, wanted in zip(self.panels, positions)]
+        self.write(new)
+
+    def write(self, new: list[np.ndarray]) -> None:
+        for ob, panel, to, now in zip(self.objects(), self.panels, new, self.shown):
+            apply.show(ob, panel, to, now)
+        self.shown = new
+
+    def restore(self) -> None:
+        self.write([apply.start(panel) for panel in self.panels])
+
+    def say(self, context: bpy.types.Context) -> None:
+        values = "   ".join(self.text_of(context, index) for index in range(len(self.motion.handles)))
+        self.area.header_text_set(f"{self.tool.bl_label}   {values}" + (f"   {self.problem}" if self.problem else ""))
+        working = not self.worker.idle() and time.monotonic() - self.busy_since > SAYS_BUSY
+        more = "   Tab: next value" if len(self.motion.handles) > 1 else ""
+        wheel = f"   Wheel: {self.tool.wheel}" if self.tool.wheel else ""
+        context.workspace.status_text_set(
+            f"{self.pursuit.doing()}   Esc: cancel" if working or self.keeping else KEYS + more + wheel)
+
+    def text_of(self, context: bpy.types.Context, index: int) -> str:
+        handle, typed = self.motion.handles[index], self.motion.typed[index]
+        held = index == self.motion.held and len(self.motion.handles) > 1
+        shown = f"[{typed}|]" if typed else in_units(handle, self.motion.value(index), context.scene)
+        return f"{'> ' if held else ''}{handle.label}: {shown}"
+
+    def end(self, context: bpy.types.Context) -> None:
+        """Leaves the window as it was. The thread ends after what it is doing now."""
+        context.window_manager.event_timer_remove(self.timer)
+        if self.worker.idle():
+            self.pursuit.give_back()
+        self.pursuit.progress.cancel()
+        self.worker.stop()
+        self.area.header_text_set(None)
+        context.workspace.status_text_set(None)
+
+
+def typed_unit(handle: Handle, scene: bpy.types.Scene) -> float:
+    """What a typed 1 means to the property: degrees, and the scene's unit of length."""
+    units = scene.unit_settings
+    if handle.unit == 'ANGLE':
+        return float(np.radians(1.0)) if units.system_rotation == 'DEGREES' else 1.0
+    if handle.unit == 'LENGTH' and units.system != 'NONE':
+        return bpy.utils.units.to_value(units.system, 'LENGTH', "1") / units.scale_length
+    return 1.0
+
+
+def in_units(handle: Handle, value: float, scene: bpy.types.Scene) -> str:
+    units = scene.unit_settings
+    if handle.unit == 'ANGLE':
+        return f"{np.degrees(value):.2f}\u00b0" if units.system_rotation == 'DEGREES' else f"{value:.4f}"
+    if handle.unit == 'LENGTH' and units.system != 'NONE':
+        return bpy.utils.units.to_string(units.system, 'LENGTH', value * units.scale_length, precision=4)
+    return f"{value:.4g}" if handle.unit == 'LENGTH' else f"{value:.3f}"
+
+
+class DraggedTool(Tool):
+    """A tool with handles: started by a key or a button it follows the mouse, by a script it runs at once."""
+    bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
+    wheel = ""  # the label of the handle that the wheel turns
+
+    def handles(self) -> tuple[Handle, ...]:
+        """The first is the mouse's; Tab goes to the next."""
+        raise NotImplementedError
+
+    def automatic(self, _name: str, _panel: Panel) -> float:
+        """What 0 stands for in a property."""
+        return 0.0
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if context.area is None or context.area.type != 'VIEW_3D':
+            return self.execute(context)
+        context.view_layer.update()
+        self.take_settings(context.scene)
+        try:
+            self.drag = Drag(self, context)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        self.drag.motion.move(event.mouse_x, precise=False)
+        self.drag.say(context)
+        context.window_manager.modal_handler_add(self)
+        return {'RUNNING_MODAL'}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        try:
+            return self.tick(context) if event.type == 'TIMER' else self.pressed(context, event)
+        except Refusal as refusal:
+            self.drag.end(context)
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+
+    def tick(self, context: bpy.types.Context) -> set[str]:
+        drag = self.drag
+        outcome = drag.worker.take()
+        if outcome is None and not drag.worker.alive():
+            return self.leave(context, "The solver stopped: the mesh is as it was before")
+        if outcome is not None and (outcome.refusal or outcome.solutions or not drag.keeping):
+            return self.take(context, outcome)
+        drag.say(context)
+        return {'RUNNING_MODAL'}
+
+    def take(self, context: bpy.types.Context, outcome: Outcome) -> set[str]:
+        drag = self.drag
+        drag.problem = outcome.refusal
+        if outcome.refusal and (drag.keeping or not drag.pursuit.ready):
+            return self.leave(context, outcome.refusal)
+        if not outcome.refusal:
+            drag.show(outcome.positions)
+        if outcome.solutions:
+            return self.finish(context, outcome)
+        drag.say(context)
+        return {'RUNNING_MODAL'}
+
+    def pressed(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Keys of others are swallowed: an undo or a change of the mode now would meet a mesh between two states."""
+        if event.type in LEAVE and event.value == 'PRESS':
+            return self.leave(context)
+        if event.type in NAVIGATION or event.type in NOTCHES and not self.wheel:
+            return {'PASS_THROUGH'}
+        if self.drag.keeping:
+            return {'RUNNING_MODAL'}
+        if event.type in KEEP and event.value == 'PRESS':
+            self.drag.ask(context, final=True)
+        elif self.moved(event):
+            self.drag.ask(context)
+        self.drag.say(context)
+        return {'RUNNING_MODAL'}
+
+    def moved(self, event: bpy.types.Event) -> bool:
+        """Whether the event may have changed a value."""
+        motion = self.drag.motion
+        if event.type == 'MOUSEMOVE':
+            motion.move(event.mouse_x, precise=event.shift)
+            return not motion.typed[motion.held]
+        if event.type in NOTCHES:
+            labels = [handle.label.lower() for handle in motion.handles]
+            motion.wheel(labels.index(self.wheel), NOTCHES[event.type], precise=event.shift)
+            return True
+        if event.value == 'PRESS':
+            return self.typed(event.type)
+        return False
+
+    def typed(self, key: str) -> bool:
+        motion = self.drag.motion
+        if key in CHARACTERS:
+            motion.type(CHARACTERS[key])
+        elif key == 'BACK_SPACE':
+            motion.erase()
+        elif key == 'TAB':
+            motion.hold_next()
+            return False
+        else:
+            return False
+        return True
+
+    def finish(self, context: bpy.types.Context, outcome: Outcome) -> set[str]:
+        for ob, solution in zip(self.drag.objects(), outcome.solutions):
+            self.keep(ob, solution)
+        self.drag.end(context)
+        return {'FINISHED'}
+
+    def leave(self, context: bpy.types.Context, why: str = "") -> set[str]:
+        self.drag.restore()
+        self.drag.end(context)
+        if why:
+            self.report({'ERROR'}, why)
+        return {'CANCELLED'}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Blender ends, or opens another file."""
+        try:
+            self.drag.restore()
+        except Refusal:
+            pass  # it is gone, or no longer as the drag left it
+        self.drag.end(context)

@@ -1,0 +1,244 @@
+"""Tools under the mouse, in a window: a drag, typed numbers, the ways out of it, and what is left of it afterwards."""
+import os
+import sys
+from collections.abc import Generator
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import window  # noqa: E402  (found through the line above)
+
+import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+
+Steps = Generator[float, None, None]
+PATIENCE = 60.0  # seconds for a solve on a busy machine
+
+
+def panel(driver: window.Window, cells: int = 16) -> bpy.types.Object:
+    with driver.override():
+        if bpy.context.mode != 'OBJECT':
+            bpy.ops.object.mode_set(mode='OBJECT')
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+        ob = scenes.panel(cells=cells)
+        scenes.look_from_above()
+        scenes.edit_inner(ob, cells)
+        bpy.context.scene.reflection_lines.stripes.show = True
+        driver.region_3d().view_perspective = 'ORTHO'
+        driver.region_3d().view_rotation = (1.0, 0.0, 0.0, 0.0)
+        driver.region_3d().view_distance = 4.0
+        bpy.ops.ed.undo_push(message="Start")
+    return ob
+
+
+def shown(driver: window.Window) -> np.ndarray:
+    with driver.override():
+        return scenes.positions(bpy.context.view_layer.objects.active)
+
+
+def executed(driver: window.Window, **settings: object) -> np.ndarray:
+    """What the operator makes of a fresh panel without a mouse."""
+    panel(driver)
+    with driver.override():
+        scenes.smooth(**settings)
+    return shown(driver)
+
+
+def press(driver: window.Window, operator: str = "reflines.smooth") -> Steps:
+    driver.move(400, 300)
+    yield 0.2
+    with driver.override():
+        getattr(bpy.ops.reflines, operator.split(".")[1])('INVOKE_DEFAULT', True)
+    yield 0.2
+    yield from settled(driver)
+
+
+def settled(driver: window.Window) -> Steps:
+    """Waits until the mesh no longer changes."""
+    last, same = None, 0
+    for _ in range(int(PATIENCE / 0.3)):
+        now = shown(driver)
+        same = same + 1 if last is not None and np.array_equal(now, last) else 0
+        if same == 3:
+            return
+        last = now
+        yield 0.3
+    raise AssertionError("the mesh does not come to rest")
+
+
+def ended(driver: window.Window) -> Steps:
+    """Waits until the operator has ended: then the status bar's text is gone and the report is there."""
+    for _ in range(int(PATIENCE / 0.1)):
+        operator = bpy.context.window_manager.operators
+        if operator and operator[-1].bl_idname.startswith("REFLINES_OT"):
+            break
+        yield 0.1
+    yield from settled(driver)
+
+
+def test_a_drag_follows_and_escape_leaves_no_bit_changed(driver: window.Window) -> Steps:
+    ob = panel(driver)
+    before = scenes.fingerprint(ob)
+    yield from press(driver)
+    pressed = shown(driver)
+    driver.move(250, 300)
+    yield 0.1
+    yield from settled(driver)
+    halved = shown(driver)
+    assert not np.array_equal(pressed, halved)
+    move = np.abs(pressed - shown(driver)).max()
+    assert move > 1e-5
+    if "REFLINES_PICTURES" in os.environ:
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "drag.png"))
+        yield 0.3
+    driver.key('ESC')
+    yield 0.3
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
+
+
+def test_what_is_kept_is_what_the_operator_makes_without_a_mouse(driver: window.Window) -> Steps:
+    panel(driver)
+    yield from press(driver)
+    for x in (380, 300, 500, 250):
+        driver.move(x, 300)
+        yield 0.1
+    driver.key('RET')
+    yield from ended(driver)
+    kept, strength = shown(driver), bpy.context.window_manager.operators[-1].properties.strength
+    assert abs(strength - 0.5) < 1e-6
+    assert np.array_equal(kept, executed(driver, strength=strength))
+
+
+def test_typed_numbers(driver: window.Window) -> Steps:
+    expected = executed(driver, strength=0.25, length=0.5)
+    panel(driver)
+    yield from press(driver)
+    for key in ('PERIOD', 'TWO', 'SEVEN', 'BACK_SPACE', 'FIVE', 'TAB', 'NUMPAD_0', 'NUMPAD_PERIOD', 'NUMPAD_5'):
+        driver.key(key)
+        yield 0.05
+    driver.key('NUMPAD_ENTER')
+    yield from ended(driver)
+    assert np.array_equal(shown(driver), expected)
+
+
+def test_one_undo_takes_a_drag_back_and_redo_brings_it(driver: window.Window) -> Steps:
+    panel(driver)
+    before = shown(driver)
+    yield from press(driver)
+    driver.move(300, 300)
+    yield 0.3
+    driver.event('LEFTMOUSE', 'PRESS')
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield from ended(driver)
+    after = shown(driver)
+    assert not np.array_equal(after, before)
+    driver.key('Z', ctrl=True)
+    yield 0.5
+    assert np.array_equal(shown(driver), before)
+    driver.key('Z', ctrl=True, shift=True)
+    yield 0.5
+    assert np.array_equal(shown(driver), after)
+
+
+def test_the_redo_panel_starts_from_the_mesh_before_the_drag(driver: window.Window) -> Steps:
+    expected = executed(driver, strength=0.5, length=0.9)
+    panel(driver)
+    yield from press(driver)
+    driver.move(300, 300)
+    yield 0.3
+    driver.key('RET')
+    yield from ended(driver)
+    with driver.override():
+        operator = bpy.context.active_operator
+        assert operator.bl_idname == "REFLINES_OT_smooth"
+        operator.properties.length, operator.properties.strength = 0.9, 0.5
+        assert bpy.ops.ed.undo_redo() == {'FINISHED'}
+    yield 0.5
+    assert np.array_equal(shown(driver), expected)
+
+
+def test_a_change_of_the_mode_by_a_script_ends_the_drag(driver: window.Window) -> Steps:
+    """With keys it cannot be done: those are swallowed."""
+    ob = panel(driver, cells=40)
+    before = shown(driver)
+    yield from press(driver)
+    driver.key('Z', ctrl=True)
+    driver.key('X')
+    yield 0.3
+    assert bpy.data.objects["Panel"].mode == 'EDIT'
+    driver.move(250, 300)
+    with driver.override():
+        bpy.ops.object.mode_set(mode='OBJECT')
+    yield 1.0
+    driver.key('ESC')
+    yield 0.5
+    ob = bpy.data.objects["Panel"]
+    assert np.array_equal(scenes.positions(ob), before)
+
+
+def test_escape_while_the_first_factorization_runs(driver: window.Window) -> Steps:
+    ob = panel(driver, cells=100)
+    before = scenes.fingerprint(ob)
+    driver.move(400, 300)
+    yield 0.2
+    with driver.override():
+        bpy.ops.reflines.smooth('INVOKE_DEFAULT', True)
+    yield 0.1
+    driver.key('ESC')
+    yield 0.3
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
+    yield from press(driver)
+    driver.key('RET')
+    yield from ended(driver)
+    kept = shown(driver)
+    panel(driver, cells=100)
+    with driver.override():
+        scenes.smooth()
+    assert np.array_equal(kept, shown(driver))
+
+
+def test_a_closed_path_ends_where_it_began(driver: window.Window) -> Steps:
+    """Hysteresis: to 1e-6 of the panel's size, which is what the mesh's single precision resolves."""
+    panel(driver, cells=40)
+    yield from press(driver)
+    driver.move(250, 300)
+    yield from settled(driver)
+    first = shown(driver)
+    for x in (260, 600, 150, 20, 430, 250):
+        driver.move(x, 300 + x // 7)
+        yield 0.15
+    yield from settled(driver)
+    hysteresis = np.abs(shown(driver) - first).max() / 2.0
+    print(f"hysteresis {hysteresis:.2e} of the panel's size")
+    assert hysteresis < 1e-6
+    driver.key('ESC')
+    yield 0.3
+
+
+def test_the_panel_moves_no_more_than_the_mouse_asks(driver: window.Window) -> Steps:
+    """Kick: strength is linear in the target, so equal steps of the mouse move the panel by nearly equal steps."""
+    panel(driver, cells=40)
+    yield from press(driver)
+    last, moves = shown(driver), []
+    for step in range(1, 8):
+        driver.move(400 - 30 * step, 300)
+        yield 0.1
+        yield from settled(driver)
+        now = shown(driver)
+        moves.append(np.abs(now - last).max())
+        last = now
+    print(f"kick: steps of {min(moves):.2e} to {max(moves):.2e}")
+    assert max(moves) < 1.5 * min(moves)
+    driver.key('ESC')
+    yield 0.3
+
+
+window.run(test_a_drag_follows_and_escape_leaves_no_bit_changed,
+           test_what_is_kept_is_what_the_operator_makes_without_a_mouse, test_typed_numbers,
+           test_one_undo_takes_a_drag_back_and_redo_brings_it,
+           test_the_redo_panel_starts_from_the_mesh_before_the_drag,
+           test_a_change_of_the_mode_by_a_script_ends_the_drag, test_escape_while_the_first_factorization_runs,
+           test_a_closed_path_ends_where_it_began, test_the_panel_moves_no_more_than_the_mouse_asks)
