@@ -3,6 +3,7 @@
 Blender's side of a drag: events, the header, the timer, and the mesh. What is solved is in pursuit.py, in a thread.
 """
 import time
+from contextlib import suppress
 
 import bpy
 import numpy as np
@@ -47,13 +48,14 @@ class Drag:
 
     def motion_of(self, scene: bpy.types.Scene) -> Motion:
         handles = self.tool.handles()
-        starts = [getattr(self.tool, handle.name) or self.tool.automatic(handle.name, self.panels[0]) for handle in handles]
+        starts = [getattr(self.tool, handle.name) or self.tool.automatic(handle.name, self.panels[0])
+                  for handle in handles]
         return Motion(handles, starts, [typed_unit(handle, scene) for handle in handles])
 
     def objects(self) -> list[bpy.types.Object]:
         """Refuses where somebody else changed what is dragged."""
         found = [bpy.data.objects.get(panel.name) for panel in self.panels]
-        for ob, panel, shown in zip(found, self.panels, self.shown):
+        for ob, panel, shown in zip(found, self.panels, self.shown, strict=True):
             if ob is None or ob.type != 'MESH' or not apply.still_has(ob, panel, shown):
                 raise Refusal(f"{panel.name} was changed while it was dragged: it is left as it is now")
         return found
@@ -63,7 +65,8 @@ class Drag:
         for index, handle in enumerate(self.motion.handles):
             if self.motion.touched(index):
                 setattr(self.tool, handle.name, self.motion.value(index))
-        builds = tuple(self.tool.build_target(context, ob, panel) for ob, panel in zip(self.objects(), self.panels))
+        builds = tuple(self.tool.build_target(context, ob, panel)
+                       for ob, panel in zip(self.objects(), self.panels, strict=True))
         self.wanted = Request(builds, session.Settings(self.tool.border, self.tool.detail(context.scene)), final)
 
     def ask(self, context: bpy.types.Context, *, final: bool = False) -> None:
@@ -78,11 +81,11 @@ class Drag:
         self.worker.submit(self.wanted)
 
     def show(self, positions: tuple[np.ndarray, ...]) -> None:
-        new = [apply.local(panel, wanted) for panel, wanted in zip(self.panels, positions)]
+        new = [apply.local(panel, wanted) for panel, wanted in zip(self.panels, positions, strict=True)]
         self.write(new)
 
     def write(self, new: list[np.ndarray]) -> None:
-        for ob, panel, to, now in zip(self.objects(), self.panels, new, self.shown):
+        for ob, panel, to, now in zip(self.objects(), self.panels, new, self.shown, strict=True):
             apply.show(ob, panel, to, now)
         self.shown = new
 
@@ -235,7 +238,7 @@ class DraggedTool(Tool):
         return True
 
     def finish(self, context: bpy.types.Context, outcome: Outcome) -> set[str]:
-        for ob, solution in zip(self.drag.objects(), outcome.solutions):
+        for ob, solution in zip(self.drag.objects(), outcome.solutions, strict=True):
             self.keep(ob, solution)
         self.drag.end(context)
         return {'FINISHED'}
@@ -249,8 +252,6 @@ class DraggedTool(Tool):
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender ends, or opens another file."""
-        try:
+        with suppress(Refusal):  # it is gone, or no longer as the drag left it
             self.drag.restore()
-        except Refusal:
-            pass  # it is gone, or no longer as the drag left it
         self.drag.end(context)

@@ -1,9 +1,9 @@
 """The panels of one drag in the hands of the solver. Called from a thread: numpy and the native module only.
 
-Every panel has two optimizers. The first stays where the mesh was when the drag began: what a tool wants is said about those
-lines. The second follows the mouse, each solve from where the last one ended, which takes a few back substitutions instead
-of a factorization. The result that is kept is the first one's, solved from the start as without a mouse: the way that the
-mouse took leaves no trace in it.
+Every panel has two optimizers. The first stays where the mesh was when the drag began: what a tool wants is said about
+those lines. The second follows the mouse, each solve from where the last one ended, which takes a few back substitutions
+instead of a factorization. The result that is kept is the first one's, solved from the start as without a mouse: the way
+that the mouse took leaves no trace in it.
 """
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -71,7 +71,8 @@ class Pursuit:
     def followed(self, request: Request) -> Outcome:
         self.stage = "Following"
         positions = []
-        for panel, start, follower, build in zip(self.panels, self.starts, self.followers, request.builds):
+        every = zip(self.panels, self.starts, self.followers, request.builds, strict=True)
+        for panel, start, follower, build in every:
             with session.refusing(panel):
                 follower.solve(build(start.optimizer), progress=self.progress)
                 positions.append(follower.positions)
@@ -80,7 +81,7 @@ class Pursuit:
     def finished(self, request: Request) -> Outcome:
         self.stage = "Solving from the start"
         solutions = []
-        for start, build in zip(self.starts, request.builds):
+        for start, build in zip(self.starts, request.builds, strict=True):
             start.optimizer.reset()
             with session.refusing(start.panel):
                 solutions.append(session.solved(start, build, request.settings, self.progress))

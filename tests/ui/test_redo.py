@@ -48,6 +48,8 @@ def press_smooth(driver: window.Window) -> Steps:
     yield 0.2
     driver.key('Y', ctrl=True, alt=True)
     yield 1.0
+    driver.key('RET')
+    yield 3.0
     keymap.keymap_items.remove(item)
 
 
