@@ -18,7 +18,6 @@ from .bridge.view import View
 
 AUTOMATIC_LENGTH = 1.0 / 6.0  # of the panel's diagonal
 
-
 BuildTarget = Callable[[object], object]  # of the optimizer; what it returns is a native Target
 
 
