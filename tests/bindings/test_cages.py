@@ -1,4 +1,4 @@
-"""A cage under a Subdivision Surface is solved for itself: dents go, borders and symmetry stay, dense panels are fitted."""
+"""A cage under a Subdivision Surface solved for itself: dents go, borders and symmetry stay, dense panels are fit."""
 import numpy as np
 import pytest
 import reflines

@@ -1,4 +1,5 @@
 """The optimizer through numpy: cancelling, watching, back ends, refusals; what a script or an add-on relies on."""
+import functools
 import threading
 import time
 
@@ -22,7 +23,8 @@ def test_cancel_from_another_thread_leaves_every_bit():
     solver = made(positions, triangles)
     target = reflines.smooth(solver, length=0.3)
     progress, reports = reflines.Progress(), []
-    worker = threading.Thread(target=lambda: reports.append(solver.solve(target, gradient_tolerance=0.0, progress=progress)))
+    solve = functools.partial(solver.solve, target, gradient_tolerance=0.0, progress=progress)
+    worker = threading.Thread(target=lambda: reports.append(solve()))
     worker.start()
     while not progress.stage:
         time.sleep(0.001)  # the solver does not hold the GIL: this loop runs beside it

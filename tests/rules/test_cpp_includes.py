@@ -4,17 +4,20 @@ from pathlib import Path
 
 from tree import ROOT, cpp_files
 
-# Room -> the rooms it may include besides itself. `geometry` and `optimization` never meet below `shape_optimizer`.
+# Room -> the rooms it may include besides itself. `geometry` and `optimization` meet only above the three.
 BASE = {"types", "errors"}
+SOLVER = BASE | {"geometry", "reflection", "optimization"}
 MAY_INCLUDE = {
     "types": set(),
     "errors": set(),
     "geometry": BASE,
     "optimization": BASE,
     "reflection": BASE | {"geometry"},
-    "piece_problem": BASE | {"geometry", "reflection", "optimization"},
-    "shape_optimizer": BASE | {"geometry", "reflection", "optimization", "piece_problem"},
-    "bindings": BASE | {"geometry", "reflection", "optimization", "shape_optimizer"},
+    "motion": SOLVER,
+    "piece_problem": SOLVER | {"motion"},
+    "shape_optimizer": SOLVER | {"motion", "piece_problem"},
+    "cage_optimizer": SOLVER | {"motion", "shape_optimizer"},
+    "bindings": SOLVER | {"shape_optimizer", "cage_optimizer"},
 }
 
 # Third-party headers -> the only files of native/ that may see them.
