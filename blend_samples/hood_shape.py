@@ -51,19 +51,19 @@ def plan(s: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return ratio * width, front + t * (rear - front)
 
 
-def _ramp(distance: np.ndarray, width: float) -> np.ndarray:
+def ramp(distance: np.ndarray, width: float) -> np.ndarray:
     """0 before 0, distance behind it, rounded over about four widths: a crease as a fast but smooth turn."""
     return width * np.logaddexp(0.0, distance / width)
 
 
 def _shoulder(distance: np.ndarray) -> np.ndarray:
     """Height lost behind a character line: a crisp turn down, and a wide hollow that takes most of it back."""
-    return 0.115 * _ramp(distance, 0.011) - 0.095 * _ramp(distance - 0.110, 0.045)
+    return 0.115 * ramp(distance, 0.011) - 0.095 * ramp(distance - 0.110, 0.045)
 
 
 def clean_height(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The wanted panel."""
-    length = 0.135 * y - 0.055 * y**2 - 0.30 * _ramp(-0.50 - y, 0.055)
+    length = 0.135 * y - 0.055 * y**2 - 0.30 * ramp(-0.50 - y, 0.055)
     crown = -0.130 * x**2 - 0.140 * x**4
     line = character_line(y)
     shoulders = -_shoulder(np.abs(x) - line) - _shoulder(-np.abs(x) - line)
@@ -72,7 +72,7 @@ def clean_height(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return length + crown + shoulders + badge
 
 
-def _window(distance: np.ndarray, width: float) -> np.ndarray:
+def window(distance: np.ndarray, width: float) -> np.ndarray:
     """0 before 0, 1 behind `width`, twice differentiable between."""
     q = np.clip(distance / width, 0.0, 1.0)
     return q**3 * (q * (6.0 * q - 15.0) + 10.0)
@@ -80,8 +80,8 @@ def _window(distance: np.ndarray, width: float) -> np.ndarray:
 
 def bad_area(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """1 well inside the area between the character lines where the panel wobbles, 0 outside it."""
-    sides = _window(character_line(y) - 0.075 - np.abs(x), 0.08)
-    return sides * _window(y + 0.30, 0.08) * _window(0.47 - y, 0.08)
+    sides = window(character_line(y) - 0.075 - np.abs(x), 0.08)
+    return sides * window(y + 0.30, 0.08) * window(0.47 - y, 0.08)
 
 
 def ripples(x: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -180,3 +180,39 @@ def look_through_camera() -> None:
             if area.type == 'VIEW_3D':
                 area.spaces.active.region_3d.view_perspective = 'CAMERA'
                 area.spaces.active.show_region_ui = True
+
+
+@dataclass(frozen=True)
+class Shot:
+    """How a sample is seen and lit, and what its faces are to look like."""
+    view_direction: tuple[float, float, float]
+    line_direction: tuple[float, float, float]
+    centre: tuple[float, float, float]
+    width: float                       # that the camera sees
+    lamp: tuple[float, float, float]   # where the light direction's arrow stands
+    stripes: Stripes
+    length: float
+    colour: tuple[float, float, float]
+
+
+def stage(name: str, V: np.ndarray, quads: np.ndarray, inside: np.ndarray, shot: Shot) -> bpy.types.Object:
+    """A scene with this panel alone, the faces whose vertices are all `inside` (#V bool) selected, in Object Mode."""
+    empty_scene()
+    panel = add_panel(name, V, quads)
+    panel.data.materials.append(car_paint("Paint", shot.colour))
+    select_faces(panel, inside[quads].all(axis=1))
+    view = add_view_camera(shot.view_direction, shot.centre, shot.width)
+    light = add_light_direction(shot.line_direction, shot.lamp)
+    set_up_add_on(view, light, shot.stripes, shot.length)
+    light_the_room(view, light, shot.stripes)
+    set_up_render(800, 600, samples=8)
+    look_through_camera()
+    bpy.context.view_layer.update()
+    return panel
+
+
+def save(panel: bpy.types.Object, path: str) -> None:
+    """In Edit Mode, ready for one press of the button."""
+    bpy.context.view_layer.objects.active = panel
+    bpy.ops.object.mode_set(mode='EDIT')
+    bpy.ops.wm.save_as_mainfile(filepath=path, compress=True)

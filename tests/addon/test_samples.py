@@ -1,5 +1,6 @@
 """Every sample opens with the numbers of its row in README.md, ready for one press of the button."""
 import pathlib
+import re
 import sys
 
 import bpy
@@ -12,6 +13,7 @@ SAMPLES = ROOT / "blend_samples"
 sys.path.insert(0, str(SAMPLES))
 
 import hood_shape  # noqa: E402  (a module of the samples' scripts, found through the line above)
+import panel_shapes  # noqa: E402
 
 
 def rows() -> dict[str, list[str]]:
@@ -81,6 +83,34 @@ def test_opens_with_its_numbers(name: str) -> None:
     settings = bpy.context.scene.reflection_lines
     assert settings.missing() == ""
     assert settings.camera == bpy.context.scene.camera and settings.stripes.show
+
+
+OPERATORS = {"Smooth": "smooth", "Untwist": "untwist", "Warp": "warp", "Image Pattern": "pattern"}
+EXPECTED = re.compile(r"\*([\w ]+)\*: (\w+), ([\d.]+) % left, ([\d.]+) mm")
+
+
+@pytest.mark.parametrize("name", sorted(rows()))
+def test_one_press_gives_the_result_of_its_row(name: str) -> None:
+    button, termination, left, move = EXPECTED.match(rows()[name][5]).groups()
+    panel = opened(name)
+    assert getattr(bpy.ops.reflines, OPERATORS[button])() == {'FINISHED'}
+    report = panel.reflection_lines.report
+    assert report.termination == termination
+    assert 100.0 * report.residual_after / report.residual_before == pytest.approx(float(left), rel=0.05, abs=0.1)
+    assert 1000.0 * report.largest_move == pytest.approx(float(move), rel=0.05)
+
+
+def test_smoothing_brings_the_door_nearer_to_the_clean_one_and_laplacian_smoothing_does_not() -> None:
+    """Measured in the lines: vertex smoothing flattens the door before it reaches the wiggles."""
+    panel = opened("door.blend")
+    F, start = region_triangles(panel), positions(panel).astype(float)
+    wanted = line_field(np.column_stack([panel_shapes.door()[2], start[:, 1:]]), F)
+    bpy.ops.reflines.smooth()
+    ours = positions(panel).astype(float)
+    panel = opened("door.blend")
+    bpy.ops.mesh.vertices_smooth(factor=0.5, repeat=200)
+    errors = [np.linalg.norm(line_field(V, F) - wanted) for V in (start, ours, positions(panel).astype(float))]
+    assert errors[1] < 0.4 * errors[0] < errors[2]
 
 
 def test_hood_is_the_analytic_panel_with_its_wobble() -> None:

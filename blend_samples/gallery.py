@@ -1,0 +1,76 @@
+"""One picture before and after for every operation, from the samples: `./run gallery`, or
+
+    blender -b --factory-startup -P blend_samples/gallery.py -- OUTPUT_FOLDER [NAME...]
+
+Every operation is one press of its button with the settings that its sample is saved with, or those that stand here.
+"""
+import pathlib
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import bpy
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
+import pictures  # noqa: E402
+
+
+@dataclass(frozen=True)
+class Operation:
+    name: str        # of the picture
+    sample: str
+    press: Callable[[], set[str]]
+    rival: Callable[[], set[str]] | None = None  # what Blender has for the same job, shown between
+
+
+OPERATIONS = (
+    Operation("smooth", "faucet.blend", lambda: bpy.ops.reflines.smooth()),
+    Operation("smooth_along", "door.blend", lambda: bpy.ops.reflines.smooth(),
+              rival=lambda: bpy.ops.mesh.vertices_smooth(factor=0.5, repeat=200)),
+    Operation("direction", "plate.blend", lambda: bpy.ops.reflines.direction(
+        direction='ANGLE', angle=0.35, border='free')),
+    Operation("density", "plate.blend", lambda: bpy.ops.reflines.direction(
+        density=1.8, centre='REGION', radius=0.4, emphasis=20.0, border='clamped')),
+    Operation("untwist", "fender.blend", lambda: bpy.ops.reflines.untwist()),
+    Operation("warp", "hood_warp.blend", lambda: bpy.ops.reflines.warp()),
+    Operation("pattern", "plate.blend", lambda: bpy.ops.reflines.pattern()),
+)
+
+
+def opened(operation: Operation) -> bpy.types.Object:
+    bpy.ops.wm.open_mainfile(filepath=str(HERE / operation.sample), load_ui=False)
+    return bpy.context.view_layer.objects.active
+
+
+def shown(operation: Operation, folder: pathlib.Path) -> None:
+    parts = [folder / "before.png"]
+    panel = opened(operation)
+    pictures.picture(parts[0], "before")
+    if operation.rival is not None:
+        parts.append(folder / "rival.png")
+        operation.rival()
+        pictures.picture(parts[1], "Blender's Smooth Vertices")
+        panel = opened(operation)
+    operation.press()
+    print(f"gallery: {operation.name}: {panel.reflection_lines.report.summary()}")
+    parts.append(folder / "after.png")
+    pictures.picture(parts[-1], "after")
+    pictures.side_by_side(parts, folder / f"{operation.name}.jpg")
+    for part in parts:
+        part.unlink()
+
+
+def main(folder: pathlib.Path, names: list[str]) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    checkout.enable_add_on()
+    for operation in OPERATIONS:
+        if not names or operation.name in names:
+            shown(operation, folder)
+    print(f"gallery: look at {folder}")
+
+
+given = sys.argv[sys.argv.index("--") + 1:]
+main(pathlib.Path(given[0]).resolve(), given[1:])

@@ -1,0 +1,45 @@
+"""Makes hood_warp.blend beside this script: blender -b --factory-startup -P blend_samples/make_hood_warp.py"""
+import pathlib
+import sys
+
+import bpy
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
+import hood_shape  # noqa: E402
+import studio  # noqa: E402
+
+SHOT = studio.Shot(view_direction=(0.10, -0.70, 1.0), line_direction=(0.0, 1.0, 0.12), centre=(0.0, 0.0, -0.03),
+                   width=1.70, lamp=(0.95, -0.3, 0.25), stripes=studio.Stripes(), length=0.4,
+                   colour=(0.56, 0.66, 0.78))
+COLUMNS, ROWS = 7, 7
+
+
+def bend(lattice: bpy.types.Object, amount: float) -> None:
+    """Pulls the middle of the lattice apart, as an artist drags its points."""
+    points = np.empty(3 * COLUMNS * ROWS, np.float32)
+    lattice.data.points.foreach_get("co_deform", points)
+    points = points.reshape(ROWS, COLUMNS, 3)
+    u, v = np.meshgrid(np.linspace(-1.0, 1.0, COLUMNS), np.linspace(-1.0, 1.0, ROWS))
+    points[:, :, 0] += amount * np.sin(np.pi * u) * (1.0 - v**2)**2
+    lattice.data.points.foreach_set("co_deform", points.ravel())
+    lattice.data.update_tag()
+
+
+def main() -> None:
+    checkout.enable_add_on()
+    V, quads = hood_shape.panel(136, 110)
+    hood = studio.stage("Hood", V, quads, hood_shape.job(V[:, 0], V[:, 1]), SHOT)
+    settings = bpy.context.scene.reflection_lines
+    settings.border, settings.warp.fit = 'fixed', 'GRADIENT'
+    bpy.ops.object.mode_set(mode='EDIT')
+    bpy.ops.reflines.add_warp_lattice(columns=COLUMNS, rows=ROWS)
+    bend(settings.warp.lattice, 0.8)
+    bpy.ops.object.mode_set(mode='OBJECT')
+    studio.save(hood, str(HERE / "hood_warp.blend"))
+
+
+main()

@@ -1,0 +1,38 @@
+"""Makes plate.blend beside this script: blender -b --factory-startup -P blend_samples/make_plate.py"""
+import pathlib
+import sys
+
+import bpy
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
+import panel_shapes  # noqa: E402
+import studio  # noqa: E402
+
+SHOT = studio.Shot(view_direction=(0.0, 0.0, 1.0), line_direction=(1.0, 0.0, 0.2), centre=(0.0, 0.0, 0.0),
+                   width=1.35, lamp=(0.55, 0.0, 0.2), stripes=studio.Stripes(count=110), length=0.3,
+                   colour=(0.35, 0.45, 0.60))
+
+
+def star() -> bpy.types.Image:
+    grey = panel_shapes.star()
+    image = bpy.data.images.new("Star", *grey.shape, float_buffer=True, is_data=True)
+    image.pixels.foreach_set(np.dstack([grey, grey, grey, np.ones_like(grey)]).astype(np.float32).ravel())
+    image.pack()   # what is not packed comes back empty
+    return image
+
+
+def main() -> None:
+    checkout.enable_add_on()
+    V, quads = panel_shapes.plate()
+    plate = studio.stage("Plate", V, quads, np.ones(len(V), bool), SHOT)
+    settings = bpy.context.scene.reflection_lines
+    settings.pattern.image, settings.pattern.strength, settings.pattern.blur = star(), 0.3, 16.0
+    settings.pattern.keep_lines, settings.border = 0.0, 'free'
+    studio.save(plate, str(HERE / "plate.blend"))
+
+
+main()
