@@ -7,7 +7,7 @@ import importlib
 from . import native
 from .targets import falloff, smooth as smooth_target, direction as direction_target, untwist as untwist_target
 from .targets import warp as warp_target, pattern as pattern_target
-from .bridge import refusal, versions, view, region, gather, apply, surface, environment
+from .bridge import refusal, versions, view, region, gather, cage, apply, surface, environment
 from .bridge import lattice, picture, place, curve
 from . import tool_settings, stripe_settings, properties, session, tool
 from .drag import motion, worker, pursuit, modal
@@ -27,7 +27,7 @@ bl_info = {
 }
 
 MODULES = (native, falloff, smooth_target, direction_target, untwist_target, warp_target, pattern_target,
-           refusal, versions, view, region, gather, apply, surface, environment, lattice, picture, place, curve,
+           refusal, versions, view, region, gather, cage, apply, surface, environment, lattice, picture, place, curve,
            tool_settings, stripe_settings, properties, session, tool, motion, worker, pursuit, modal,
            stripes, shader, normals, seen, draw,
            add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth, untwist,

@@ -53,6 +53,11 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         layout = self.layout
         layout.label(text=self.region_text(context.view_layer.objects.active), icon='FACESEL')
         layout.row().prop(context.scene.reflection_lines, "border", expand=True)
+        if self.is_subdivided(context.view_layer.objects.active):
+            layout.row().prop(context.scene.reflection_lines, "solve_for", expand=True)
+
+    def is_subdivided(self, ob: bpy.types.Object | None) -> bool:
+        return ob is not None and len(ob.modifiers) > 0 and ob.modifiers[-1].type == 'SUBSURF'
 
     def region_text(self, ob: bpy.types.Object | None) -> str:
         if ob is None or ob.type != 'MESH':

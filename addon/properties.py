@@ -11,6 +11,16 @@ BORDERS = (
     ('free', "Free", "Border vertices may move along the view, as the rest does"),
 )
 
+KINDS = (
+    ('CAGE', "Cage", "Below a Subdivision Surface: move the cage so that the subdivided surface reflects well"),
+    ('MESH', "Mesh", "Move the mesh's own faces, as if it were not subdivided"),
+)
+
+
+def solve_for_property(**options: object) -> object:
+    return EnumProperty(name="Solve for", items=KINDS, default='CAGE', **options,
+                        description="What moves where the object's last modifier is Subdivision Surface")
+
 
 def border_property(**options: object) -> object:
     return EnumProperty(name="Border", items=BORDERS, default='clamped', **options,
@@ -77,6 +87,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     light: PointerProperty(name="Light Direction", type=bpy.types.Object, poll=is_empty,
                            description="An empty whose local Z axis is the direction of the line lights")
     border: border_property()
+    solve_for: solve_for_property()
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     warp: PointerProperty(type=ReflinesWarp)

@@ -12,6 +12,7 @@ from bpy.props import PointerProperty, StringProperty
 
 from . import native
 from .bridge import view
+from .bridge.cage import CagePanel
 from .bridge.gather import Panel
 from .bridge.refusal import Refusal
 from .bridge.view import View
@@ -56,7 +57,7 @@ class Live:
         return (self.border == border
                 and np.array_equal(self.view.view_direction, view.view_direction)
                 and np.array_equal(self.view.line_direction, view.line_direction)
-                and np.array_equal(self.panel.V, panel.V) and np.array_equal(self.panel.F, panel.F))
+                and self.panel.same(panel))
 
 
 _live: dict[str, Live] = {}
@@ -69,8 +70,7 @@ def obstacle(scene: bpy.types.Scene) -> str:
 
 def built(panel: Panel, seen: View, border: str) -> Live:
     """Takes long. Refuses what is no panel; raises what the native module raises."""
-    optimizer = native.reflines.ShapeOptimizer(
-        panel.V, panel.F, view_direction=seen.view_direction, line_direction=seen.line_direction, border=border)
+    optimizer = made(panel, seen, border)
     refuse_closed(panel.name, int(panel.faces.sum()), optimizer.region.closed)
     return Live(panel, seen, border, optimizer)
 
@@ -86,6 +86,21 @@ def lend(panel: Panel, seen: View, border: str) -> Live | None:
 
 def take_back(live: Live) -> None:
     _live[live.panel.name] = live
+
+
+def made(panel: Panel, seen: View, border: str) -> object:
+    light = {"view_direction": seen.view_direction, "line_direction": seen.line_direction, "border": border}
+    if isinstance(panel, CagePanel):
+        symmetric = panel.is_symmetric_for(seen.view_direction)
+        return native.reflines.CageOptimizer(**panel.cage.arguments(symmetric), **light)
+    return native.reflines.ShapeOptimizer(panel.V, panel.F, **light)
+
+
+def positions_of(panel: Panel, optimizer: object) -> np.ndarray:
+    """#V x 3 of the panel: what the artist edits."""
+    if isinstance(panel, CagePanel):
+        return panel.V + (optimizer.cage_positions - panel.cage.V)[panel.index]
+    return optimizer.positions
 
 
 def length_of(panel: Panel, length: float) -> float:
@@ -130,7 +145,8 @@ def solved(live: Live, build_target: BuildTarget, settings: Settings, progress: 
     target = build_target(optimizer)
     score, lacking = optimizer.score(length), root_mean_square(optimizer, target)
     report = optimizer.solve(target, progress=progress)
-    return Solution(live.panel, optimizer.positions, report, target, optimizer.residual(target), lacking,
+    positions = positions_of(live.panel, optimizer)
+    return Solution(live.panel, positions, report, target, optimizer.residual(target), lacking,
                     root_mean_square(optimizer, target), length, score, optimizer.score(length),
                     tuple(optimizer.region.messages))
 

@@ -2,10 +2,10 @@
 import bpy
 
 from . import session
-from .bridge import apply, curve, gather, place
+from .bridge import apply, cage, curve, gather, place
 from .bridge.gather import Panel
 from .bridge.refusal import Refusal
-from .properties import border_property
+from .properties import border_property, solve_for_property
 from .session import BuildTarget
 from .targets import falloff
 from .targets.falloff import Falloff
@@ -18,6 +18,7 @@ class Tool:
     bl_options = {'REGISTER', 'UNDO'}
 
     border: border_property(options={'SKIP_SAVE'})
+    solve_for: solve_for_property(options={'SKIP_SAVE'})
 
     def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         """The set of settings that stands for those not given."""
@@ -61,16 +62,19 @@ class Tool:
     def take_settings(self, scene: bpy.types.Scene) -> None:
         own = self.scene_settings(scene)
         for name, _ in self.properties.bl_rna.properties.items():
-            holder = scene.reflection_lines if name == "border" else own
+            holder = scene.reflection_lines if name in {"border", "solve_for"} else own
             taken = holder.bl_rna.properties.get(name)
             if taken is not None and taken.type != 'POINTER' and not self.properties.is_property_set(name):
                 setattr(self, name, getattr(holder, name))
 
     def solved(self, context: bpy.types.Context, ob: bpy.types.Object) -> session.Solution:
-        panel = gather.gather(ob)
+        panel = self.panel_of(ob)
         build = self.build_target(context, ob, panel)
         settings = session.Settings(self.border, self.detail(context.scene))
         return session.solve(panel, session.view_of(context.scene, panel.center), settings, build)
+
+    def panel_of(self, ob: bpy.types.Object) -> Panel:
+        return cage.gather_cage(ob) if self.solve_for == 'CAGE' and cage.is_under_subdivision(ob) else gather.gather(ob)
 
     def keep(self, ob: bpy.types.Object, solution: session.Solution) -> None:
         """All that is remembered of a solution beside the positions."""

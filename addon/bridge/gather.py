@@ -32,6 +32,10 @@ class Panel:
     def diagonal(self) -> float:
         return float(np.linalg.norm(self.V.max(axis=0) - self.V.min(axis=0)))
 
+    def same(self, other: "Panel") -> bool:
+        """Whether an optimizer of the one serves the other."""
+        return type(self) is type(other) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
+
 
 def active(context: bpy.types.Context) -> bpy.types.Object | None:
     """The active object; for a warp lattice the panel that it warps.

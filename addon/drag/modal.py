@@ -35,7 +35,7 @@ class Drag:
     def __init__(self, tool: "DraggedTool", context: bpy.types.Context) -> None:
         scene = context.scene
         self.tool, self.area = tool, context.area
-        self.panels = [gather.gather(ob) for ob in gather.subjects(context)]
+        self.panels = [tool.panel_of(ob) for ob in gather.subjects(context)]
         views = [session.view_of(scene, panel.center) for panel in self.panels]
         self.shown = [apply.start(panel) for panel in self.panels]
         self.motion = self.motion_of(scene)

@@ -75,7 +75,7 @@ class Pursuit:
         for panel, start, follower, build in every:
             with session.refusing(panel):
                 follower.solve(build(start.optimizer), progress=self.progress)
-                positions.append(follower.positions)
+                positions.append(session.positions_of(panel, follower))
         return Outcome(request, tuple(positions))
 
     def finished(self, request: Request) -> Outcome:

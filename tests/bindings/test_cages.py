@@ -1,4 +1,4 @@
-"""A cage under a Subdivision Surface solved for itself: dents go, borders and symmetry stay, dense panels are fit."""
+"""A cage below a Subdivision Surface is solved for itself: dents go, borders and symmetry stay."""
 import numpy as np
 import pytest
 import reflines
@@ -36,7 +36,7 @@ def test_a_dent_goes_when_the_clean_lines_are_asked_for(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", PANELS)
-@pytest.mark.parametrize("length", [0.4, 0.6])  # dents of a cage are two to four of its faces wide: 0.2 to 0.35
+@pytest.mark.parametrize("length", [0.4, 0.6])  # dents of a cage are 0.2 to 0.35 wide: two to four of its faces
 def test_smoothing_alone_brings_the_lines_back(name: str, length: float) -> None:
     make, view, line = PANELS[name]
     clean = make()

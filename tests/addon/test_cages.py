@@ -1,0 +1,185 @@
+"""Below a Subdivision Surface modifier the tools move the cage, and the subdivided surface is what gets better."""
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+
+CELLS = 12
+
+
+def subdivided(cells: int = CELLS, **settings: object) -> bpy.types.Object:
+    """A dented cage seen from above, its inner faces selected in Edit Mode."""
+    ob = scenes.panel(cells=cells)
+    add_subdivision(ob, **settings)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, cells)
+    return ob
+
+
+def add_subdivision(ob: bpy.types.Object, **settings: object) -> None:
+    modifier = ob.modifiers.new("Subdivision", 'SUBSURF')
+    modifier.levels = 2
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+
+
+def crease_row(ob: bpy.types.Object, crease: float) -> None:
+    """In Object Mode: the edges along y = 0."""
+    middle = {vertex.index for vertex in ob.data.vertices if abs(vertex.co.y) < 1e-6}
+    values = [crease * middle.issuperset(edge.vertices) for edge in ob.data.edges]
+    if bpy.app.version < (4, 0, 0):
+        ob.data.edges.foreach_set("crease", values)
+    else:
+        ob.data.attributes.new("crease_edge", 'FLOAT', 'EDGE').data.foreach_set("value", values)
+
+
+def shown(ob: bpy.types.Object) -> np.ndarray:
+    """Positions (#V x 3) of what the viewport shows."""
+    mesh = ob.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    values = np.empty(3 * len(mesh.vertices))
+    mesh.vertices.foreach_get("co", values)
+    return values.reshape(-1, 3)
+
+
+def test_smoothing_moves_the_cage_along_the_view_and_the_wobble_falls() -> None:
+    ob = subdivided()
+    before = scenes.positions(ob)
+    assert scenes.smooth(length=0.8) == {'FINISHED'}
+    report = ob.reflection_lines.report
+    move = scenes.positions(ob) - before
+    assert report.termination == "converged"
+    assert report.score_after < 0.5 * report.score_before
+    assert np.abs(move[:, 2]).max() > report.largest_move > 0.0  # that of the surface, which follows by halves
+    assert not move[:, :2].any()
+    assert [modifier.type for modifier in ob.modifiers] == ['SUBSURF']
+    assert report.unknowns == (CELLS - 5) ** 2
+
+
+def test_what_lies_outside_the_region_keeps_its_surface() -> None:
+    ob = subdivided()
+    scenes.object_mode()
+    before = shown(ob)
+    scenes.edit_inner(ob, CELLS)
+    scenes.smooth(length=0.8)
+    scenes.object_mode()
+    after = shown(ob)
+    outside = np.abs(before[:, :2]).max(axis=1) >= 1.0 - 2.0 / CELLS
+    assert not np.array_equal(before, after)
+    assert np.array_equal(before[outside], after[outside])
+
+
+def test_one_undo_step() -> None:
+    ob = subdivided()
+    bpy.ops.ed.undo_push(message="start")
+    before = scenes.fingerprint(ob)
+    scenes.smooth()
+    assert scenes.fingerprint(ob) != before
+    bpy.ops.ed.undo()
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
+
+
+def test_mesh_can_be_asked_for_and_differs() -> None:
+    results = []
+    for kind in ('CAGE', 'MESH'):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        ob = subdivided()
+        scenes.smooth(solve_for=kind)
+        results.append(scenes.positions(ob))
+    assert not np.array_equal(*results)
+
+
+def test_a_hidden_or_missing_modifier_leaves_the_mesh() -> None:
+    results = []
+    for hidden in (True, False):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        ob = subdivided()
+        ob.modifiers[0].show_viewport = not hidden
+        if not hidden:
+            ob.modifiers.clear()
+        scenes.smooth()
+        results.append(scenes.positions(ob))
+    assert np.array_equal(*results)
+
+
+@pytest.mark.parametrize("name", scenes.TRANSFORMS)
+def test_transforms_do_not_matter(name: str) -> None:
+    moves = []
+    for matrix in (scenes.TRANSFORMS["none"], scenes.TRANSFORMS[name]):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        ob = subdivided()
+        scenes.object_mode()
+        scenes.transformed(ob, matrix)
+        before = scenes.world(ob)
+        scenes.edit_inner(ob, CELLS)
+        scenes.smooth(length=0.8)
+        moves.append(scenes.world(ob) - before)
+    assert np.abs(moves[0]).max() > 1e-3
+    assert np.abs(moves[0] - moves[1]).max() < 5e-5
+
+
+def test_creases_are_the_modifiers() -> None:
+    results = []
+    for crease, used in ((0.0, True), (0.9, True), (0.9, False)):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        ob = subdivided(use_creases=used)
+        scenes.object_mode()
+        crease_row(ob, crease)
+        scenes.edit_inner(ob, CELLS)
+        scenes.smooth(length=0.8)
+        results.append(scenes.positions(ob))
+    assert not np.array_equal(results[0], results[1])
+    assert np.array_equal(results[0], results[2])
+
+
+def half_panel() -> bpy.types.Object:
+    """The right half of a panel with its seam at x = 0, mirrored below its subdivision."""
+    ob = scenes.panel(cells=CELLS, height=lambda x, y: scenes.crown(x, y) + 0.004 * np.cos(6.0 * x) * np.sin(5.0 * y))
+    scenes.edit(ob)
+    scenes.select_faces(ob, lambda face: face % CELLS < CELLS // 2)
+    bpy.ops.mesh.delete(type='FACE')
+    scenes.object_mode()
+    mirror = ob.modifiers.new("Mirror", 'MIRROR')
+    mirror.use_clip = True
+    add_subdivision(ob)
+    return ob
+
+
+@pytest.mark.parametrize("direction", [(0.0, 0.0, 1.0), (0.3, 0.0, 1.0)])
+def test_a_mirror_below_keeps_symmetry_and_its_seam(direction: tuple) -> None:
+    ob = half_panel()
+    bpy.ops.reflines.add_view_camera(direction=direction)
+    bpy.ops.reflines.add_light_direction(direction=(0.0, 1.0, 0.2))
+    before = scenes.positions(ob)
+    seam = np.abs(before[:, 0]) < 1e-6
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    scenes.smooth(length=0.8)
+    scenes.object_mode()
+    after, surface = scenes.positions(ob), shown(ob)
+    assert not np.array_equal(before, after)
+    assert (np.abs(after[seam, 0]) < 1e-6).all()
+    assert (not np.array_equal(before[seam], after[seam])) == (direction[0] == 0.0)
+    right, left = (surface[sign * surface[:, 0] >= -1e-7] * (sign, 1.0, 1.0) for sign in (1.0, -1.0))
+    assert len(right) == len(left)
+    order = [np.lexsort(np.round(half, 5).T) for half in (right, left)]
+    assert np.abs(right[order[0]] - left[order[1]]).max() < 1e-6
+
+
+@pytest.mark.parametrize(("kind", "said"), [('SOLIDIFY', "Solidify"), ('ARRAY', "Array")])
+def test_what_is_not_followed_is_refused_in_words(kind: str, said: str) -> None:
+    ob = scenes.panel(cells=CELLS)
+    ob.modifiers.new(said, kind)
+    add_subdivision(ob)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, CELLS)
+    before = scenes.fingerprint(ob)
+    with pytest.raises(RuntimeError, match=f"{said} below its subdivision"):
+        scenes.smooth()
+    assert scenes.fingerprint(ob) == before
+
+
+def test_simple_subdivision_is_refused_in_words() -> None:
+    subdivided(subdivision_type='SIMPLE')
+    with pytest.raises(RuntimeError, match="Simple"):
+        scenes.smooth()
