@@ -31,7 +31,7 @@ class Cage:
         return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
 
     def arguments(self, symmetric: bool) -> dict[str, object]:
-        """For reflines.CageOptimizer. Where a move leaves the plane of the mirror only the mesh's own half is solved; its
+        """For reflines.CageOptimizer. Where moves leave the plane of the mirror only the mesh's own half is solved: its
         seam is a border then, across which the surface stays smooth."""
         region = self.region & (symmetric | (np.arange(len(self.region)) < self.own_faces))
         offsets = np.append(0, np.cumsum(self.sizes))
