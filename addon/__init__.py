@@ -11,7 +11,7 @@ from .bridge import refusal, versions, view, region, gather, cage, apply, surfac
 from .bridge import lattice, picture, place, curve
 from . import tool_settings, stripe_settings, properties, session, tool
 from .drag import motion, worker, pursuit, modal
-from .overlay import stripes, shader, normals, seen, draw
+from .overlay import stripes, shader, normals, last_solve, seen, draw
 from .operators import add_light_direction, add_view_camera, add_warp_lattice
 from .operators import direction, pattern, pick_direction, smooth, untwist, warp, stripes as stripes_operators
 from . import preferences, panels, stripes_panel
@@ -29,7 +29,7 @@ bl_info = {
 MODULES = (native, falloff, smooth_target, direction_target, untwist_target, warp_target, pattern_target,
            refusal, versions, view, region, gather, cage, apply, surface, environment, lattice, picture, place, curve,
            tool_settings, stripe_settings, properties, session, tool, motion, worker, pursuit, modal,
-           stripes, shader, normals, seen, draw,
+           stripes, shader, normals, last_solve, seen, draw,
            add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth, untwist,
            warp, stripes_operators, preferences, panels, stripes_panel)
 

@@ -61,6 +61,7 @@ class Live:
 
 
 _live: dict[str, Live] = {}
+_solutions: dict[str, Solution] = {}  # the last of each object
 
 
 def obstacle(scene: bpy.types.Scene) -> str:
@@ -114,6 +115,16 @@ def refusing(panel: Panel) -> Generator[None, None, None]:
         yield
     except (native.InvalidInput, native.SolverFailure) as error:
         raise Refusal(f"{panel.name}: {error}") from error
+
+
+def remember(solution: Solution) -> None:
+    """One that was applied."""
+    _solutions[solution.panel.name] = solution
+
+
+def last_solution(name: str) -> Solution | None:
+    """Of the object with this name; gone when Blender or the file is."""
+    return _solutions.get(name)
 
 
 def solve(panel: Panel, seen: View, settings: Settings, build_target: BuildTarget) -> Solution:
@@ -177,6 +188,7 @@ def shown_directions(scene: bpy.types.Scene, ob: bpy.types.Object) -> tuple[np.n
 @bpy.app.handlers.persistent
 def forget(*_: object) -> None:
     _live.clear()
+    _solutions.clear()
 
 
 class ReflinesSession(bpy.types.PropertyGroup):

@@ -33,8 +33,11 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         layout.prop(stripes, "scope")
         if stripes.scope == 'COLLECTION':
             layout.prop(stripes, "collection")
-        if stripes.mode not in MAPS:
+        if stripes.mode in MAPS:
+            self.draw_map(layout, context.view_layer.objects.active)
+        else:
             self.draw_eye(layout, settings)
+            layout.prop(stripes, "before")
         if stripes.mode == 'IMAGE':
             self.draw_image(layout, stripes)
         for name in self.look(stripes.mode):
@@ -53,6 +56,10 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
             layout.prop(settings.stripes, "per_point")
         elif settings.stripes.eye == 'FROZEN':
             layout.operator("reflines.freeze_eye", icon='FREEZE')
+
+    def draw_map(self, layout: bpy.types.UILayout, ob: bpy.types.Object | None) -> None:
+        if ob is None or not ob.reflection_lines.report.termination:
+            paragraph(layout, bpy.context, "Run a tool: the map shows what its solve did", 'INFO')
 
     def draw_image(self, layout: bpy.types.UILayout, stripes: bpy.types.PropertyGroup) -> None:
         column = layout.column()

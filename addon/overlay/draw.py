@@ -5,11 +5,14 @@ import bpy
 import gpu
 import numpy as np
 
+from .. import session
 from ..bridge import environment, surface
-from . import seen, shader, stripes
+from . import last_solve, seen, shader, stripes
 from .normals import Fits
 
 POLL = 0.05  # seconds between two looks at the fits in threads
+NOTHING = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32), np.zeros((0, 3)))
+BEFORE = "before "  # the fit of an object's shape before its last solve goes by this and its name
 
 
 @dataclass
@@ -67,15 +70,30 @@ def draw() -> None:
 
 def refresh(shown: Shown, ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
             depsgraph: bpy.types.Depsgraph) -> None:
-    kind = (ob.mode, seen.is_part_only(ob, settings))
+    solution = session.last_solution(ob.name) if seen.needs_solution(settings) else None
+    kind = (ob.mode, seen.content(ob, settings), id(solution))
     if not shown.stale and shown.kind == kind:
         return
     read = surface.read(ob, depsgraph, shown.topology)
-    arrays = part(ob.name, read) if kind[1] else whole(ob.name, read)
+    if solution is not None and not last_solve.is_current(solution, read.V, len(ob.data.vertices)):
+        solution = None
+    arrays = arrays_of(ob, settings, read, solution)
     if len(arrays) != len(shown.uploaded) or not all(map(np.array_equal, arrays, shown.uploaded)):
         shown.batch = make_batch(*arrays) if len(arrays[1]) else None
         shown.uploaded = arrays
     shown.topology, shown.kind, shown.stale = read.topology, kind, False
+
+
+def arrays_of(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: surface.Surface,
+              solution: session.Solution | None) -> tuple[np.ndarray, ...]:
+    """What is uploaded; nothing for a map of no solve."""
+    if settings.mode in seen.MAPS:
+        make = last_solve.residual_map if settings.mode == 'RESIDUAL' else last_solve.deviation_map
+        return make(solution, settings.map_range) if solution is not None else NOTHING
+    if settings.before and solution is not None:
+        V, F, old = last_solve.before(solution, read.V, read.F, len(ob.data.vertices))
+        return V, F, _cache.fits.normals(BEFORE + ob.name, old, F)
+    return part(ob.name, read) if seen.is_part_only(ob, settings) else whole(ob.name, read)
 
 
 def whole(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -148,7 +166,7 @@ def poll_fits() -> float | None:
     """A timer, so on Blender's own thread: draws again what has better normals now."""
     for name in _cache.fits.finished():
         _cache.fits.collect(name)
-        _cache.shown.setdefault(name, Shown()).stale = True
+        _cache.shown.setdefault(name.removeprefix(BEFORE), Shown()).stale = True
         for window in bpy.context.window_manager.windows:
             for area in window.screen.areas:
                 if area.type == 'VIEW_3D':

@@ -6,6 +6,8 @@ from .. import session
 from ..bridge import view
 from . import stripes
 
+MAPS = {'RESIDUAL', 'DEVIATION'}
+
 
 def shown_objects(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> list[bpy.types.Object]:
     space = context.space_data
@@ -23,6 +25,16 @@ def candidates(context: bpy.types.Context, settings: bpy.types.PropertyGroup) ->
         editing = [ob for ob in layer.objects if ob.mode == 'EDIT']
         return editing or [ob for ob in layer.objects if ob.select_get()]
     return [layer.objects.active]
+
+
+def needs_solution(settings: bpy.types.PropertyGroup) -> bool:
+    return settings.before or settings.mode in MAPS
+
+
+def content(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> tuple:
+    """Settings that say what is uploaded; all others only say how it is painted."""
+    is_map = settings.mode in MAPS
+    return is_map and settings.mode, is_map and settings.map_range, settings.before, is_part_only(ob, settings)
 
 
 def is_part_only(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> bool:

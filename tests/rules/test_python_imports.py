@@ -26,9 +26,10 @@ MAY_IMPORT = {
     "overlay.stripes": set(),
     "overlay.shader": {"overlay.stripes"},
     "overlay.normals": {"overlay.stripes", "native"},
+    "overlay.last_solve": set(),
     "overlay.seen": {"overlay.stripes", "bridge", "session", "properties"},
-    "overlay.draw": {"overlay.stripes", "overlay.shader", "overlay.normals", "overlay.seen", "bridge", "session",
-                     "properties"},
+    "overlay.draw": {"overlay.stripes", "overlay.shader", "overlay.normals", "overlay.last_solve", "overlay.seen",
+                     "bridge", "session", "properties"},
 }
 # Registration sees everything; the index of a package sees the package.
 INDEXES = {"__init__", "drag.__init__", "operators.__init__", "overlay.__init__"}

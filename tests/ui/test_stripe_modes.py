@@ -39,12 +39,13 @@ class Sample:
     def mirrored(self) -> np.ndarray:
         return 2.0 * (self.normals @ self.v)[:, None] * self.normals - self.v
 
-    def agree(self, light: np.ndarray, tolerance: float = 4.0 / 255.0, share: float = 0.999) -> None:
+    def agree(self, light: np.ndarray, tolerance: float = 4.0 / 255.0, share: float = 0.999,
+              spread: float = 0.5) -> None:
         difference = np.abs(self.shown - light)
         good = (difference < tolerance).mean()
         print(f"{len(light)} pixels, {good:.4%} agree, largest difference {difference.max():.4f}")
         assert len(light) > 1000
-        assert np.ptp(light) > 0.5
+        assert np.ptp(light) > spread
         assert good >= share
 
 
@@ -270,7 +271,100 @@ def test_named_setups_are_kept_and_picked(driver: window.Window) -> Steps:
     yield 0.1
 
 
+def solved_panel(driver: window.Window, name: str) -> Generator[float, None, tuple]:
+    """A panel after a solve: (object, where its vertices were, the session's solution)."""
+    ob = fresh_panel(driver, name)
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit_inner(ob, CELLS)
+        before = scenes.world(ob)
+        scenes.smooth(length=1.0)
+        scenes.object_mode()
+    yield 0.2
+    return ob, before, sys.modules["reflection_lines"].session.last_solution(name)
+
+
+def test_deviation_map(driver: window.Window) -> Steps:
+    ob, before, _ = yield from solved_panel(driver, "Deviation")
+    moved = np.linalg.norm(scenes.world(ob) - before, axis=1)
+    draw = sys.modules["reflection_lines"].stripes
+    for full in (0.0, 2.0 * moved.max()):
+        stripes().mode, stripes().map_range = 'DEVIATION', full
+        picture = yield from captured(driver)
+        pixel, triangle, barycentric = samples(driver, before, triangles(ob))
+        share = (moved[triangles(ob)[triangle]] * barycentric).sum(axis=1) / (full or moved.max())
+        inner = scenes.inner(CELLS)
+        chosen = np.array([inner(face) for face in triangle // 2])
+        Sample(picture[pixel[:, 1], pixel[:, 0]][chosen], np.ones((chosen.sum(), 3)), before).agree(
+            draw.ramp(share[chosen])[:, 1], spread=0.1)
+
+
+def test_residual_map(driver: window.Window) -> Steps:
+    ob, before, solution = yield from solved_panel(driver, "Residual")
+    stripes().mode, stripes().map_range = 'RESIDUAL', 0.0
+    picture = yield from captured(driver)
+    panel = solution.panel
+    pixel, triangle, _ = samples(driver, scenes.world(ob)[panel.index], panel.F)
+    share = solution.residual[triangle] / solution.residual.max()
+    light = sys.modules["reflection_lines"].stripes.ramp(share)[:, 1]
+    Sample(picture[pixel[:, 1], pixel[:, 0]], np.ones((len(share), 3)), before).agree(light, share=0.99, spread=0.1)
+
+
+def test_a_map_of_a_changed_mesh_is_not_shown(driver: window.Window) -> Steps:
+    ob, _, _ = yield from solved_panel(driver, "Changed")
+    stripes().mode, stripes().map_range = 'DEVIATION', 0.0
+    shown = yield from captured(driver)
+    ob.data.vertices[CELLS * CELLS // 2].co.z += 0.1
+    ob.data.update()
+    yield 0.2
+    gone = yield from captured(driver)
+    assert (np.abs(shown - gone) > 0.05).sum() > 10000
+
+
+def test_before_the_last_solve(driver: window.Window) -> Steps:
+    ob, before, _ = yield from solved_panel(driver, "Before")
+    stripes().before = True
+    picture = yield from captured(driver)
+    stripes().before = False
+    reflines = sys.modules["reflection_lines"].native.reflines
+    F = triangles(ob)
+    pixel, triangle, barycentric = samples(driver, before, F)
+    normals = (reflines.NormalFit(before, F).normals(before)[F[triangle]] * barycentric[:, :, None]).sum(axis=1)
+    sample = Sample(picture[pixel[:, 1], pixel[:, 0]], normals, before)
+    sample.agree(expected_light(reflines.theta(normals, sample.v, sample.a)))
+
+
+LARGE = 160  # cells a side of a panel that is fitted in a thread
+
+
+def test_a_large_panel_is_drawn_at_once_and_then_better(driver: window.Window) -> Steps:
+    with driver.override():
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+        ob = scenes.panel("Large", cells=LARGE)
+        scenes.look_from_above(light_degrees=60.0)
+        bpy.context.view_layer.update()
+    draw = sys.modules["reflection_lines"].draw
+    prepare(driver, ob)
+    yield from captured(driver)
+    while draw.is_waiting():
+        yield 0.1
+    builds = draw.batch_builds()
+    sample = yield from sampled(driver, ob)
+    sample.agree(expected_light(sample.theta(sample.v[None])), share=0.99)
+    ob.data.vertices[LARGE * LARGE // 2].co.z += 0.01
+    ob.data.update()
+    yield from captured(driver)
+    while draw.is_waiting():
+        yield 0.1
+    sample = yield from sampled(driver, ob)
+    sample.agree(expected_light(sample.theta(sample.v[None])), share=0.99)
+    assert draw.batch_builds() == builds + 2  # at once with what normals there are, then with better ones
+
+
 window.run(test_highlight_lines, test_isophotes, test_environment_image, test_no_image_is_no_error,
            test_this_view_in_perspective, test_a_perspective_camera_point_by_point,
            test_a_frozen_eye_stays_while_the_view_turns, test_edges_are_soft_at_any_zoom, test_only_the_selected_faces,
-           test_a_part_has_the_normals_of_the_whole, test_a_collection, test_named_setups_are_kept_and_picked)
+           test_a_part_has_the_normals_of_the_whole, test_a_collection, test_named_setups_are_kept_and_picked,
+           test_deviation_map, test_residual_map, test_a_map_of_a_changed_mesh_is_not_shown, test_before_the_last_solve,
+           test_a_large_panel_is_drawn_at_once_and_then_better)
