@@ -79,6 +79,7 @@ class Tool:
     def keep(self, ob: bpy.types.Object, solution: session.Solution) -> None:
         """All that is remembered of a solution beside the positions."""
         apply.keep_region(ob, solution.panel)
+        session.remember(solution)
         stored = ob.reflection_lines
         stored.center = solution.panel.local_center
         stored.report.fill(solution, (*solution.notes, *self.remarks(solution)))

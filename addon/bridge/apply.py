@@ -7,6 +7,7 @@ from . import region
 from .gather import Panel
 
 SAMPLE = 64  # positions that are compared to know a mesh again
+FEW = 0.03  # share of the vertices below which their normals are brought up to date faster one by one than all together
 
 
 def apply(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> None:
@@ -61,10 +62,23 @@ def write_edit_mesh(mesh: bpy.types.Mesh, index: np.ndarray, new: np.ndarray) ->
     edit = bmesh.from_edit_mesh(mesh)
     edit.verts.ensure_lookup_table()
     vertices = edit.verts
-    for i, co in zip(index.tolist(), new.tolist(), strict=True):
-        vertices[i].co = co
-    edit.normal_update()
+    moved = [vertices[i] for i in index.tolist()]
+    for vertex, co in zip(moved, new.tolist(), strict=True):
+        vertex.co = co
+    if len(moved) < FEW * len(vertices):
+        update_normals(moved)
+    else:
+        edit.normal_update()
     bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
+
+
+def update_normals(moved: list[bmesh.types.BMVert]) -> None:
+    """Of the faces around and their vertices: Blender draws these, and brings none up to date by itself."""
+    faces = {face for vertex in moved for face in vertex.link_faces}
+    for face in faces:
+        face.normal_update()
+    for vertex in {vertex for face in faces for vertex in face.verts}:
+        vertex.normal_update()
 
 
 def keep_region(ob: bpy.types.Object, panel: Panel) -> None:

@@ -71,8 +71,10 @@ def gather(ob: bpy.types.Object) -> Panel:
         raise Refusal(f"{ob.name} has no stored region: "
                       "select the faces of the panel in Edit Mode and run the tool there once")
     local = coordinates(ob)
-    refuse_broken(ob.name, mesh, faces, local)
-    index, F = region_triangles(mesh, faces)
+    around, sizes = face_corners(mesh, faces)
+    refuse_broken(ob.name, around, local)
+    chosen = short_triangles(around, sizes, local) if sizes.max() <= 4 else long_triangles(mesh, faces)
+    index, F = renumbered(chosen, len(local))
     matrix = np.array(ob.matrix_world, dtype=np.float64)
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         F = F[:, ::-1]  # a mirroring transform turns triangles over, but not what Blender calls their front
@@ -98,9 +100,8 @@ def refuse_unusable(ob: bpy.types.Object) -> None:
         raise Refusal(f"{ob.name} is scaled to nothing in one direction: give it a scale other than zero")
 
 
-def refuse_broken(name: str, mesh: bpy.types.Mesh, faces: np.ndarray, local: np.ndarray) -> None:
+def refuse_broken(name: str, vertices: np.ndarray, local: np.ndarray) -> None:
     """Coordinates that are no numbers must not reach Blender's triangulation of n-gons."""
-    vertices = face_vertices(mesh, faces)
     broken = np.unique(vertices[~np.isfinite(local[vertices]).all(axis=1)])
     if len(broken):
         raise Refusal(f"{name} has {len(broken)} vertices in the region whose coordinates are no numbers, "
@@ -134,18 +135,18 @@ def corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     return vertices, sizes
 
 
-def face_vertices(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
-    """The vertices of the chosen faces, corner by corner."""
+def face_corners(mesh: bpy.types.Mesh, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """As `corners`, of the chosen faces only."""
     vertices, sizes = corners(mesh)
-    return vertices[np.repeat(faces, sizes)]
+    return vertices[np.repeat(faces, sizes)], sizes[faces]
 
 
 def coordinates(ob: bpy.types.Object) -> np.ndarray:
     """#vertices x 3, object space. In Edit Mode the mesh keeps the basis; what is edited is the active shape key."""
     points = ob.data.vertices if ob.data.shape_keys is None else ob.active_shape_key.data
-    values = np.empty(3 * len(points), dtype=np.float64)
+    values = np.empty(3 * len(points), dtype=np.float32)  # as stored: read as doubles it takes ten times longer
     points.foreach_get("co", values)
-    return values.reshape(-1, 3)
+    return values.reshape(-1, 3).astype(np.float64)
 
 
 def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
@@ -158,10 +159,33 @@ def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     return vertices.reshape(-1, 3), polygons
 
 
-def region_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def short_triangles(around: np.ndarray, sizes: np.ndarray, local: np.ndarray) -> np.ndarray:
+    """#triangles x 3 of triangles and quads, as Blender cuts them, but four times faster than read from it.
+
+    A quad is cut from its first corner, or from its second where the first cut would fold it over.
+    """
+    start, first = np.cumsum(sizes) - sizes, np.cumsum(sizes - 2) - (sizes - 2)
+    F = np.empty((int((sizes - 2).sum()), 3), dtype=np.int32)
+    three, four = sizes == 3, sizes == 4
+    F[first[three]] = around[start[three][:, None] + [0, 1, 2]]
+    quads = around[start[four][:, None] + [0, 1, 2, 3]]
+    p = local[quads]
+    a, diagonal, b = (p[:, k] - p[:, 0] for k in (1, 2, 3))
+    folds = (np.einsum('ij,ij->i', np.cross(a, diagonal), np.cross(b, diagonal)) > 0.0)[:, None]
+    F[first[four]] = np.where(folds, quads[:, [0, 1, 3]], quads[:, [0, 1, 2]])
+    F[first[four] + 1] = np.where(folds, quads[:, [1, 2, 3]], quads[:, [0, 2, 3]])
+    return F
+
+
+def long_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
+    """#triangles x 3 of any faces, as Blender cuts them."""
     vertices, polygons = triangles(mesh)
-    chosen = vertices[faces[polygons]]
-    used = np.zeros(len(mesh.vertices), dtype=bool)
+    return vertices[faces[polygons]]
+
+
+def renumbered(chosen: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The vertices in use, and the triangles by their places among those."""
+    used = np.zeros(count, dtype=bool)
     used[chosen] = True
     compact = np.cumsum(used, dtype=np.int32) - 1
     return np.flatnonzero(used), compact[chosen]

@@ -41,7 +41,7 @@ def shares(values: np.ndarray, full: float) -> np.ndarray:
 
 
 def before(solution: object, V: np.ndarray, F: np.ndarray, vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(where to draw, triangles, where the vertices were). Of a surface with other vertices, the panel alone.
+    """(where to draw, triangles, where the vertices were). Of a surface of other vertices: of the panel alone.
 
     Vertices move along the view, so seen from the view camera the old reflections lie on the present surface.
     """
