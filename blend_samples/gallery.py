@@ -36,6 +36,8 @@ OPERATIONS = (
         density=1.8, centre='REGION', radius=0.4, emphasis=20.0, border='clamped')),
     Operation("untwist", "fender.blend", lambda: bpy.ops.reflines.untwist()),
     Operation("warp", "hood_warp.blend", lambda: bpy.ops.reflines.warp()),
+    Operation("cage", "cage_hood.blend", lambda: bpy.ops.reflines.smooth()),
+    Operation("cage_creased", "cage_fender.blend", lambda: bpy.ops.reflines.smooth()),
     Operation("pattern", "plate.blend", lambda: bpy.ops.reflines.pattern()),
 )
 

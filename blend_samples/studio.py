@@ -211,6 +211,12 @@ def stage(name: str, V: np.ndarray, quads: np.ndarray, inside: np.ndarray, shot:
     return panel
 
 
+def subdivide(panel: bpy.types.Object) -> None:
+    """A Subdivision Surface modifier: what it shows is the panel, and the mesh is its cage."""
+    modifier = panel.modifiers.new("Subdivision", 'SUBSURF')
+    modifier.levels, modifier.render_levels = 3, 4
+
+
 def save(panel: bpy.types.Object, path: str) -> None:
     """In Edit Mode, ready for one press of the button."""
     bpy.context.view_layer.objects.active = panel

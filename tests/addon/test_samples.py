@@ -2,6 +2,7 @@
 import pathlib
 import re
 import sys
+from collections.abc import Callable
 
 import bpy
 import numpy as np
@@ -12,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "blend_samples"
 sys.path.insert(0, str(SAMPLES))
 
+import cage_shapes  # noqa: E402
 import hood_shape  # noqa: E402  (a module of the samples' scripts, found through the line above)
 import panel_shapes  # noqa: E402
 
@@ -111,6 +113,28 @@ def test_smoothing_brings_the_door_nearer_to_the_clean_one_and_laplacian_smoothi
     bpy.ops.mesh.vertices_smooth(factor=0.5, repeat=200)
     errors = [np.linalg.norm(line_field(V, F) - wanted) for V in (start, ours, positions(panel).astype(float))]
     assert errors[1] < 0.4 * errors[0] < errors[2]
+
+
+@pytest.mark.parametrize(("name", "shape", "axis"), [("cage_hood.blend", cage_shapes.hood, 2),
+                                                     ("cage_fender.blend", cage_shapes.fender, 0)])
+def test_the_cages_lines_come_back_to_the_clean_ones(name: str, shape: Callable, axis: int) -> None:
+    """Of the subdivided surface: its wobble is that of the clean cage again, to a tenth, or less."""
+    panel = opened(name)
+    bpy.ops.reflines.smooth()
+    report = panel.reflection_lines.report
+    dented, solved = report.score_before, report.score_after
+    assert [modifier.type for modifier in panel.modifiers] == ['SUBSURF']
+    panel = opened(name)
+    V = positions(panel).copy()
+    V[:, axis] = shape()[2]
+    bpy.ops.object.mode_set(mode='OBJECT')
+    panel.data.vertices.foreach_set("co", V.ravel())
+    panel.data.update()
+    bpy.ops.object.mode_set(mode='EDIT')
+    bpy.ops.reflines.smooth()
+    wanted = panel.reflection_lines.report.score_before
+    assert dented > 1.5 * wanted
+    assert solved < 1.1 * wanted
 
 
 def test_hood_is_the_analytic_panel_with_its_wobble() -> None:
