@@ -10,6 +10,7 @@ from .targets import warp as warp_target, pattern as pattern_target
 from .bridge import refusal, versions, view, region, gather, cage, apply, surface, environment
 from .bridge import lattice, picture, place, curve
 from . import tool_settings, stripe_settings, properties, session, tool
+from .overlay import circle
 from .drag import motion, worker, pursuit, modal
 from .overlay import stripes, shader, normals, last_solve, seen, draw
 from .operators import add_light_direction, add_view_camera, add_warp_lattice
@@ -28,7 +29,7 @@ bl_info = {
 
 MODULES = (native, falloff, smooth_target, direction_target, untwist_target, warp_target, pattern_target,
            refusal, versions, view, region, gather, cage, apply, surface, environment, lattice, picture, place, curve,
-           tool_settings, stripe_settings, properties, session, tool, motion, worker, pursuit, modal,
+           tool_settings, stripe_settings, properties, session, tool, circle, motion, worker, pursuit, modal,
            stripes, shader, normals, last_solve, seen, draw,
            add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth, untwist,
            warp, stripes_operators, preferences, panels, stripes_panel)

@@ -77,7 +77,7 @@ def built(panel: Panel, seen: View, border: str) -> Live:
 
 
 def lend(panel: Panel, seen: View, border: str) -> Live | None:
-    """The kept optimizer, at the heights of `panel`, for a thread to work with: nobody else has it until `take_back`."""
+    """The kept optimizer, at the heights of `panel`, for a thread: nobody else has it until `take_back`."""
     live = _live.pop(panel.name, None)
     if live is None or not live.suits(panel, seen, border):
         return None

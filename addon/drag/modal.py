@@ -12,7 +12,9 @@ from .. import session
 from ..bridge import apply, gather
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
-from ..tool import Tool
+from ..overlay import circle
+from ..targets.falloff import Falloff
+from ..tool import AUTOMATIC_RADIUS, Tool
 from .motion import Handle, Motion
 from .pursuit import Outcome, Pursuit, Request
 from .worker import Worker
@@ -39,8 +41,10 @@ class Drag:
         views = [session.view_of(scene, panel.center) for panel in self.panels]
         self.shown = [apply.start(panel) for panel in self.panels]
         self.motion = self.motion_of(scene)
+        self.frame = session.frame_of(self.panels[0], views[0])
         self.request(context)  # refuses before anything is begun
         self.pursuit = Pursuit(self.panels, views, tool.border)
+        self.circle = circle.add(lambda: self.reach)
         self.worker = Worker(self.pursuit.run)
         self.worker.submit(self.wanted)
         self.keeping, self.busy_since, self.problem = False, time.monotonic(), ""
@@ -68,6 +72,8 @@ class Drag:
         builds = tuple(self.tool.build_target(context, ob, panel)
                        for ob, panel in zip(self.objects(), self.panels, strict=True))
         self.wanted = Request(builds, session.Settings(self.tool.border, self.tool.detail(context.scene)), final)
+        falloff = self.tool.falloff(context, self.objects()[0], self.panels[0])
+        self.reach = circle.around(falloff.centre, falloff.radius, self.frame) if falloff else None
 
     def ask(self, context: bpy.types.Context, *, final: bool = False) -> None:
         try:
@@ -97,7 +103,8 @@ class Drag:
         self.area.header_text_set(f"{self.tool.bl_label}   {values}" + (f"   {self.problem}" if self.problem else ""))
         working = not self.worker.idle() and time.monotonic() - self.busy_since > SAYS_BUSY
         more = "   Tab: next value" if len(self.motion.handles) > 1 else ""
-        wheel = f"   Wheel: {self.tool.wheel}" if self.tool.wheel else ""
+        turned = self.motion.on_wheel()
+        wheel = f"   Wheel: {turned.label.lower()}" if turned else ""
         context.workspace.status_text_set(
             f"{self.pursuit.doing()}   Esc: cancel" if working or self.keeping else KEYS + more + wheel)
 
@@ -114,6 +121,7 @@ class Drag:
             self.pursuit.give_back()
         self.pursuit.progress.cancel()
         self.worker.stop()
+        circle.remove(self.circle)
         self.area.header_text_set(None)
         context.workspace.status_text_set(None)
 
@@ -137,18 +145,29 @@ def in_units(handle: Handle, value: float, scene: bpy.types.Scene) -> str:
     return f"{value:.4g}" if handle.unit == 'LENGTH' else f"{value:.3f}"
 
 
+def radius_handle(centre: str) -> tuple[Handle, ...]:
+    """Of a tool with tool_settings.FalloffSettings."""
+    if centre == 'EVERYWHERE':
+        return ()
+    return (Handle("radius", "Radius", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH',
+                   wheel=True),)
+
+
 class DraggedTool(Tool):
     """A tool with handles: started by a key or a button it follows the mouse, by a script it runs at once."""
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
-    wheel = ""  # the label of the handle that the wheel turns
 
     def handles(self) -> tuple[Handle, ...]:
         """The first is the mouse's; Tab goes to the next."""
         raise NotImplementedError
 
-    def automatic(self, _name: str, _panel: Panel) -> float:
+    def automatic(self, name: str, panel: Panel) -> float:
         """What 0 stands for in a property."""
-        return 0.0
+        return {"length": session.length_of(panel, 0.0), "radius": AUTOMATIC_RADIUS * panel.diagonal}.get(name, 0.0)
+
+    def falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, _panel: Panel) -> Falloff | None:
+        """None where the tool acts everywhere alike."""
+        return None
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if context.area is None or context.area.type != 'VIEW_3D':
@@ -199,7 +218,7 @@ class DraggedTool(Tool):
         """Keys of others are swallowed: an undo or a change of the mode now would meet a mesh between two states."""
         if event.type in LEAVE and event.value == 'PRESS':
             return self.leave(context)
-        if event.type in NAVIGATION or event.type in NOTCHES and not self.wheel:
+        if event.type in NAVIGATION or event.type in NOTCHES and self.drag.motion.on_wheel() is None:
             return {'PASS_THROUGH'}
         if self.drag.keeping:
             return {'RUNNING_MODAL'}
@@ -217,8 +236,7 @@ class DraggedTool(Tool):
             motion.move(event.mouse_x, precise=event.shift)
             return not motion.typed[motion.held]
         if event.type in NOTCHES:
-            labels = [handle.label.lower() for handle in motion.handles]
-            motion.wheel(labels.index(self.wheel), NOTCHES[event.type], precise=event.shift)
+            motion.wheel(NOTCHES[event.type], precise=event.shift)
             return True
         if event.value == 'PRESS':
             return self.typed(event.type)

@@ -19,6 +19,7 @@ class Handle:
     high: float
     doubles: bool = False
     unit: str = 'NONE'    # 'LENGTH' or 'ANGLE': how it is shown and typed
+    wheel: bool = False   # the wheel turns it
 
     def at(self, start: float, pixels: float) -> float:
         value = start * 2.0**(self.per_pixel * pixels) if self.doubles else start + self.per_pixel * pixels
@@ -41,8 +42,11 @@ class Motion:
             self.pixels[self.held] += (x - self.last) * (PRECISE if precise else 1.0)
         self.last = x
 
-    def wheel(self, index: int, notches: int, *, precise: bool) -> None:
-        self.pixels[index] += NOTCH * notches * (PRECISE if precise else 1.0)
+    def on_wheel(self) -> Handle | None:
+        return next((handle for handle in self.handles if handle.wheel), None)
+
+    def wheel(self, notches: int, *, precise: bool) -> None:
+        self.pixels[self.handles.index(self.on_wheel())] += NOTCH * notches * (PRECISE if precise else 1.0)
 
     def hold_next(self) -> None:
         self.held = (self.held + 1) % len(self.handles)

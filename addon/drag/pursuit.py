@@ -1,9 +1,9 @@
 """The panels of one drag in the hands of the solver. Called from a thread: numpy and the native module only.
 
 Every panel has two optimizers. The first stays where the mesh was when the drag began: what a tool wants is said about
-those lines. The second follows the mouse, each solve from where the last one ended, which takes a few back substitutions
-instead of a factorization. The result that is kept is the first one's, solved from the start as without a mouse: the way
-that the mouse took leaves no trace in it.
+those lines. The second follows the mouse, each solve from where the last one ended, which takes a few back
+substitutions instead of a factorization. The result that is kept is the first one's, solved from the start as without a
+mouse: the way that the mouse took leaves no trace in it.
 """
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,5 +1,6 @@
 """Set Line Direction and Density."""
 from functools import partial
+from math import pi, radians
 
 import bpy
 import numpy as np
@@ -7,13 +8,16 @@ import numpy as np
 from ..bridge import place
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
-from ..targets import direction
+from ..drag.modal import DraggedTool, radius_handle
+from ..drag.motion import Handle
 from ..session import BuildTarget
-from ..tool import Tool, placed_falloff
+from ..targets import direction
+from ..targets.falloff import Falloff
+from ..tool import placed_falloff
 from ..tool_settings import DirectionSettings
 
 
-class REFLINES_OT_direction(Tool, DirectionSettings, bpy.types.Operator):
+class REFLINES_OT_direction(DraggedTool, DirectionSettings, bpy.types.Operator):
     """Move the vertices of the selected faces along the view so that their reflection lines run in one direction,
 evenly spaced"""
     bl_idname = "reflines.direction"
@@ -22,12 +26,21 @@ evenly spaced"""
     def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.direction
 
+    def handles(self) -> tuple[Handle, ...]:
+        angle = Handle("angle", "Angle", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE')
+        return (*([angle] if self.direction == 'ANGLE' else []),
+                Handle("density", "Density", per_pixel=1.0 / 150.0, low=1e-3, high=1e6, doubles=True),
+                Handle("strength", "Strength", per_pixel=1.0 / 300.0, low=0.0, high=1.0), *radius_handle(self.centre))
+
+    def falloff(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> Falloff | None:
+        return placed_falloff(self, context.scene, ob, panel)
+
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> BuildTarget:
         scene = context.scene
         settings = direction.Direction(
             self.line_direction(scene), self.density, self.density_end, self.axis,
             count=scene.reflection_lines.stripes.count if self.unit == 'LINES' else 0, strength=self.strength,
-            falloff=placed_falloff(self, scene, ob, panel), emphasis=self.emphasis)
+            falloff=self.falloff(context, ob, panel), emphasis=self.emphasis)
         return partial(direction.target, settings=settings)
 
     def line_direction(self, scene: bpy.types.Scene) -> np.ndarray:

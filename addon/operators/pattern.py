@@ -1,5 +1,6 @@
 """Bend Reflection Lines after a Picture."""
 from functools import partial
+from math import pi, radians
 
 import bpy
 import numpy as np
@@ -7,13 +8,14 @@ import numpy as np
 from ..bridge import picture, place
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
-from ..targets import pattern
+from ..drag.modal import DraggedTool
+from ..drag.motion import Handle
 from ..session import BuildTarget
-from ..tool import Tool
+from ..targets import pattern
 from ..tool_settings import PatternSettings
 
 
-class REFLINES_OT_pattern(Tool, PatternSettings, bpy.types.Operator):
+class REFLINES_OT_pattern(DraggedTool, PatternSettings, bpy.types.Operator):
     """Move the vertices of the selected faces along the view so that their reflection lines show the grey values of an
 image.
 
@@ -25,6 +27,10 @@ What no surface can show is left over: see the colour map of the residual"""
 
     def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.pattern
+
+    def handles(self) -> tuple[Handle, ...]:
+        return (Handle("strength", "Strength", per_pixel=1e-3, low=-pi, high=pi, unit='ANGLE'),
+                Handle("angle", "Rotation", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE'))
 
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, panel: Panel) -> BuildTarget:
         right, up = place.camera_axes(context.scene.reflection_lines.camera)

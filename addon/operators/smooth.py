@@ -19,14 +19,11 @@ In Object Mode the faces of the last run are taken; they are kept with the mesh 
 Quads and n-gons stay as they are"""
     bl_idname = "reflines.smooth"
     bl_label = "Smooth Reflection Lines"
-    wheel = "length"
 
     def handles(self) -> tuple[Handle, ...]:
         return (Handle("strength", "Strength", per_pixel=1.0 / 300.0, low=0.0, high=1.0),
-                Handle("length", "Length", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH'))
-
-    def automatic(self, name: str, panel: Panel) -> float:
-        return session.length_of(panel, 0.0) if name == "length" else 0.0
+                Handle("length", "Length", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH',
+                       wheel=True))
 
     def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines

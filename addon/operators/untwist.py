@@ -1,16 +1,20 @@
 """Untwist Reflection Lines."""
 from functools import partial
+from math import pi, radians
 
 import bpy
 
 from ..bridge.gather import Panel
-from ..targets import untwist
+from ..drag.modal import DraggedTool, radius_handle
+from ..drag.motion import Handle
 from ..session import BuildTarget
-from ..tool import Tool, placed_falloff
+from ..targets import untwist
+from ..targets.falloff import Falloff
+from ..tool import placed_falloff
 from ..tool_settings import UntwistSettings
 
 
-class REFLINES_OT_untwist(Tool, UntwistSettings, bpy.types.Operator):
+class REFLINES_OT_untwist(DraggedTool, UntwistSettings, bpy.types.Operator):
     """Move the vertices of the selected faces along the view so that their reflection lines turn by an angle,
 less with the distance from a centre"""
     bl_idname = "reflines.untwist"
@@ -19,9 +23,16 @@ less with the distance from a centre"""
     def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.untwist
 
+    def handles(self) -> tuple[Handle, ...]:
+        return (Handle("angle", "Angle", per_pixel=radians(0.25), low=-pi, high=pi, unit='ANGLE'),
+                *radius_handle(self.centre))
+
+    def falloff(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> Falloff | None:
+        return placed_falloff(self, context.scene, ob, panel)
+
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> BuildTarget:
-        falloff = placed_falloff(self, context.scene, ob, panel)
-        return partial(untwist.target, settings=untwist.Untwist(self.angle, falloff, self.emphasis))
+        settings = untwist.Untwist(self.angle, self.falloff(context, ob, panel), self.emphasis)
+        return partial(untwist.target, settings=settings)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_untwist])

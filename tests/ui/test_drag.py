@@ -12,71 +12,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import window  # noqa: E402  (found through the line above)
 
 import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+from dragging import ended, executed, panel, press, settled, shown  # noqa: E402
 
 Steps = Generator[float, None, None]
-PATIENCE = 60.0  # seconds for a solve on a busy machine
-
-
-def panel(driver: window.Window, cells: int = 16) -> bpy.types.Object:
-    with driver.override():
-        if bpy.context.mode != 'OBJECT':
-            bpy.ops.object.mode_set(mode='OBJECT')
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
-        ob = scenes.panel(cells=cells)
-        scenes.look_from_above()
-        scenes.edit_inner(ob, cells)
-        bpy.context.scene.reflection_lines.stripes.show = True
-        driver.region_3d().view_perspective = 'ORTHO'
-        driver.region_3d().view_rotation = (1.0, 0.0, 0.0, 0.0)
-        driver.region_3d().view_distance = 4.0
-        bpy.ops.ed.undo_push(message="Start")
-    return ob
-
-
-def shown(driver: window.Window) -> np.ndarray:
-    with driver.override():
-        return scenes.positions(bpy.context.view_layer.objects.active)
-
-
-def executed(driver: window.Window, **settings: object) -> np.ndarray:
-    """What the operator makes of a fresh panel without a mouse."""
-    panel(driver)
-    with driver.override():
-        scenes.smooth(**settings)
-    return shown(driver)
-
-
-def press(driver: window.Window, operator: str = "reflines.smooth") -> Steps:
-    driver.move(400, 300)
-    yield 0.2
-    with driver.override():
-        getattr(bpy.ops.reflines, operator.split(".")[1])('INVOKE_DEFAULT', True)
-    yield 0.2
-    yield from settled(driver)
-
-
-def settled(driver: window.Window) -> Steps:
-    """Waits until the mesh no longer changes."""
-    last, same = None, 0
-    for _ in range(int(PATIENCE / 0.3)):
-        now = shown(driver)
-        same = same + 1 if last is not None and np.array_equal(now, last) else 0
-        if same == 3:
-            return
-        last = now
-        yield 0.3
-    raise AssertionError("the mesh does not come to rest")
-
-
-def ended(driver: window.Window) -> Steps:
-    """Waits until the operator has ended: then the status bar's text is gone and the report is there."""
-    for _ in range(int(PATIENCE / 0.1)):
-        operator = bpy.context.window_manager.operators
-        if operator and operator[-1].bl_idname.startswith("REFLINES_OT"):
-            break
-        yield 0.1
-    yield from settled(driver)
 
 
 def test_a_drag_follows_and_escape_leaves_no_bit_changed(driver: window.Window) -> Steps:

@@ -1,0 +1,74 @@
+"""Every tool under the mouse, in a window: what is kept is what the operator makes with the values of the drag."""
+import os
+import sys
+from collections.abc import Generator
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import window  # noqa: E402  (found through the line above)
+
+import dragging  # noqa: E402  (needs what `window` finds)
+
+Steps = Generator[float, None, None]
+
+
+def kept_equals_executed(driver: window.Window, operator: str, names: tuple[str, ...]) -> Steps:
+    """To 1e-6 of the panel's size: the final solve takes its centre from the mesh as it was dragged."""
+    driver.key('RET')
+    yield from dragging.ended(driver)
+    done = bpy.context.window_manager.operators[-1]
+    assert done.bl_idname == "REFLINES_OT_" + operator
+    kept, values = dragging.shown(driver), {name: getattr(done.properties, name) for name in names}
+    dragging.panel(driver)
+    before = dragging.shown(driver)
+    with driver.override():
+        assert getattr(bpy.ops.reflines, operator)('EXEC_DEFAULT', True, **values) == {'FINISHED'}
+    assert np.abs(kept - before).max() > 1e-5
+    assert np.abs(kept - dragging.shown(driver)).max() < 2e-6
+
+
+def test_untwist_with_the_wheel_for_its_radius(driver: window.Window) -> Steps:
+    dragging.panel(driver)
+    own = bpy.context.scene.reflection_lines.untwist
+    own.centre, own.radius = 'REGION', 0.5
+    yield from dragging.press(driver, "untwist")
+    driver.move(460, 300)
+    yield 0.1
+    for _ in range(3):
+        driver.event('WHEELUPMOUSE', 'PRESS')
+        yield 0.05
+    yield from dragging.settled(driver)
+    if "REFLINES_PICTURES" in os.environ:
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "untwist.png"))
+        yield 0.3
+    yield from kept_equals_executed(driver, "untwist", ("angle", "radius"))
+    operator = bpy.context.window_manager.operators[-1].properties
+    assert abs(np.degrees(operator.angle) - 15.0) < 1e-3
+    assert abs(operator.radius - 0.5 * 2.0**0.4) < 1e-5
+
+
+def test_density(driver: window.Window) -> Steps:
+    dragging.panel(driver)
+    yield from dragging.press(driver, "direction")
+    driver.move(425, 300)
+    yield from dragging.settled(driver)
+    yield from kept_equals_executed(driver, "direction", ("density",))
+
+
+def test_pattern(driver: window.Window) -> Steps:
+    dragging.panel(driver)
+    image = bpy.data.images.new("Ramp", 16, 16, float_buffer=True)
+    rows = np.repeat(np.linspace(0.0, 1.0, 16), 16)
+    image.pixels.foreach_set(np.repeat(rows, 4).astype(np.float32))
+    bpy.context.scene.reflection_lines.pattern.image = image
+    yield from dragging.press(driver, "pattern")
+    driver.move(380, 300)
+    yield from dragging.settled(driver)
+    yield from kept_equals_executed(driver, "pattern", ("strength",))
+
+
+window.run(test_untwist_with_the_wheel_for_its_radius, test_density, test_pattern)
