@@ -14,7 +14,8 @@ from .overlay import circle
 from .drag import motion, worker, pursuit, modal
 from .overlay import stripes, shader, normals, last_solve, seen, draw
 from .operators import add_light_direction, add_view_camera, add_warp_lattice
-from .operators import direction, pattern, pick_direction, smooth, untwist, warp, stripes as stripes_operators
+from .operators import direction, pattern, pick_direction, smooth, store_result, untwist, warp
+from .operators import stripes as stripes_operators
 from . import preferences, panels, stripes_panel
 
 bl_info = {
@@ -31,8 +32,8 @@ MODULES = (native, falloff, smooth_target, direction_target, untwist_target, war
            refusal, versions, view, region, gather, cage, apply, surface, environment, lattice, picture, place, curve,
            tool_settings, stripe_settings, properties, session, tool, circle, motion, worker, pursuit, modal,
            stripes, shader, normals, last_solve, seen, draw,
-           add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth, untwist,
-           warp, stripes_operators, preferences, panels, stripes_panel)
+           add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth,
+           store_result, untwist, warp, stripes_operators, preferences, panels, stripes_panel)
 
 if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.
     for module in MODULES:

@@ -177,6 +177,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         column.label(text=f"Largest move {report.moved()}")
         for note in report.notes.splitlines():
             paragraph(column, context, note, 'ERROR')
+        self.layout.operator("reflines.store_result", icon='GROUP_VERTEX')
 
 
 register, unregister = bpy.utils.register_classes_factory([

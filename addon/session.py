@@ -127,6 +127,20 @@ def last_solution(name: str) -> Solution | None:
     return _solutions.get(name)
 
 
+def vertex_values(solution: Solution) -> dict[str, np.ndarray]:
+    """#V each: how far the vertices moved along the view, and the mean residual of the triangles around each.
+
+    Of a cage only the first: its residual is that of the surface below.
+    """
+    panel, corners = solution.panel, solution.panel.F.ravel()
+    moved = np.linalg.norm(solution.positions - panel.V, axis=1)
+    if len(solution.residual) != len(panel.F):
+        return {"deviation": moved}
+    count = np.maximum(np.bincount(corners, minlength=len(panel.V)), 1)
+    return {"deviation": moved,
+            "residual": np.bincount(corners, np.repeat(solution.residual, 3), minlength=len(panel.V)) / count}
+
+
 def solve(panel: Panel, seen: View, settings: Settings, build_target: BuildTarget) -> Solution:
     """Built anew only if the panel, the view, the light or the border changed since the last time."""
     with refusing(panel):
@@ -163,8 +177,8 @@ def solved(live: Live, build_target: BuildTarget, settings: Settings, progress: 
 
 
 def root_mean_square(optimizer: object, target: object) -> float:
-    """Of the residual, over the triangles in use and weighted as the target says."""
-    weight = (target.weight if len(target.weight) else 1.0) * optimizer.active  # none given: 1
+    """Of the residual over the region in use, weighted as the target says: none given is 1."""
+    weight = optimizer.area * target.weight if len(target.weight) else optimizer.area
     return float(np.sqrt(weight @ optimizer.residual(target)**2 / max(weight.sum(), 1e-300)))
 
 

@@ -85,3 +85,15 @@ def keep_region(ob: bpy.types.Object, panel: Panel) -> None:
     """Remembers the faces, so that the tool can run on them again in Object Mode."""
     if ob.mode == 'EDIT':
         region.store(ob.data, panel.faces)
+
+
+def store_vertex_values(ob: bpy.types.Object, name: str, values: np.ndarray) -> None:
+    """A float attribute of the mesh's vertices (#vertices), in either mode."""
+    if ob.mode == 'EDIT':
+        edit = bmesh.from_edit_mesh(ob.data)
+        layer = edit.verts.layers.float.get(name) or edit.verts.layers.float.new(name)
+        for vertex, value in zip(edit.verts, values.tolist(), strict=True):
+            vertex[layer] = value
+        return
+    attribute = ob.data.attributes.get(name) or ob.data.attributes.new(name, 'FLOAT', 'POINT')
+    attribute.data.foreach_set("value", values.astype(np.float32))

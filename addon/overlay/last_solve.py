@@ -24,10 +24,11 @@ def is_current(solution: object, V: np.ndarray, vertices: int) -> bool:
 
 
 def residual_map(solution: object, full: float) -> Arrays:
-    """One value a triangle, so each has vertices of its own."""
-    F = solution.panel.F
+    """One value a triangle, so each has vertices of its own. Of a cage there is none: the residual is its surface's."""
+    F = solution.panel.F if len(solution.residual) == len(solution.panel.F) else solution.panel.F[:0]
+    residual = solution.residual[:len(F)]
     V = left_at(solution)[F].reshape(-1, 3)
-    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(shares(solution.residual, full), 3)
+    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(shares(residual, full), 3)
 
 
 def deviation_map(solution: object, full: float) -> Arrays:
@@ -37,7 +38,7 @@ def deviation_map(solution: object, full: float) -> Arrays:
 
 
 def shares(values: np.ndarray, full: float) -> np.ndarray:
-    return values / (full or values.max() or 1.0)
+    return values / (full or values.max(initial=0.0) or 1.0)
 
 
 def before(solution: object, V: np.ndarray, F: np.ndarray, vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -111,6 +111,7 @@ void bind_optimizer(py::module_& module) {
       .def_property_readonly("active", &ShapeOptimizer::active)
       .def_property_readonly("xy", [](const ShapeOptimizer& o) { return o.region_field(0).xy; })
       .def_property_readonly("centers", [](const ShapeOptimizer& o) { return o.region_field(0).center; })
+      .def_property_readonly("area", [](const ShapeOptimizer& o) { return o.region_field(0).area; })
       .def(
           "theta", [](const ShapeOptimizer& o, int family) { return o.theta(checked_family(o, family)); },
           py::arg("family") = 0)

@@ -86,6 +86,7 @@ class ShapeOptimizer:
     free: np.ndarray       # #V bool
     xy: np.ndarray         # #V x 2, in the image plane
     centers: np.ndarray    # #F x 2, the triangles' centroids in the image plane
+    area: np.ndarray       # #F, in the image plane; 0 where not active
     active: np.ndarray     # #F bool: triangles that belong to a height-field piece
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
                  line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
