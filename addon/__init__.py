@@ -7,7 +7,7 @@ import importlib
 from . import native
 from .targets import falloff, smooth as smooth_target, direction as direction_target, untwist as untwist_target
 from .targets import warp as warp_target, pattern as pattern_target
-from .bridge import refusal, versions, view, region, gather, cage, apply, surface, environment
+from .bridge import refusal, versions, view, region, gather, cage, apply, surface, environment, matcap
 from .bridge import lattice, picture, place, curve
 from . import tool_settings, stripe_settings, properties, session, tool
 from .overlay import circle
@@ -15,8 +15,8 @@ from .drag import motion, worker, pursuit, modal
 from .overlay import stripes, shader, normals, last_solve, seen, draw
 from .operators import add_light_direction, add_view_camera, add_warp_lattice
 from .operators import direction, pattern, pick_direction, smooth, store_result, untwist, warp
-from .operators import stripes as stripes_operators
-from . import preferences, panels, stripes_panel
+from .operators import stripes as stripes_operators, install_matcap
+from . import keymaps, preferences, panels, stripes_panel, menus
 
 bl_info = {
     "name": "Reflection Lines",
@@ -29,11 +29,13 @@ bl_info = {
 }
 
 MODULES = (native, falloff, smooth_target, direction_target, untwist_target, warp_target, pattern_target,
-           refusal, versions, view, region, gather, cage, apply, surface, environment, lattice, picture, place, curve,
+           refusal, versions, view, region, gather, cage, apply, surface, environment, matcap,
+           lattice, picture, place, curve,
            tool_settings, stripe_settings, properties, session, tool, circle, motion, worker, pursuit, modal,
            stripes, shader, normals, last_solve, seen, draw,
            add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth,
-           store_result, untwist, warp, stripes_operators, preferences, panels, stripes_panel)
+           store_result, untwist, warp, stripes_operators, install_matcap,
+           menus, keymaps, preferences, panels, stripes_panel)
 
 if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.
     for module in MODULES:

@@ -42,6 +42,8 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
             self.draw_image(layout, stripes)
         for name in self.look(stripes.mode):
             layout.prop(stripes, name)
+        if stripes.mode == 'REFLECTION':
+            layout.operator("reflines.install_matcap", icon='MATSPHERE')
 
     def draw_setups(self, layout: bpy.types.UILayout, setups: bpy.types.PropertyGroup) -> None:
         row = layout.row()
