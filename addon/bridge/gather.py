@@ -43,8 +43,10 @@ def active(context: bpy.types.Context) -> bpy.types.Object | None:
     A lattice in Edit Mode stands for none: undo would give back the lattice only, and not the panel.
     """
     ob = context.view_layer.objects.active
-    is_warp = ob is not None and ob.type == 'LATTICE' and ob.mode == 'OBJECT' and ob.reflection_lines.panel is not None
-    return ob.reflection_lines.panel if is_warp else ob
+    if ob is None or ob.type != 'LATTICE' or ob.mode != 'OBJECT':
+        return ob
+    panel = ob.reflection_lines.panel  # a deleted object can still be pointed at
+    return panel if panel is not None and context.view_layer.objects.get(panel.name) == panel else ob
 
 
 def subjects(context: bpy.types.Context) -> list[bpy.types.Object]:

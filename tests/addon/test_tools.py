@@ -218,6 +218,5 @@ def written(grey: np.ndarray, path: object, depth: str, kind: str) -> bpy.types.
     scene.render.image_settings.file_format, scene.render.image_settings.color_mode = kind, 'RGB'
     scene.render.image_settings.color_depth = depth
     scene.view_settings.view_transform = 'Raw'
-    scene.display_settings.display_device = 'None'
     image("Source", grey).save_render(str(path))
     return bpy.data.images.load(str(path))

@@ -118,3 +118,12 @@ def test_a_lattice_turned_by_the_artist_is_no_warp(panel) -> None:
     ob.matrix_world = ob.matrix_world @ scenes.TRANSFORMS["turned"]
     bpy.ops.reflines.warp()
     assert np.array_equal(scenes.positions(panel), before)
+
+
+def test_a_lattice_whose_panel_was_deleted_warps_nothing(panel) -> None:
+    ob = added(panel)
+    scenes.object_mode()
+    panel.users_collection[0].objects.unlink(panel)
+    scenes.activate(ob)
+    with pytest.raises(RuntimeError, match="Make the panel's mesh the active object"):
+        bpy.ops.reflines.warp()

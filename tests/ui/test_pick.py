@@ -1,0 +1,64 @@
+"""Pick Two Points in a real window: two clicks give a direction, Esc leaves all as it was."""
+import sys
+from collections.abc import Generator
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import window  # noqa: E402  (found through the line above)
+
+import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+
+Steps = Generator[float, None, None]
+
+
+def prepare(driver: window.Window) -> None:
+    with driver.override():
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+        scenes.panel()
+        scenes.look_from_above()
+        bpy.context.view_layer.update()
+    region_3d = driver.region_3d()
+    region_3d.view_perspective = 'ORTHO'
+    region_3d.view_rotation = bpy.context.scene.reflection_lines.camera.matrix_world.to_quaternion()
+    region_3d.view_distance = 4.0
+
+
+def click(driver: window.Window, x: int, y: int) -> Steps:
+    driver.move(x, y)
+    yield 0.1
+    driver.key('LEFTMOUSE')
+    yield 0.1
+
+
+def test_two_clicks_are_a_direction(driver: window.Window) -> Steps:
+    prepare(driver)
+    yield 0.3
+    with driver.override():
+        bpy.ops.reflines.pick_direction('INVOKE_DEFAULT')
+    yield from click(driver, 300, 300)
+    yield from click(driver, 400, 350)
+    settings = bpy.context.scene.reflection_lines.direction
+    assert settings.direction == 'POINTS'
+    between = np.array(settings.end) - np.array(settings.start)
+    assert abs(between[1] / between[0] - 0.5) < 1e-3  # seen from above, X to the right and Y up
+    assert abs(between[2]) < 1e-6
+
+
+def test_escape_leaves_all_as_it_was(driver: window.Window) -> Steps:
+    settings = bpy.context.scene.reflection_lines.direction
+    settings.direction = 'MEAN'
+    before = tuple(settings.start)
+    with driver.override():
+        bpy.ops.reflines.pick_direction('INVOKE_DEFAULT')
+    yield from click(driver, 500, 300)
+    driver.key('ESC')
+    yield 0.2
+    assert settings.direction == 'MEAN' and tuple(settings.start) == before
+
+
+window.run(test_two_clicks_are_a_direction, test_escape_leaves_all_as_it_was)
