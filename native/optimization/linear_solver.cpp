@@ -31,17 +31,15 @@ constexpr Eigen::Index kNestedDissection = 300000;
 
 // OpenBLAS splits its sums by the number of its threads, so that factors made with one and two threads differ in their
 // last bits (measured at 10k and 100k unknowns). The fronts of a surface mesh are small: a second thread gained nothing
-// in the factorization and doubled the time of a solve. One thread, then, for as long as this object lives.
-class SingleThreadedBlas {
- public:
-  SingleThreadedBlas() : threads_(openblas_get_num_threads()) { openblas_set_num_threads(1); }
-  ~SingleThreadedBlas() { openblas_set_num_threads(threads_); }
-  SingleThreadedBlas(const SingleThreadedBlas&) = delete;
-  SingleThreadedBlas& operator=(const SingleThreadedBlas&) = delete;
-
- private:
-  int threads_;
-};
+// in the factorization and doubled the time of a solve. One thread, then, from the first use on: the number is the
+// whole process's, and setting it back while another thread solves would pull the pool from under that solve.
+void keep_blas_to_one_thread() {
+  static const bool once = [] {
+    openblas_set_num_threads(1);
+    return true;
+  }();
+  static_cast<void>(once);
+}
 
 void require_memory(bool enough, const char* stage, Eigen::Index n) {
   if (enough) return;
@@ -249,7 +247,7 @@ bool LinearSolver::has_pattern_of(const SparseMatrix& matrix) const {
 }
 
 void LinearSolver::analyze(const SparseMatrix& matrix) {
-  const SingleThreadedBlas single_threaded_blas;
+  keep_blas_to_one_thread();
   has_factor_ = false;
   pattern_->starts.clear();
   backend_->analyze(matrix);
@@ -258,7 +256,7 @@ void LinearSolver::analyze(const SparseMatrix& matrix) {
 }
 
 void LinearSolver::factorize(const SparseMatrix& matrix) {
-  const SingleThreadedBlas single_threaded_blas;
+  keep_blas_to_one_thread();
   has_factor_ = false;
   Vector shifted;
   for (const double shift : kDiagonalShifts) {
@@ -277,7 +275,7 @@ void LinearSolver::factorize(const SparseMatrix& matrix) {
 }
 
 void LinearSolver::solve(Vector& x) {
-  const SingleThreadedBlas single_threaded_blas;
+  keep_blas_to_one_thread();
   backend_->solve(x);
 }
 

@@ -153,3 +153,22 @@ def test_region_without_a_free_vertex_is_refused():
     positions, triangles = panel(2)
     with pytest.raises(reflines.InvalidInput, match="No vertex of the region is free"):
         made(positions, triangles[:1])
+
+
+def test_two_threads_may_solve_at_once_and_get_the_bits_of_one():
+    positions, triangles = ripples(60)
+
+    def solved(results):
+        solver = made(positions, triangles)
+        solver.solve(reflines.smooth(solver, length=0.3))
+        results.append(solver.positions)
+
+    alone, together = [], []
+    solved(alone)
+    for _ in range(4):
+        threads = [threading.Thread(target=solved, args=(together,)) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    assert len(together) == 8 and all(np.array_equal(result, alone[0]) for result in together)
