@@ -321,6 +321,27 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
   return report;
 }
 
+SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, HessianModel model) {
+  for (const Target& target : targets) check(target);
+  SparseMatrix result(region_.free, region_.free);
+  int first = 0;
+  for (const auto& piece : pieces_) {
+    if (piece->size() == 0) continue;
+    piece->set_targets(targets);
+    const SparseMatrix& own = piece->hessian(piece->unknowns(), model);
+    result.reserve(result.nonZeros() + own.nonZeros());
+    for (int column = 0; column < own.cols(); ++column) {
+      result.startVec(first + column);
+      for (SparseMatrix::InnerIterator entry(own, column); entry; ++entry) {
+        result.insertBack(first + static_cast<int>(entry.row()), first + column) = entry.value();
+      }
+    }
+    first += piece->size();
+  }
+  result.finalize();
+  return result;
+}
+
 void ShapeOptimizer::reset() {
   for (const auto& piece : pieces_) piece->reset();
 }

@@ -84,6 +84,10 @@ class ShapeOptimizer {
   // Moves the heights towards the targets, every piece on its own. On cancel or failure nothing has moved.
   Report solve(const std::vector<Target>& targets, const MinimizerOptions& options = {}, Progress* progress = nullptr);
 
+  // The second-order model at the current heights that a solve would factor: lower triangle over the free vertices, the
+  // pieces one after another.
+  SparseMatrix hessian(const std::vector<Target>& targets, HessianModel model);
+
   void reset();  // the heights it was built with
 
  protected:

@@ -21,11 +21,8 @@ struct StencilEntries {
 // u = D z for heights z (#V); `u` keeps its memory.
 void apply_stencils(const Stencils& stencils, const Vector& z, TriangleDerivatives& u);
 
-// D^T y (#V) for one 5-vector a triangle; `result` keeps its memory.
+// D^T y (#V) for one 5-vector a triangle; `result` and the work space `products` (#entries) keep their memory.
 void apply_transposed(const Stencils& stencils, const StencilEntries& entries, const TriangleDerivatives& y,
-                      Vector& result);
-
-// The five weights of one stencil entry: its column of D.
-Eigen::Matrix<double, 5, 1> entry_weights(const Stencils& stencils, int triangle, int entry);
+                      Vector& products, Vector& result);
 
 }  // namespace reflines

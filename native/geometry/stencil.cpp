@@ -34,19 +34,64 @@ void set_gradient(const HeightField& field, int t, Stencils& stencils) {
   }
 }
 
-Stencils pack(const HeightField& field, const std::vector<HessianStencil>& each) {
+// The stencils of some neighbouring triangles, one behind the other. A million of separate ones would cost more memory
+// in the heap's book-keeping than in weights.
+struct Chunk {
+  std::vector<int> size;       // entries of each triangle; 0 where it has no stencil
+  std::vector<int> vertex;     // #entries
+  std::vector<double> weight;  // #entries x 3
+  int fallback_count = 0;
+
+  void add(const HessianStencil& stencil) {
+    size.push_back(static_cast<int>(stencil.vertex.size()));
+    vertex.insert(vertex.end(), stencil.vertex.begin(), stencil.vertex.end());
+    weight.insert(weight.end(), stencil.weight.data(), stencil.weight.data() + 3 * stencil.vertex.size());
+  }
+};
+
+constexpr int kChunkSize = 4096;
+
+std::vector<Chunk> make_chunks(const HeightField& field, StencilKind kind) {
+  std::vector<Chunk> chunks((field.triangle_count() + kChunkSize - 1) / kChunkSize);
+#pragma omp parallel for schedule(dynamic) if (field.triangle_count() > kWorthThreads)
+  for (int c = 0; c < static_cast<int>(chunks.size()); ++c) {
+    const int end = std::min((c + 1) * kChunkSize, field.triangle_count());
+    for (int t = c * kChunkSize; t < end; ++t) {
+      bool fell_back = false;
+      chunks[c].add(with_fallback(field, t, kind, fell_back));
+      chunks[c].fallback_count += fell_back;
+    }
+  }
+  return chunks;
+}
+
+void check_defined(const std::vector<Chunk>& chunks, int triangle_count) {
+  int missing = 0;
+  for (const Chunk& chunk : chunks) missing += static_cast<int>(std::count(chunk.size.begin(), chunk.size.end(), 0));
+  if (missing == 0) return;
+  throw InvalidInput("The quadratic stencil is not defined on " + std::to_string(missing) + " of " +
+                     std::to_string(triangle_count) +
+                     " triangles (a border, valence three, or six points on a conic); choose the consistent stencil.");
+}
+
+Stencils pack(const HeightField& field, std::vector<Chunk> chunks) {
   Stencils stencils;
+  stencils.offset.reserve(field.triangle_count() + 1);
   stencils.offset.push_back(0);
-  for (const HessianStencil& one : each)
-    stencils.offset.push_back(stencils.offset.back() + static_cast<int>(one.vertex.size()));
+  for (const Chunk& chunk : chunks) {
+    for (int size : chunk.size) stencils.offset.push_back(stencils.offset.back() + size);
+    stencils.fallback_count += chunk.fallback_count;
+  }
   stencils.vertex.reserve(stencils.offset.back());
   stencils.hessian.resize(stencils.offset.back(), 3);
-  stencils.gradient.resize(static_cast<int>(each.size()), 6);
-  for (int t = 0; t < static_cast<int>(each.size()); ++t) {
-    stencils.vertex.insert(stencils.vertex.end(), each[t].vertex.begin(), each[t].vertex.end());
-    stencils.hessian.middleRows(stencils.offset[t], each[t].weight.cols()) = each[t].weight.transpose();
-    set_gradient(field, t, stencils);
+  double* weight = stencils.hessian.data();
+  for (Chunk& chunk : chunks) {
+    stencils.vertex.insert(stencils.vertex.end(), chunk.vertex.begin(), chunk.vertex.end());
+    weight = std::copy(chunk.weight.begin(), chunk.weight.end(), weight);
+    chunk = {};
   }
+  stencils.gradient.resize(field.triangle_count(), 6);
+  for (int t = 0; t < field.triangle_count(); ++t) set_gradient(field, t, stencils);
   return stencils;
 }
 
@@ -66,23 +111,9 @@ double stencil_magnitude(const HeightField& field, const HessianStencil& stencil
 }
 
 Stencils make_stencils(const HeightField& field, StencilKind kind) {
-  std::vector<HessianStencil> each(field.triangle_count());
-  std::vector<char> fell_back(field.triangle_count(), 0);
-#pragma omp parallel for schedule(static)
-  for (int t = 0; t < field.triangle_count(); ++t) {
-    bool used_other = false;
-    each[t] = with_fallback(field, t, kind, used_other);
-    fell_back[t] = used_other;
-  }
-  const auto missing = std::count_if(each.begin(), each.end(), [](const HessianStencil& s) { return s.empty(); });
-  if (missing > 0) {
-    throw InvalidInput(
-        "The quadratic stencil is not defined on " + std::to_string(missing) + " of " + std::to_string(each.size()) +
-        " triangles (a border, valence three, or six points on a conic); choose the consistent stencil.");
-  }
-  Stencils stencils = pack(field, each);
-  stencils.fallback_count = static_cast<int>(std::count(fell_back.begin(), fell_back.end(), 1));
-  return stencils;
+  std::vector<Chunk> chunks = make_chunks(field, kind);
+  check_defined(chunks, field.triangle_count());
+  return pack(field, std::move(chunks));
 }
 
 }  // namespace reflines

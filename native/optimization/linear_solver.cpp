@@ -2,6 +2,7 @@
 
 #include <cblas.h>
 #include <cholmod.h>
+#include <omp.h>
 #include <umfpack.h>
 
 #include <algorithm>
@@ -40,6 +41,20 @@ void keep_blas_to_one_thread() {
   }();
   static_cast<void>(once);
 }
+
+// CHOLMOD's own loops ask for four threads whatever the machine has. On two cores they take as long as one thread, and
+// each team of another size makes OpenMP end and start threads: some milliseconds in each factorization of a small
+// system. The setting is the calling thread's.
+class SerialLoops {
+ public:
+  SerialLoops() : active_levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  ~SerialLoops() { omp_set_max_active_levels(active_levels_); }
+  SerialLoops(const SerialLoops&) = delete;
+  SerialLoops& operator=(const SerialLoops&) = delete;
+
+ private:
+  int active_levels_;
+};
 
 void require_memory(bool enough, const char* stage, Eigen::Index n) {
   if (enough) return;
@@ -248,6 +263,7 @@ bool LinearSolver::has_pattern_of(const SparseMatrix& matrix) const {
 
 void LinearSolver::analyze(const SparseMatrix& matrix) {
   keep_blas_to_one_thread();
+  const SerialLoops serial_loops;
   has_factor_ = false;
   pattern_->starts.clear();
   backend_->analyze(matrix);
@@ -257,6 +273,7 @@ void LinearSolver::analyze(const SparseMatrix& matrix) {
 
 void LinearSolver::factorize(const SparseMatrix& matrix) {
   keep_blas_to_one_thread();
+  const SerialLoops serial_loops;
   has_factor_ = false;
   Vector shifted;
   for (const double shift : kDiagonalShifts) {
@@ -276,6 +293,7 @@ void LinearSolver::factorize(const SparseMatrix& matrix) {
 
 void LinearSolver::solve(Vector& x) {
   keep_blas_to_one_thread();
+  const SerialLoops serial_loops;
   backend_->solve(x);
 }
 

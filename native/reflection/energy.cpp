@@ -50,7 +50,7 @@ Energy::Energy(const HeightField& field, const Stencils& stencils, double proxim
       share_(stencils.triangle_count()) {}
 
 double Energy::sum_triangles(bool with_gradient) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (stencils_.triangle_count() > kWorthThreads)
   for (int t = 0; t < stencils_.triangle_count(); ++t) {
     const Vector5 u = u_.row(t);
     Vector5 slope = Vector5::Zero();
@@ -70,17 +70,17 @@ double Energy::sum_triangles(bool with_gradient) {
 double Energy::evaluate(const Vector& z, Vector* gradient) {
   apply_stencils(stencils_, z, u_);
   double energy = sum_triangles(gradient != nullptr);
-  if (gradient) apply_transposed(stencils_, entries_, y_, *gradient);
+  if (gradient) apply_transposed(stencils_, entries_, y_, products_, *gradient);
   if (pull_.size() == 0) return energy;
   for (int v = 0; v < z.size(); ++v) energy += pull_(v) * (z(v) - start_(v)) * (z(v) - start_(v));
   if (gradient) gradient->array() += 2 * pull_.array() * (z - start_).array();
   return energy;
 }
 
-Energy::ElementHessians Energy::element_hessians(const Vector& z, HessianModel model) {
+const Energy::ElementHessians& Energy::element_hessians(const Vector& z, HessianModel model) {
   apply_stencils(stencils_, z, u_);
-  ElementHessians result(stencils_.triangle_count(), 15);
-#pragma omp parallel for schedule(static)
+  elements_.resize(stencils_.triangle_count(), 15);
+#pragma omp parallel for schedule(static) if (stencils_.triangle_count() > kWorthThreads)
   for (int t = 0; t < stencils_.triangle_count(); ++t) {
     Matrix5 M = Matrix5::Zero();
     for (const EnergyTerm& term : terms_) {
@@ -89,10 +89,10 @@ Energy::ElementHessians Energy::element_hessians(const Vector& z, HessianModel m
     if (model == HessianModel::kNewton) M = projected(M);
     int k = 0;
     for (int i = 0; i < 5; ++i) {
-      for (int j = i; j < 5; ++j) result(t, k++) = M(i, j);
+      for (int j = i; j < 5; ++j) elements_(t, k++) = M(i, j);
     }
   }
-  return result;
+  return elements_;
 }
 
 }  // namespace reflines

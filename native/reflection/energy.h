@@ -35,7 +35,8 @@ class Energy {
   // #T matrices D_T^T M_T D_T of the second-order model at z: M_T for every triangle, upper triangle row by row (15
   // numbers).
   using ElementHessians = Eigen::Matrix<double, Eigen::Dynamic, 15, Eigen::RowMajor>;
-  ElementHessians element_hessians(const Vector& z, HessianModel model);
+  // Overwritten by the next call.
+  const ElementHessians& element_hessians(const Vector& z, HessianModel model);
 
   // Diagonal of the proximity term's Hessian (#V).
   Vector proximity_hessian() const { return 2 * pull_; }
@@ -54,6 +55,8 @@ class Energy {
   TriangleDerivatives u_;  // #T x 5, work space
   TriangleDerivatives y_;  // #T x 5: dE/du
   Vector share_;           // #T: a triangle's energy
+  Vector products_;        // #entries, work space
+  ElementHessians elements_;
 };
 
 }  // namespace reflines

@@ -9,7 +9,7 @@ ReflectionField reflection_field(const ReflectionFunction& reflection, const Tri
   field.theta.resize(u.rows());
   field.gradient.resize(u.rows(), 2);
   field.visibility.resize(u.rows());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (u.rows() > kWorthThreads)
   for (int t = 0; t < static_cast<int>(u.rows()); ++t) {
     field.theta(t) = reflection.theta(u(t, 0), u(t, 1));
     field.gradient.row(t) = theta_gradient(reflection.derivatives(u(t, 0), u(t, 1), 1), u.row(t));

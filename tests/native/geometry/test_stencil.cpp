@@ -102,9 +102,9 @@ TEST(Stencil, TransposedProductIsTheAdjoint) {
   const Vector z = Vector::Random(field.vertex_count());
   const TriangleDerivatives y = TriangleDerivatives::Random(field.triangle_count(), 5);
   TriangleDerivatives u;
-  Vector transposed;
+  Vector products, transposed;
   apply_stencils(stencils, z, u);
-  apply_transposed(stencils, entries, y, transposed);
+  apply_transposed(stencils, entries, y, products, transposed);
   EXPECT_NEAR(u.cwiseProduct(y).sum(), z.dot(transposed), 1e-9 * u.norm() * y.norm());
 }
 

@@ -1,0 +1,10 @@
+// What each file of benchmarks offers to main.
+#pragma once
+
+namespace reflines::bench {
+
+void register_solves();
+void register_strategies();
+void register_biharmonic();
+
+}  // namespace reflines::bench

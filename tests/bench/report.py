@@ -1,0 +1,155 @@
+"""Runs the native benchmarks and writes build/bench/report.json: a list of {"name", "value", "unit", "note"}.
+
+Ratios are taken within one run, where both sides are measured by turns; every time is a median.
+"""
+import argparse
+import json
+import math
+import os
+import platform
+import statistics
+import subprocess
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build/release/tests/bench"
+OUT = ROOT / "build/bench"
+REPETITIONS = 5
+MILLION_REPETITIONS = 3  # a solve takes half a minute, and its spread is small
+TASKS = ("creation", "elimination")
+FIGURE_SIZES = (32, 64, 128, 256)
+
+Times = dict[str, float]  # benchmark -> median milliseconds
+
+
+@dataclass(frozen=True)
+class Row:
+    name: str
+    value: float
+    unit: str
+    note: str
+
+
+# What is aimed at, by row: (bound, whether the value should lie below it).
+REACH = {
+    "solve_over_factor_10k": (2.0, True), "solve_over_factor_100k": (2.0, True), "solve_over_factor_1m": (2.0, True),
+    "solve_1m_peak_gib": (5.0, True), "growth_100k_to_1m": (22.0, True), "adaptive_vs_linearized": (3.0, False),
+    "adaptive_vs_newton": (5.0, False), "warm_step_ms_10k": (16.0, True), "warm_step_ms_100k": (150.0, True),
+    "cgal_fair_over_ours_10k": (20.0, False), "biharmonic_over_ours_100k": (0.5, False),
+}
+
+
+def run(executable: str, pattern: str, repetitions: int) -> tuple[dict[str, list[dict]], float]:
+    """The runs of every benchmark that matches, and the peak memory of their process in GiB."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    raw = OUT / f"{executable}.json"
+    command = [BUILD / executable, f"--benchmark_filter={pattern}", f"--benchmark_repetitions={repetitions}",
+               "--benchmark_enable_random_interleaving=true", f"--benchmark_out={raw}", "--benchmark_out_format=json"]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    if status != 0:
+        raise SystemExit(f"{executable} {pattern} ended with exit code {os.waitstatus_to_exitcode(status)}")
+    runs: dict[str, list[dict]] = {}
+    for entry in json.loads(raw.read_text())["benchmarks"]:
+        if entry["run_type"] == "iteration":
+            runs.setdefault(entry["name"].split("/iterations")[0], []).append(entry)
+    return runs, usage.ru_maxrss / 2**20
+
+
+def medians(runs: dict[str, list[dict]]) -> Times:
+    return {name: statistics.median(entry["real_time"] for entry in entries) for name, entries in runs.items()}
+
+
+def fastest_factor(times: Times, size: str) -> tuple[float, str]:
+    """Milliseconds of one analyse and factor with the fastest back end, and its name."""
+    prefix = "factor_"
+    return min((time, name.split("/")[0].removeprefix(prefix)) for name, time in times.items()
+               if name.startswith(prefix) and name.endswith(f"/{size}"))
+
+
+def solve_rows(times: Times) -> list[Row]:
+    rows = []
+    for size in ("10k", "100k"):
+        factor, back_end = fastest_factor(times, size)
+        solve = times[f"solve/{size}"]
+        rows.append(Row(f"solve_over_factor_{size}", solve / factor, "",
+                        f"solve {solve:.0f} ms / analyse and factor with {back_end} {factor:.0f} ms, medians of {REPETITIONS}"))
+        rows.append(Row(f"warm_step_ms_{size}", times[f"warm_step/{size}"], "ms",
+                        f"one drag update, gradient down 100x; 10 updates, median of {REPETITIONS}"))
+        whole = times[f"whole_solve/{size}"]
+        rows.append(Row(f"whole_solve_ms_{size}", whole, "ms", f"from the bare mesh on, median of {REPETITIONS}"))
+    biharmonic, whole = times["biharmonic/100k"], times["whole_solve/100k"]
+    rows.append(Row("biharmonic_over_ours_100k", biharmonic / whole, "",
+                    f"{biharmonic:.0f} ms / {whole:.0f} ms, both from the bare mesh on, medians of {REPETITIONS}"))
+    return rows
+
+
+def cgal_row(times: Times) -> Row:
+    runs, _ = run("bench_cgal", ".*", REPETITIONS)
+    cgal, whole = medians(runs)["cgal_fair/10k"], times["whole_solve/10k"]
+    return Row("cgal_fair_over_ours_10k", cgal / whole, "",
+               f"{cgal:.0f} ms / {whole:.0f} ms from the bare mesh on, medians of {REPETITIONS}")
+
+
+def million_rows(times: Times) -> list[Row]:
+    """Each run is a process of its own, solves and factorizations by turns, so that the peak is that of one solve."""
+    solves, factors, peaks = [], [], []
+    for _ in range(MILLION_REPETITIONS):
+        runs, peak = run("bench_solve", "^solve/1m", 1)
+        solves.append(medians(runs)["solve/1m"])
+        peaks.append(peak)
+        factors.append(medians(run("bench_solve", "^factor_cholmod/1m", 1)[0])["factor_cholmod/1m"])
+    solve, factor, note = statistics.median(solves), statistics.median(factors), f"medians of {MILLION_REPETITIONS}"
+    return [Row("solve_over_factor_1m", solve / factor, "",
+                f"solve {solve / 1000:.1f} s / analyse and factor with cholmod {factor / 1000:.1f} s, {note} (each takes long)"),
+            Row("solve_1m_peak_gib", max(peaks), "GiB", "largest resident set of a process that makes and solves it"),
+            Row("growth_100k_to_1m", solve / times["solve/100k"], "", f"{solve / 1000:.1f} s / {times['solve/100k']:.0f} ms")]
+
+
+def strategy_rows(sizes: tuple[int, ...]) -> list[Row]:
+    """The paper's strategy and full Newton against ours: geometric means over both problems and all sizes."""
+    runs, _ = run("bench_solve", f"^strategy/[a-z_]*/[a-z_]*/({'|'.join(map(str, sizes))})/", REPETITIONS)
+    times = medians(runs)
+    (OUT / "strategies.json").write_text(json.dumps(
+        {name: entries[0] | {"real_time": times[name]} for name, entries in runs.items()}, indent=1))
+    rows = []
+    for other in ("linearized", "gauss_newton", "newton"):
+        ratios, missed = [], 0
+        for task in TASKS:
+            for size in sizes:
+                name = f"strategy/{task}/{other}/{size}"
+                missed += runs[name][0]["reached"] == 0
+                ratios.append(times[name] / times[f"strategy/{task}/adaptive/{size}"])
+        note = f"to the same energy, {min(ratios):.1f} to {max(ratios):.1f} over {len(ratios)} problems, medians of {REPETITIONS}"
+        late = f"; {missed} of them not there after 256 steps, and counted with those" if missed else ""
+        rows.append(Row(f"adaptive_vs_{other}", math.exp(statistics.fmean(map(math.log, ratios))), "", note + late))
+    return rows
+
+
+def print_table(rows: list[Row]) -> None:
+    print(f"\n{'name':28} {'value':>8} {'unit':4} {'reach':>8}      note")
+    for row in rows:
+        bound, below = REACH.get(row.name, (math.nan, True))
+        met = "" if math.isnan(bound) else "ok" if (row.value <= bound if below else row.value >= bound) else "MISSED"
+        reach = "" if math.isnan(bound) else f"{'<=' if below else '>='} {bound:g}"
+        print(f"{row.name:28} {row.value:8.2f} {row.unit:4} {reach:>8} {met:6} {row.note}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="./run bench", description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="without one million unknowns and the largest of Figure 7")
+    quick = parser.parse_args().quick
+    times = medians(run("bench_solve", "^(solve|whole_solve|factor_[a-z]*|warm_step|biharmonic)/100?k", REPETITIONS)[0])
+    rows = [*solve_rows(times), cgal_row(times), *strategy_rows(FIGURE_SIZES[:-1] if quick else FIGURE_SIZES)]
+    if not quick:
+        rows += million_rows(times)
+    (OUT / "report.json").write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n")
+    print_table(rows)
+    load = os.getloadavg()[0]
+    print(f"\n{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {load:.1f} at the end: ", end="")
+    print("a load well above the cores blurs milliseconds." if load > os.cpu_count() + 1 else "quiet.")
+
+
+if __name__ == "__main__":
+    main()
