@@ -17,7 +17,10 @@ constexpr double kConsistentThreshold = 20.0;
 HessianStencil with_fallback(const HeightField& field, int t, StencilKind kind, bool& fell_back) {
   if (kind == StencilKind::kAveraged) return averaged_hessian(field, t);
   HessianStencil six = quadratic_hessian(field, t);
-  if (kind == StencilKind::kQuadratic) return six;
+  if (kind == StencilKind::kQuadratic) {
+    fell_back = six.empty() && field.neighbors.row(t).minCoeff() < 0;
+    return fell_back ? averaged_hessian(field, t) : six;
+  }
   const double threshold = kind == StencilKind::kHybrid ? kPaperThreshold : kConsistentThreshold;
   if (!six.empty() && stencil_magnitude(field, six) <= threshold) return six;
   fell_back = true;
@@ -71,7 +74,7 @@ void check_defined(const std::vector<Chunk>& chunks, int triangle_count) {
   if (missing == 0) return;
   throw InvalidInput("The quadratic stencil is not defined on " + std::to_string(missing) + " of " +
                      std::to_string(triangle_count) +
-                     " triangles (a border, valence three, or six points on a conic); choose the consistent stencil.");
+                     " triangles (valence three, or six points on a conic); choose the consistent stencil.");
 }
 
 Stencils pack(const HeightField& field, std::vector<Chunk> chunks) {

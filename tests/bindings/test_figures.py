@@ -1,0 +1,45 @@
+"""The main numbers of the figures that `./run figures` draws, at sizes that take seconds."""
+import numpy as np
+import pytest
+from figures import normals, sphere
+
+
+def order(coarse: float, fine: float) -> float:
+    """Of convergence, where the second mesh has twice as many cells a side."""
+    return float(np.log2(coarse / fine))
+
+
+def test_consistent_converges_at_second_order_on_irregular_meshes_down_to_a_hundred_thousandth():
+    errors = [sphere.recover("irregular", "consistent", cells).error for cells in (16, 64, 128)]
+    assert order(errors[0], errors[1]) / 2 > 1.4  # over two doublings; meshes differ, so single ones scatter
+    assert order(errors[1], errors[2]) > 1.6
+    assert errors[2] < 1e-5
+
+
+@pytest.mark.parametrize("stencil", ["averaged", "hybrid"])
+def test_stencils_of_the_paper_stop_converging_on_irregular_meshes(stencil):
+    coarse, fine = (sphere.recover("irregular", stencil, cells).error for cells in (16, 64))
+    assert order(coarse, fine) / 2 < 0.8
+    assert fine > 50 * sphere.recover("irregular", "consistent", 64).error
+
+
+@pytest.mark.parametrize("stencil", sphere.STENCILS)
+def test_every_stencil_converges_on_regular_meshes(stencil):
+    coarse, fine = (sphere.recover("regular", stencil, cells).error for cells in (16, 64))
+    assert order(coarse, fine) / 2 > 1.4
+
+
+def test_quadratic_is_not_defined_at_valence_three_and_consistent_converges_there():
+    refused = sphere.recover("valence 3", "quadratic", 16)
+    assert np.isnan(refused.error)
+    assert "valence three" in refused.ended
+    coarse, fine = (sphere.recover("valence 3", "consistent", cells).error for cells in (16, 64))
+    assert order(coarse, fine) / 2 > 1.4
+
+
+def test_quadratic_fit_of_normals_beats_the_averages_on_an_irregular_cylinder():
+    coarse, fine = normals.errors(16), normals.errors(64)
+    fit = normals.rms(fine["quadratic fit"])
+    for average in ("area-weighted average", "angle-weighted average"):
+        assert normals.rms(fine[average]) > 10 * fit
+    assert order(normals.rms(coarse["quadratic fit"]), fit) / 2 > 1.5
