@@ -74,7 +74,8 @@ def solve_rows(times: Times) -> list[Row]:
         factor, back_end = fastest_factor(times, size)
         solve = times[f"solve/{size}"]
         rows.append(Row(f"solve_over_factor_{size}", solve / factor, "",
-                        f"solve {solve:.0f} ms / analyse and factor with {back_end} {factor:.0f} ms, medians of {REPETITIONS}"))
+                        f"solve {solve:.0f} ms / analyse and factor with {back_end} {factor:.0f} ms, "
+                        f"medians of {REPETITIONS}"))
         rows.append(Row(f"warm_step_ms_{size}", times[f"warm_step/{size}"], "ms",
                         f"one drag update, gradient down 100x; 10 updates, median of {REPETITIONS}"))
         whole = times[f"whole_solve/{size}"]
@@ -102,9 +103,11 @@ def million_rows(times: Times) -> list[Row]:
         factors.append(medians(run("bench_solve", "^factor_cholmod/1m", 1)[0])["factor_cholmod/1m"])
     solve, factor, note = statistics.median(solves), statistics.median(factors), f"medians of {MILLION_REPETITIONS}"
     return [Row("solve_over_factor_1m", solve / factor, "",
-                f"solve {solve / 1000:.1f} s / analyse and factor with cholmod {factor / 1000:.1f} s, {note} (each takes long)"),
+                f"solve {solve / 1000:.1f} s / analyse and factor with cholmod {factor / 1000:.1f} s, "
+                f"{note} (each takes long)"),
             Row("solve_1m_peak_gib", max(peaks), "GiB", "largest resident set of a process that makes and solves it"),
-            Row("growth_100k_to_1m", solve / times["solve/100k"], "", f"{solve / 1000:.1f} s / {times['solve/100k']:.0f} ms")]
+            Row("growth_100k_to_1m", solve / times["solve/100k"], "",
+                f"{solve / 1000:.1f} s / {times['solve/100k']:.0f} ms")]
 
 
 def strategy_rows(sizes: tuple[int, ...]) -> list[Row]:
@@ -121,7 +124,8 @@ def strategy_rows(sizes: tuple[int, ...]) -> list[Row]:
                 name = f"strategy/{task}/{other}/{size}"
                 missed += runs[name][0]["reached"] == 0
                 ratios.append(times[name] / times[f"strategy/{task}/adaptive/{size}"])
-        note = f"to the same energy, {min(ratios):.1f} to {max(ratios):.1f} over {len(ratios)} problems, medians of {REPETITIONS}"
+        spread = f"{min(ratios):.1f} to {max(ratios):.1f} over {len(ratios)} problems"
+        note = f"to the same energy, {spread}, medians of {REPETITIONS}"
         late = f"; {missed} of them not there after 256 steps, and counted with those" if missed else ""
         rows.append(Row(f"adaptive_vs_{other}", math.exp(statistics.fmean(map(math.log, ratios))), "", note + late))
     return rows
@@ -141,7 +145,8 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="without one million unknowns and the largest of Figure 7")
     quick = parser.parse_args().quick
     times = medians(run("bench_solve", "^(solve|whole_solve|factor_[a-z]*|warm_step|biharmonic)/100?k", REPETITIONS)[0])
-    rows = [*solve_rows(times), cgal_row(times), *strategy_rows(FIGURE_SIZES[:-1] if quick else FIGURE_SIZES)]
+    sizes = FIGURE_SIZES[:-1] if quick else FIGURE_SIZES
+    rows = [*solve_rows(times), cgal_row(times), *strategy_rows(sizes)]
     if not quick:
         rows += million_rows(times)
     (OUT / "report.json").write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n")

@@ -38,7 +38,7 @@ def laplacian(start: np.ndarray, triangles: np.ndarray, steps: int) -> np.ndarra
 
 
 def field_errors() -> tuple[float, dict[float, float], dict[int, float]]:
-    """rms of |grad theta - that of the clean panel|: of the rippled panel, by smoothing length, and by Laplacian steps."""
+    """rms of |grad theta - the clean panel's|: of the rippled panel, by smoothing length, and by Laplacian steps."""
     clean, triangles = panel()
     wanted = optimizer(clean, triangles).field()
     start = rippled(clean, amplitude=AMPLITUDE, wavelength=WAVELENGTH)

@@ -49,8 +49,8 @@ def pushed_in(points: np.ndarray, exact: np.ndarray, depth: float) -> np.ndarray
 
 
 def optimizer(points: np.ndarray, heights: np.ndarray, triangles: np.ndarray, stencil: str) -> reflines.ShapeOptimizer:
-    return reflines.ShapeOptimizer(np.column_stack([points, heights]), triangles, view_direction=VIEW, line_direction=LINES,
-                                   stencil=stencil)
+    return reflines.ShapeOptimizer(np.column_stack([points, heights]), triangles, view_direction=VIEW,
+                                   line_direction=LINES, stencil=stencil)
 
 
 def recover(mesh: str, stencil: str, cells: int) -> Recovery:

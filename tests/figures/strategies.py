@@ -1,4 +1,4 @@
-"""Figure 7: time and iterations to the same energy, by strategy and size, for a bump made on a cylinder and taken away."""
+"""Figure 7: time and iterations to the same energy, by strategy and size: a bump is made on a cylinder, or taken away."""
 import csv
 from pathlib import Path
 
