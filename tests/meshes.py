@@ -5,8 +5,8 @@ Mesh = tuple[np.ndarray, np.ndarray]
 
 
 def cut_squares(cells: int, rising: np.ndarray, *, jitter: float = 0.0, seed: int = 1) -> Mesh:
-    """cells x cells squares, each cut along the diagonal that `rising` (cells x cells) says; inner points are moved by up
-    to `jitter` cells."""
+    """cells x cells squares, each cut along the diagonal that `rising` (cells x cells) says; inner points are moved by
+    up to `jitter` cells."""
     i, j = np.meshgrid(np.arange(cells + 1), np.arange(cells + 1))
     points = np.column_stack([i.ravel(), j.ravel()]) / cells - 0.5
     inner = ((i > 0) & (i < cells) & (j > 0) & (j < cells)).ravel()

@@ -152,7 +152,8 @@ def main() -> None:
     (OUT / "report.json").write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n")
     print_table(rows)
     load = os.getloadavg()[0]
-    print(f"\n{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {load:.1f} at the end: ", end="")
+    print(f"\n{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {load:.1f} at the end: ",
+          end="")
     print("a load well above the cores blurs milliseconds." if load > os.cpu_count() + 1 else "quiet.")
 
 

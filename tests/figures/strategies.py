@@ -1,4 +1,4 @@
-"""Figure 7: time and iterations to the same energy, by strategy and size: a bump is made on a cylinder, or taken away."""
+"""Figure 7: time and iterations to the same energy by strategy and size: a bump on a cylinder is made, or removed."""
 import csv
 from pathlib import Path
 
