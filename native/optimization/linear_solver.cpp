@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,8 @@ constexpr Eigen::Index kNestedDissection = 300000;
 // in the factorization and doubled the time of a solve. One thread, then, from the first use on: the number is the
 // whole process's, and setting it back while another thread solves would pull the pool from under that solve.
 void keep_blas_to_one_thread() {
-  static const bool once = [] {
-    openblas_set_num_threads(1);
-    return true;
-  }();
-  static_cast<void>(once);
+  static std::once_flag flag;
+  std::call_once(flag, [] { openblas_set_num_threads(1); });
 }
 
 // CHOLMOD's own loops ask for four threads whatever the machine has. On two cores they take as long as one thread, and
