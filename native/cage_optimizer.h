@@ -5,25 +5,15 @@
 
 #include <vector>
 
-#include "native/geometry/cage_border.h"
-#include "native/geometry/subdivision.h"
+#include "native/cage_surface.h"
 #include "native/shape_optimizer.h"
 #include "native/types.h"
 
 namespace reflines {
 
-struct CageOptions {
-  Mask region;                                        // #cage faces that may change; empty: all
-  BorderHold hold = BorderHold::kPositionAndTangent;  // of the region's border on the subdivided surface
-  Mask held;                                          // #V or empty: vertices that stay whatever the border says
-  IndexVector partner;                                // #V or empty: mirror_pairs, whose partners rise alike
-  SubdivisionOptions subdivision;
-  ShapeOptions shape;  // its border, held and motion are not read
-};
-
 class CageOptimizer : public ShapeOptimizer {
  public:
-  // V (#V x 3) of the cage. The region handed on to ShapeOptimizer is that of the subdivided surface, see `surface`.
+  // V (#V x 3) of the cage. The region handed on to ShapeOptimizer is that of the subdivided surface.
   // Throws InvalidInput: what subdivide and ShapeOptimizer refuse, masks and partners of another length than the cage.
   CageOptimizer(const Cage& cage, const Positions& V, const Vector3& view_direction,
                 const std::vector<Vector3>& line_directions, const CageOptions& options = {});
@@ -36,26 +26,18 @@ class CageOptimizer : public ShapeOptimizer {
   const IndexVector& refined() const { return surface_.refined; }  // #region vertices: number among all refined ones
 
   // Moves the cage so that its surface is nearest to these heights along the view (#region vertices) by least squares;
-  // `weight` (#region vertices, >= 0) is 0 where there is no such height. That shape is then the one a free border is
-  // drawn to. Vertices of the cage that no weighted height depends on stay.
+  // `weight` (#region vertices) is the area each speaks for, 0 where there is no such height. Until a reset, solves are
+  // drawn to the heights: of a shape longer than four faces of the cage they decide, of a shorter one the lines.
+  // Vertices of the cage that no weighted height depends on stay.
   void fit(const Vector& heights, const Vector& weight);
 
  private:
-  // The region of the subdivided surface, with its own numbers.
-  struct Surface {
-    SparseMatrix S;       // #region vertices x #V
-    IndexVector refined;  // #region vertices
-    Triangles F;
-    IndexVector parent;
-    SparseMatrix rise;  // #V x #unknowns: which vertices of the cage each unknown lifts
-    Vector start;       // #unknowns: their heights
-  };
-  static Surface make_surface(const Cage& cage, const Positions& V, const Vector3& view, const CageOptions& options);
-  CageOptimizer(Surface surface, const Positions& V, const Vector3& view_direction,
+  double height_density();  // of the pull to fitted heights, per area
+  CageOptimizer(CageSurface surface, const Positions& V, const Vector3& view_direction,
                 const std::vector<Vector3>& line_directions, const ShapeOptions& options);
 
   Positions V_;
-  Surface surface_;
+  CageSurface surface_;
 };
 
 }  // namespace reflines

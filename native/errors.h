@@ -1,6 +1,7 @@
-// The two kinds of failure. "Not converged" is neither: it is a value of Report::termination.
+// The two kinds of failure, and being told to stop. "Not converged" is none: it is a value of Report::termination.
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 
 namespace reflines {
@@ -15,6 +16,12 @@ class InvalidInput : public std::invalid_argument {
 class SolverFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// Progress::cancel was called before there was anything to keep. A solve does not throw it: there it is a Termination.
+class Cancelled : public std::exception {
+ public:
+  const char* what() const noexcept override { return "Cancelled: nothing was made and nothing was changed."; }
 };
 
 }  // namespace reflines

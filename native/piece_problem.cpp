@@ -2,19 +2,18 @@
 
 #include <algorithm>
 
+#include "native/coarse_piece.h"
 #include "native/geometry/smooth_modes.h"
+#include "native/optimization/dissection.h"
 #include "native/reflection/features.h"
 #include "native/reflection/scalar_gradient.h"
 
 namespace reflines {
 namespace {
 
-// A free border leaves the profile along the lines undetermined (theta ~ f_x: any g(y) is free; null space 9 on a free
-// 8 x 8 grid). A second family across the first, asked to stay as it is, leaves only affine functions; the proximity
-// holds those. Of the two, the second family is blind to position and bends nothing, so it may be the stronger one.
-constexpr double kCrossingWeight = 1e-3;
-// Measured with a clean panel as target for a rippled one, free on all sides: with 1e-6 it tilts by 7 times the ripples
-// (the lines hardly see it), with 10 by 1 %, and up to 1000 the lines come out the same.
+// Of free borders, where the lines leave affine functions open (see crossing_term). Measured with a clean panel as
+// target for a rippled one, free on all sides: with 1e-6 it tilts by 7 times the ripples (the lines hardly see it),
+// with 10 by 1 %, and up to 1000 the lines come out the same.
 constexpr double kFreeBorderProximity = 10.0;
 
 // Of cages, always: a vertex may move no sample that counts (weight 0, hidden lines), and then the Hessian is singular.
@@ -44,16 +43,35 @@ double default_proximity(double proximity, bool free_border, bool cage) {
   return cage ? kCageProximity : 0.0;
 }
 
+std::vector<int> sampled_triangles(const HeightField& field, const Vector& share) {
+  std::vector<int> sampled;
+  for (int t = 0; t < field.triangle_count() && share.size() > 0; ++t) {
+    if (share(field.source[t]) > 0) sampled.push_back(t);
+  }
+  return sampled;
+}
+
+Vector shares_of(const HeightField& field, const std::vector<int>& sampled, const Vector& share) {
+  Vector result(sampled.size());
+  for (int k = 0; k < result.size(); ++k) result(k) = share(field.source[sampled[k]]);
+  return result;
+}
+
 }  // namespace
 
 PieceProblem::PieceProblem(Piece piece, Unknowns unknowns, StencilKind stencil,
-                           std::vector<ReflectionFunction> families, double proximity, LinearSolverKind solver)
+                           std::vector<ReflectionFunction> families, double proximity, LinearSolverKind solver,
+                           const Vector& share)
     : piece_(std::move(piece)),
       stencils_(make_stencils(piece_.field, stencil)),
+      sampled_(sampled_triangles(piece_.field, share)),
+      share_(shares_of(piece_.field, sampled_, share)),
+      sampled_stencils_(chosen_stencils(stencils_, sampled_)),
       families_(std::move(families)),
       free_border_(has_free_border(piece_.field)),
       unknowns_(std::move(unknowns)),
-      energy_(piece_.field, stencils_, default_proximity(proximity, free_border_, unknowns_.modes().size() > 0)),
+      energy_(piece_.field, sampled_.empty() ? stencils_ : sampled_stencils_,
+              default_proximity(proximity, free_border_, unknowns_.modes().size() > 0)),
       minimizer_(solver),
       solver_(solver),
       x_(unknowns_.start()),
@@ -62,19 +80,22 @@ PieceProblem::PieceProblem(Piece piece, Unknowns unknowns, StencilKind stencil,
 }
 
 void PieceProblem::find_hidden() {
-  for (size_t k = 0; k < families_.size(); ++k) {
-    visible_.push_back(field(static_cast<int>(k)).visibility.unaryExpr(&visibility_weight));
-  }
+  TriangleDerivatives u;
+  apply_stencils(stencils_, z_, u);
+  for (const ReflectionFunction& family : families_) visible_.push_back(visibility_weights(family, u));
   for (int t = 0; t < stencils_.triangle_count(); ++t) {
     bool hidden = false;
     for (size_t k = 0; k + 1 < families_.size(); ++k) hidden = hidden || visible_[k](t) < 1;
     hidden_count_ += hidden;
   }
+  const Mask held = held_at_border(piece_.field);
+  for (Vector& weight : visible_) weight = held.select(0.0, weight.array());
 }
 
 void PieceProblem::set_heights(const Vector& x) {
   x_ = x;
   unknowns_.heights(x_, z_);
+  kept_field_.family = -1;
 }
 
 void PieceProblem::rest_at(const Vector& x) {
@@ -82,16 +103,36 @@ void PieceProblem::rest_at(const Vector& x) {
   energy_.set_start(z_);
 }
 
+void PieceProblem::pull_to(const Vector& z, const Vector& weight) {
+  energy_.pull_to(z, weight);
+  pulled_ = true;
+  minimizer_.emplace(solver_);  // its factor is of another energy
+}
+
 void PieceProblem::reset() {
   set_heights(unknowns_.start());
+  energy_.pull_as_built(piece_.field.z);
+  pulled_ = false;
   // A kept factor makes the next solve 3 times faster at 100k, but its other path to the minimum ends 4e-9 beside it.
   minimizer_.emplace(solver_);
 }
 
-ReflectionField PieceProblem::field(int family) const {
+ReflectionField PieceProblem::field_of(const Vector& z, int family) const {
   TriangleDerivatives u;
-  apply_stencils(stencils_, z_, u);
+  apply_stencils(stencils_, z, u);
   return reflection_field(families_[family], u);
+}
+
+bool PieceProblem::depends_only_on(int triangle, const Vector& known) const {
+  for (int e = stencils_.offset[triangle]; e < stencils_.offset[triangle + 1]; ++e) {
+    if (!(known(stencils_.vertex[e]) > 0)) return false;
+  }
+  return true;
+}
+
+const ReflectionField& PieceProblem::field(int family) {
+  if (kept_field_.family != family) kept_field_ = {family, field_of(z_, family)};
+  return kept_field_.field;
 }
 
 void PieceProblem::add_vertex_field(RegionField& region) const {
@@ -99,7 +140,6 @@ void PieceProblem::add_vertex_field(RegionField& region) const {
   TriangleDerivatives u;
   apply_stencils(stencils_, z_, u);
   const ReflectionField own = reflection_field(families_[region.family], u);
-  for (int t = 0; t < field.triangle_count(); ++t) region.area(field.source[t]) = field.area(t);
   for (int v = 0; v < field.vertex_count(); ++v) {
     Vector2 slope = Vector2::Zero(), gradient = Vector2::Zero();
     double area = 0;
@@ -110,6 +150,7 @@ void PieceProblem::add_vertex_field(RegionField& region) const {
       area += field.area(t);
     }
     slope /= area;
+    region.vertex_slope.row(piece_.vertex[v]) = slope.transpose();
     region.vertex_theta(piece_.vertex[v]) = families_[region.family].theta(slope.x(), slope.y());
     region.vertex_gradient.row(piece_.vertex[v]) = gradient.transpose() / area;
   }
@@ -127,57 +168,6 @@ Vector2 PieceProblem::slope_at(int t, int v, const TriangleDerivatives& u) const
   return Vector2(u(t, 0), u(t, 1)) - linear_gradient(field.xy, corners, bend(corners(1)), bend(corners(2)));
 }
 
-Vector PieceProblem::changeable_area() const {
-  const HeightField& field = piece_.field;
-  Vector area = field.area;
-  for (int t = 0; t < field.triangle_count(); ++t) {
-    bool changeable = false;
-    for (int i = 0; i < 3; ++i) changeable = changeable || field.role[field.F(t, i)] == VertexRole::kFree;
-    if (!changeable) area(t) = 0;
-  }
-  return area;
-}
-
-EnergyTerm PieceProblem::term(const Target& target) const {
-  const HeightField& field = piece_.field;
-  EnergyTerm term{families_[target.family], {}, {}, Vector(field.triangle_count())};
-  const bool by_value = target.theta.size() > 0;
-  term.gradient.resize(by_value ? 0 : field.triangle_count(), 2);
-  term.theta.resize(by_value ? field.triangle_count() : 0);
-  for (int t = 0; t < field.triangle_count(); ++t) {
-    const int row = field.source[t];
-    const double wanted_weight = target.weight.size() > 0 ? target.weight(row) : 1.0;
-    term.weight(t) = wanted_weight * field.area(t) * visible_[target.family](t);
-    if (by_value) {
-      term.theta(t) = target.theta(row);
-    } else {
-      term.gradient.row(t) = target.gradient.row(row);
-    }
-  }
-  return term;
-}
-
-ReflectionField PieceProblem::start_field(int family) const {
-  TriangleDerivatives u;
-  apply_stencils(stencils_, piece_.field.z, u);
-  return reflection_field(families_[family], u);
-}
-
-EnergyTerm PieceProblem::crossing_term() const {
-  const int last = static_cast<int>(families_.size()) - 1;
-  return {families_[last],
-          start_field(last).gradient,
-          {},
-          (kCrossingWeight * piece_.field.area.array() * visible_[last].array()).matrix()};
-}
-
-void PieceProblem::set_targets(const std::vector<Target>& targets) {
-  std::vector<EnergyTerm> terms;
-  for (const Target& target : targets) terms.push_back(term(target));
-  if (free_border_) terms.push_back(crossing_term());
-  energy_.set_terms(std::move(terms));
-}
-
 Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progress) {
   Vector x = x_;
   const Report report = minimizer_->minimize(*this, x, options, progress);
@@ -185,29 +175,49 @@ Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progres
   return report;
 }
 
-const FieldSmoother& PieceProblem::kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along,
-                                        int family) {
+void PieceProblem::enter(double fraction, const char* stage) const {
+  if (progress_ != nullptr) progress_->enter(fraction, stage);
+}
+
+const PlaneVectors& PieceProblem::KeptSmoother::of(const PlaneVectors& gradient) {
+  if (rough.rows() == gradient.rows() && rough == gradient) return smooth;
+  smooth = smoother->smooth(gradient);
+  rough = gradient;
+  return smooth;
+}
+
+PieceProblem::KeptSmoother& PieceProblem::kept(KeptSmoother& kept, const SmoothOptions& options,
+                                               const PlaneVectors& along, int family) {
   const bool same_along = along.rows() == kept.along.rows() && along == kept.along;
-  if (kept.smoother && kept.length == options.length && kept.family == family && same_along) return *kept.smoother;
+  if (kept.smoother && kept.length == options.length && kept.family == family && same_along) return kept;
   const SpdFactorize factorize = [this](const SparseMatrix& matrix) -> SpdSolve {
     auto solver = std::make_shared<LinearSolver>(solver_);
-    solver->analyze(matrix);
+    enter(0.3, "ordering the smoothing");
+    solver->analyze(matrix, dissection_order(matrix, piece_.field.xy));
+    enter(0.6, "factorizing the smoothing");
     solver->factorize(matrix);
+    enter(0.9, "smoothing");
     return [solver](Vector& x) { solver->solve(x); };
   };
-  kept = {std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, features(options.length, family),
-                                          factorize),
-          options.length, along, family};
-  return *kept.smoother;
+  enter(0.0, "finding features");
+  const Mask& held = features(options.length, family);
+  enter(0.1, "assembling the smoothing");
+  auto smoother = std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, held, factorize);
+  kept = {std::move(smoother), options.length, along, family, {}, {}};
+  return kept;
 }
 
 PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options, int family) {
-  const PlaneVectors isotropic = kept(isotropic_, {options.length, false}, PlaneVectors(0, 2), family).smooth(gradient);
-  return options.directional ? kept(directional_, options, isotropic, family).smooth(gradient) : isotropic;
+  const PlaneVectors& isotropic = kept(isotropic_, {options.length, false}, PlaneVectors(0, 2), family).of(gradient);
+  return options.directional ? kept(directional_, options, isotropic, family).of(gradient) : isotropic;
 }
 
-Mask PieceProblem::features(double length, int family) const {
-  return strong_features(piece_.field, start_field(family).gradient, length);
+const Mask& PieceProblem::features(double length, int family) {
+  if (kept_features_.family != family || kept_features_.length != length) {
+    const PlaneVectors start = field_of(piece_.field.z, family).gradient;
+    kept_features_ = {family, length, strong_features(piece_.field, start, length)};
+  }
+  return kept_features_.mask;
 }
 
 double PieceProblem::evaluate(const Vector& x, Vector* gradient) {
@@ -220,21 +230,41 @@ double PieceProblem::evaluate(const Vector& x, Vector* gradient) {
 
 const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
   if (!assembly_) {
-    assembly_ =
-        std::make_unique<HessianAssembly>(stencils_, energy_.entries(), unknowns_.column(), unknowns_.moving_count());
+    assembly_ = std::make_unique<HessianAssembly>(energy_.stencils(), energy_.entries(), unknowns_.column(),
+                                                  unknowns_.moving_count());
     if (unknowns_.modes().size() > 0) product_ = std::make_unique<GalerkinProduct>(unknowns_.modes());
   }
   unknowns_.heights(x, trial_z_);
   const SparseMatrix& whole =
       assembly_->assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
-  return product_ ? product_->project(whole) : whole;
+  if (!product_) return whole;
+  height_rounding_ = whole.diagonal();
+  return product_->project(whole);
 }
 
-const SparseMatrix* PieceProblem::smooth_modes() {
-  if (unknowns_.modes().size() > 0) return nullptr;  // few unknowns: their own factor is cheap
-  if (!smooth_modes_)
-    smooth_modes_ = std::make_unique<SparseMatrix>(reflines::smooth_modes(piece_.field, kKnotSpacing));
-  return smooth_modes_.get();
+// Heights of a fine surface are rounded as coarsely as those of its cage, but its second derivatives notice it far
+// more.
+Vector PieceProblem::rounding_weight(const SparseMatrix& hessian) {
+  if (!product_) return hessian.diagonal();
+  return (unknowns_.modes().cwiseAbs2() * height_rounding_.cwiseAbs2()).cwiseSqrt();
+}
+
+PlanePositions PieceProblem::places() {
+  if (unknowns_.modes().size() > 0) return {};
+  PlanePositions result(size(), 2);
+  for (int v = 0; v < piece_.field.vertex_count(); ++v) {
+    if (unknowns_.column()[v] >= 0) result.row(unknowns_.column()[v]) = piece_.field.xy.row(v);
+  }
+  return result;
+}
+
+std::unique_ptr<CoarseProblem> PieceProblem::coarse(const Vector& x, const Vector& gradient) {
+  // Few unknowns: their own factor is cheap. Few triangles that count: the samples would be of samples.
+  if (unknowns_.modes().size() > 0 || !sampled_.empty()) return nullptr;
+  SmoothModes modes = smooth_modes(piece_.field, kKnotSpacing);
+  if (modes.count() == 0) return nullptr;
+  unknowns_.heights(x, trial_z_);
+  return std::make_unique<CoarsePiece>(piece_.field, energy_, std::move(modes), trial_z_, gradient);
 }
 
 }  // namespace reflines

@@ -1,5 +1,7 @@
 #include "native/shape_optimizer.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,8 +11,6 @@
 
 namespace reflines {
 namespace {
-
-std::string faces(int n) { return std::to_string(n) + (n == 1 ? " face" : " faces"); }
 
 const Vector3& first_of(const std::vector<Vector3>& line_directions) {
   if (line_directions.empty())
@@ -50,6 +50,21 @@ void accumulate(const Report& piece, Report& sum) {
   }
 }
 
+// Solves for a drag take 10 to 20 ms: on a machine that is busy with drawing, threads waiting for each other took five
+// times as long as one thread alone. The bits are the same.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads) : before_(omp_get_max_threads()) {  // 0: no limit
+    if (threads > 0) omp_set_num_threads(threads);
+  }
+  ~ThreadLimit() { omp_set_num_threads(before_); }
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  int before_;
+};
+
 }  // namespace
 
 ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
@@ -58,146 +73,53 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
       V_(V),
       F_(F),
       triangle_count_(static_cast<int>(F.rows())),
-      family_count_(static_cast<int>(line_directions.size())) {
+      family_count_(static_cast<int>(line_directions.size())),
+      progress_(options.progress) {
+  enter(0.0, "checking the mesh");
   check_surface(V, F);
+  enter(0.2, "dividing into height fields");
   HeightField field = make_height_field(V, F, frame_, boundary_of(options, V.rows()));
+  sampled_ = options.share.size() > 0;
   if (!options.motion.empty()) moving_ = couple(options.motion, field);
   std::vector<ReflectionFunction> families;
   for (const Vector3& a : line_directions) families.emplace_back(frame_, frame_.z(), a);
   families.emplace_back(frame_, frame_.z(), frame_.x());  // across the first family: see PieceProblem
-  describe(field);
+  region_ = describe(field, options.motion.empty());
+  feature_length_ = kFeatureLength * field.diagonal();
   for (Piece& piece : split_pieces(field)) {
+    enter(0.6, "making stencils");
     region_.unused_pieces += piece.free_count == 0;
     Unknowns unknowns = unknowns_of(options.motion, moving_, piece);
     pieces_.push_back(std::make_unique<PieceProblem>(std::move(piece), std::move(unknowns), options.stencil, families,
-                                                     options.proximity, options.linear_solver));
+                                                     options.proximity, options.linear_solver, options.share));
+    pieces_.back()->watch(progress_.get());
     region_.hidden += pieces_.back()->hidden_count();
   }
   if (region_.free == 0) {
     throw InvalidInput(
-        "No vertex of the region is free to move (" + faces(triangle_count_) +
+        "No vertex of the region is free to move (" + count_of_faces(triangle_count_) +
         ": all vertices are held by the border, silhouettes or faces turned away); select a larger region, or "
         "choose the border Fixed instead of Clamped.");
   }
-  if (region_.unused_pieces > 0) {
-    region_.messages.push_back(std::to_string(region_.unused_pieces) + " of " + std::to_string(region_.pieces) +
-                               " pieces have no free vertex and stay as they are.");
-  }
-  if (region_.hidden > 0) {
-    region_.messages.push_back("The lines are not defined on " + faces(region_.hidden) +
-                               " that mirror the view almost along the light lines; little or no weight there.");
-  }
+  count_features(feature_length_, 0);
+  tell_pieces(region_);
 }
 
 ShapeOptimizer::~ShapeOptimizer() = default;
 
-void ShapeOptimizer::describe(const HeightField& field) {
-  region_.triangles = field.triangle_count();
-  region_.pieces = field.piece_count;
-  region_.silhouettes = field.silhouette_count;
-  region_.turned_away = field.turned_away_count;
-  region_.creases = field.crease_count;
-  region_.closed = field.closed;
-  region_.free = static_cast<int>(std::count(field.role.begin(), field.role.end(), VertexRole::kFree));
-  region_.fixed = static_cast<int>(std::count(field.role.begin(), field.role.end(), VertexRole::kFixed));
-  region_.clamped = static_cast<int>(std::count(field.role.begin(), field.role.end(), VertexRole::kClamped));
-  if (region_.turned_away > 0) {
-    region_.messages.push_back(faces(region_.turned_away) +
-                               " turned away from the view or folded over: left as they are.");
-  }
-  if (region_.creases > 0) {
-    region_.messages.push_back(
-        std::to_string(region_.creases) + (region_.creases == 1 ? " edge bends" : " edges bend") +
-        " too sharply for a fair panel (gaps, folds, hems); held, the lines are solved on each side.");
-  }
-  if (region_.silhouettes > 0) {
-    region_.messages.push_back(faces(region_.silhouettes) + " seen edge on (silhouettes): left as they are.");
-  }
+void ShapeOptimizer::watch(std::shared_ptr<Progress> progress) {
+  progress_ = std::move(progress);
+  for (const auto& piece : pieces_) piece->watch(progress_.get());
 }
 
-Vector ShapeOptimizer::heights() const {
-  Vector result = frame_.heights(V_);
-  for (const auto& piece : pieces_) {
-    const std::vector<int>& vertex = piece->piece().vertex;
-    for (size_t v = 0; v < vertex.size(); ++v) {
-      result(vertex[v]) += piece->heights()(static_cast<int>(v)) - piece->piece().field.z(static_cast<int>(v));
-    }
-  }
-  return result;
-}
-
-Positions ShapeOptimizer::positions() const {
-  Positions result = V_;
-  for (const auto& piece : pieces_) {
-    const std::vector<int>& vertex = piece->piece().vertex;
-    for (int v = 0; v < static_cast<int>(vertex.size()); ++v) {
-      const double move = piece->heights()(v) - piece->piece().field.z(v);
-      if (piece->piece().field.role[v] == VertexRole::kFree && move != 0)
-        result.row(vertex[v]) += move * frame_.z().transpose();
-    }
-  }
-  return result;
-}
-
-Mask ShapeOptimizer::free() const {
-  Mask result = Mask::Constant(V_.rows(), false);
-  for (const auto& piece : pieces_) {
-    for (size_t v = 0; v < piece->piece().vertex.size(); ++v) {
-      if (piece->piece().field.role[v] == VertexRole::kFree) result(piece->piece().vertex[v]) = true;
-    }
-  }
-  return result;
-}
-
-Mask ShapeOptimizer::active() const {
-  Mask result = Mask::Constant(triangle_count_, false);
-  for (const auto& piece : pieces_) {
-    for (int t : piece->piece().field.source) result(t) = true;
-  }
-  return result;
-}
-
-Vector ShapeOptimizer::theta(int family) const {
-  Vector result = Vector::Zero(triangle_count_);
-  for (const auto& piece : pieces_) {
-    const Vector own = piece->field(family).theta;
-    for (int t = 0; t < own.size(); ++t) result(piece->piece().field.source[t]) = own(t);
-  }
-  return result;
-}
-
-PlaneVectors ShapeOptimizer::field(int family) const {
-  PlaneVectors result = PlaneVectors::Zero(triangle_count_, 2);
-  for (const auto& piece : pieces_) {
-    const PlaneVectors own = piece->field(family).gradient;
-    for (int t = 0; t < own.rows(); ++t) result.row(piece->piece().field.source[t]) = own.row(t);
-  }
-  return result;
+void ShapeOptimizer::enter(double fraction, const char* stage) const {
+  if (progress_) progress_->enter(fraction, stage);
 }
 
 void ShapeOptimizer::check_family(int family) const {
   if (family >= 0 && family < family_count_) return;
   throw InvalidInput("There is no family " + std::to_string(family) + " of light lines; there are " +
                      std::to_string(family_count_) + ", counted from 0.");
-}
-
-RegionField ShapeOptimizer::region_field(int family) const {
-  check_family(family);
-  RegionField result{frame_.project(V_),
-                     F_,
-                     active(),
-                     Vector::Zero(triangle_count_),
-                     PlanePositions::Zero(triangle_count_, 2),
-                     theta(family),
-                     field(family),
-                     Vector::Zero(V_.rows()),
-                     PlaneVectors::Zero(V_.rows(), 2),
-                     family};
-  for (int t = 0; t < triangle_count_; ++t) {
-    result.center.row(t) = (result.xy.row(F_(t, 0)) + result.xy.row(F_(t, 1)) + result.xy.row(F_(t, 2))) / 3.0;
-  }
-  for (const auto& piece : pieces_) piece->add_vertex_field(result);
-  return result;
 }
 
 void ShapeOptimizer::check(const Target& target) const {
@@ -228,7 +150,7 @@ Vector ShapeOptimizer::residual(const Target& target) const {
   check(target);
   if (target.theta.size() > 0) {
     const Vector difference = theta(target.family) - target.theta;
-    return difference.unaryExpr([](double d) { return std::abs(std::remainder(d, 2 * std::numbers::pi)); });
+    return difference.unaryExpr([](double d) { return std::abs(wrapped(d)); });
   }
   return ((field(target.family) - target.gradient).rowwise().norm().array() * active().cast<double>()).matrix();
 }
@@ -236,11 +158,7 @@ Vector ShapeOptimizer::residual(const Target& target) const {
 void ShapeOptimizer::count_features(double length, int family) {
   int count = 0;
   for (const auto& piece : pieces_) count += static_cast<int>(piece->features(length, family).count());
-  if (count == region_.features) return;
-  region_.features = count;
-  region_.messages.push_back(faces(count) +
-                             " bend far more than the panel over more than the smoothing length (fillets, hems, "
-                             "gaps); their lines are kept.");
+  tell_features(count, region_);
 }
 
 Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double strength, int family) {
@@ -267,8 +185,8 @@ double ShapeOptimizer::score(double length, int family) {
   double sum = 0, area = 0;
   for (const auto& piece : pieces_) {
     const PlaneVectors own = piece->field(family).gradient;
-    const Vector A =
-        piece->features(length, family).select(Vector::Zero(own.rows()).array(), piece->changeable_area().array());
+    const Vector A = (piece->changeable() && !piece->features(length, family))
+                         .select(piece->piece().field.area.array(), Vector::Zero(own.rows()).array());
     sum += A.dot((own - piece->smoothed(own, {length, false}, family)).rowwise().squaredNorm());
     area += A.sum();
   }
@@ -276,23 +194,22 @@ double ShapeOptimizer::score(double length, int family) {
 }
 
 void ShapeOptimizer::measure(const std::vector<Target>& targets, Report& report) const {
-  double sum = 0, area = 0;
-  std::vector<Vector> residuals;
-  for (const Target& target : targets) residuals.push_back(residual(target));
+  double squared = 0, area = 0;
   for (const auto& piece : pieces_) {
     const HeightField& field = piece->piece().field;
     report.largest_move = std::max(report.largest_move, (piece->heights() - field.z).cwiseAbs().maxCoeff());
-    for (int t = 0; t < field.triangle_count(); ++t) {
-      for (const Vector& r : residuals) sum += field.area(t) * r(field.source[t]) * r(field.source[t]);
-      area += field.area(t);
-    }
+    const PieceProblem::Misfit own = piece->misfit(targets);
+    squared += own.squared;
+    area += own.area;
   }
-  report.residual_rms = std::sqrt(sum / area);
+  report.residual_rms = area > 0 ? std::sqrt(squared / area) : 0.0;
 }
 
 Report ShapeOptimizer::solve(const std::vector<Target>& targets, const MinimizerOptions& options, Progress* progress) {
+  const ThreadLimit few(sampled_ ? 1 : 0);
   if (targets.empty()) throw InvalidInput("There is no target to solve for; give at least one.");
   for (const Target& target : targets) check(target);
+  region_field_.reset();
   std::vector<Vector> before;
   for (const auto& piece : pieces_) before.push_back(piece->unknowns());
   const auto restore = [&] {
@@ -343,10 +260,28 @@ SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, Hessian
 }
 
 void ShapeOptimizer::reset() {
+  region_field_.reset();
   for (const auto& piece : pieces_) piece->reset();
 }
 
 const Vector& ShapeOptimizer::unknowns() const { return pieces_.front()->unknowns(); }
-void ShapeOptimizer::rest_at(const Vector& unknowns) { pieces_.front()->rest_at(unknowns); }
+
+void ShapeOptimizer::rest_at(const Vector& unknowns) {
+  region_field_.reset();
+  pieces_.front()->rest_at(unknowns);
+}
+
+void ShapeOptimizer::pull_to(const Vector& heights, const Vector& weight) {
+  PieceProblem& piece = *pieces_.front();
+  const std::vector<int>& vertex = piece.piece().vertex;
+  const Vector now = this->heights();
+  Vector z = piece.heights(), w = Vector::Zero(z.size());
+  for (int v = 0; v < z.size(); ++v) {
+    if (weight(vertex[v]) == 0) continue;
+    z(v) += heights(vertex[v]) - now(vertex[v]);
+    w(v) = weight(vertex[v]);
+  }
+  piece.pull_to(z, w);
+}
 
 }  // namespace reflines

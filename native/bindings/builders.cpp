@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "native/bindings/bind.h"
+#include "native/reflection/dense_heights.h"
 #include "native/reflection/direction.h"
 #include "native/reflection/pattern.h"
 #include "native/reflection/smooth.h"
@@ -27,17 +28,17 @@ Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool di
   return weighted(optimizer.smooth_target({length, directional}, strength, family), weight);
 }
 
-Target uniform(const ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative,
-               double density_end, const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
+Target uniform(ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative, double density_end,
+               const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
   const UniformOptions options{direction, density, relative, density_end, axis};
   return weighted(uniform_target(optimizer.region_field(family), options, influence.value_or(Vector())), weight);
 }
 
-Target turn(const ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
+Target turn(ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
   return weighted(turned_target(optimizer.region_field(family), angle, influence.value_or(Vector())), weight);
 }
 
-py::tuple warp(const ShapeOptimizer& optimizer, const Vector2& low, const Vector2& high, int columns, int rows,
+py::tuple warp(ShapeOptimizer& optimizer, const Vector2& low, const Vector2& high, int columns, int rows,
                const PlanePositions& position, bool by_value, int family) {
   WarpResult result;
   {
@@ -47,10 +48,21 @@ py::tuple warp(const ShapeOptimizer& optimizer, const Vector2& low, const Vector
   return py::make_tuple(result.target, result.outside);
 }
 
-Target pattern(const ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double strength, double blur, double keep,
-               const Vector2& centre, double width, double angle, const Maybe& weight, int family) {
-  const PatternOptions options{strength, blur, keep, centre, width, angle};
+Target pattern(ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double strength, double blur, double keep,
+               const Vector2& centre, double width, double angle, bool by_value, const Maybe& weight, int family) {
+  const PatternOptions options{strength, blur, keep, centre, width, angle, by_value};
   return weighted(pattern_target(optimizer.region_field(family), image, options), weight);
+}
+
+py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int family) {
+  DenseHeights wanted;
+  ShapeOptimizer::Lines lines;
+  {
+    const py::gil_scoped_release release;
+    wanted = dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());
+    lines = optimizer.lines_of(wanted.height, wanted.area, family);
+  }
+  return py::make_tuple(lines.target, lines.theta, wanted.height, wanted.area);
 }
 
 void bind_image_tools(py::module_& module) {
@@ -62,7 +74,9 @@ void bind_image_tools(py::module_& module) {
              py::arg("strength") = pattern_defaults.strength, py::arg("blur") = pattern_defaults.blur,
              py::arg("keep") = pattern_defaults.keep, py::arg("centre") = pattern_defaults.centre,
              py::arg("width") = pattern_defaults.width, py::arg("angle") = pattern_defaults.angle,
-             py::arg("weight") = py::none(), py::arg("family") = 0, Release());
+             py::arg("by_value") = pattern_defaults.by_value, py::arg("weight") = py::none(), py::arg("family") = 0,
+             Release());
+  module.def("match_dense", &match_dense, py::arg("optimizer"), py::arg("dense"), py::kw_only(), py::arg("family") = 0);
 }
 
 }  // namespace
@@ -82,7 +96,7 @@ void bind_builders(py::module_& module) {
              py::arg("weight") = py::none(), py::arg("family") = 0, Release());
   module.def(
       "falloff",
-      [](const ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
+      [](ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
         return falloff(optimizer.region_field(0), centre, radius, curve);
       },
       py::arg("optimizer"), py::kw_only(), py::arg("centre"), py::arg("radius"), py::arg("curve"), Release());

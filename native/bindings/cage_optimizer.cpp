@@ -7,6 +7,7 @@
 
 #include "native/bindings/bind.h"
 #include "native/bindings/cage_arrays.h"
+#include "native/bindings/line_directions.h"
 #include "native/bindings/names.h"
 #include "native/geometry/cage_symmetry.h"
 
@@ -19,23 +20,15 @@ using py::literals::operator""_a;
 const std::map<std::string, BorderHold> kHolds = {
     {"free", BorderHold::kNothing}, {"fixed", BorderHold::kPosition}, {"clamped", BorderHold::kPositionAndTangent}};
 
-std::vector<Vector3> rows_of(const Eigen::MatrixXd& lines) {
-  const bool one = lines.cols() == 1 && lines.rows() == 3;
-  if (!one && lines.cols() != 3) throw InvalidInput("A line direction has three numbers; give 3, or #families x 3.");
-  std::vector<Vector3> result;
-  if (one) result.push_back(lines.col(0));
-  for (Eigen::Index k = 0; !one && k < lines.rows(); ++k) result.push_back(lines.row(k));
-  return result;
-}
-
 std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
                                     const Vector3& view_direction, const Eigen::MatrixXd& line_direction,
                                     const std::optional<Mask>& region, const std::string& border,
                                     const std::optional<Mask>& fixed, const std::optional<IndexVector>& partner,
                                     int level, const std::string& scheme, const std::string& boundary,
                                     const Indices& creases, const Numbers& crease_sharpness, const Indices& corners,
-                                    const Numbers& corner_sharpness, bool limit, const std::string& stencil,
-                                    const std::string& linear_solver, double crease_angle, double proximity) {
+                                    const Numbers& corner_sharpness, bool limit, bool sparse,
+                                    const std::string& stencil, const std::string& linear_solver, double crease_angle,
+                                    double proximity, std::shared_ptr<Progress> progress) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions options;
@@ -44,11 +37,13 @@ std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offs
   if (fixed) options.held = *fixed;
   if (partner) options.partner = *partner;
   options.subdivision = subdivision_options(level, scheme, boundary, limit);
+  options.sparse = sparse;
   options.shape.stencil = named(kStencils, stencil, "stencil");
   options.shape.linear_solver = named(kSolvers, linear_solver, "linear solver");
   options.shape.crease_angle = crease_angle;
   options.shape.proximity = proximity;
-  const std::vector<Vector3> lines = rows_of(line_direction);
+  options.shape.progress = std::move(progress);
+  const std::vector<Vector3> lines = directions(line_direction);
   const py::gil_scoped_release release;
   return std::make_unique<CageOptimizer>(cage, V, view_direction, lines, options);
 }
@@ -58,14 +53,14 @@ std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offs
 void bind_cage_optimizer(py::module_& module) {
   using Release = py::call_guard<py::gil_scoped_release>;
   const CageOptions defaults;
-  py::class_<CageOptimizer, ShapeOptimizer>(module, "CageOptimizer")
+  py::class_<CageOptimizer, ShapeOptimizer>(module, "CageOptimizer", py::module_local())
       .def(py::init(&make), "V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a,
            "line_direction"_a, "region"_a = py::none(), "border"_a = "clamped", "fixed"_a = py::none(),
            "partner"_a = py::none(), "level"_a = defaults.subdivision.level, "scheme"_a = "catmull_clark",
            "boundary"_a = "all", "creases"_a = Indices(), "crease_sharpness"_a = Numbers(), "corners"_a = Indices(),
-           "corner_sharpness"_a = Numbers(), "limit"_a = defaults.subdivision.limit, "stencil"_a = "consistent",
-           "linear_solver"_a = "cholmod", "crease_angle"_a = defaults.shape.crease_angle,
-           "proximity"_a = defaults.shape.proximity)
+           "corner_sharpness"_a = Numbers(), "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse,
+           "stencil"_a = "consistent", "linear_solver"_a = "cholmod", "crease_angle"_a = defaults.shape.crease_angle,
+           "proximity"_a = defaults.shape.proximity, "progress"_a = py::none())
       .def_property_readonly("cage_positions", &CageOptimizer::cage_positions)
       .def_property_readonly("cage_free", &CageOptimizer::cage_free)
       .def_property_readonly("triangles", &CageOptimizer::triangles)

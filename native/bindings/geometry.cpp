@@ -48,9 +48,12 @@ void bind_geometry(py::module_& module) {
         return theta(normals, view.transpose(), line);
       },
       py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
-  py::class_<NormalFit>(module, "NormalFit")
+  py::class_<NormalFit>(module, "NormalFit", py::module_local())
       .def(py::init<const Positions&, const Triangles&, double>(), py::arg("V"), py::arg("F"), py::kw_only(),
            py::arg("refit_angle") = 0.35, py::call_guard<py::gil_scoped_release>())
+      .def(
+          "copy", [](const NormalFit& fit) { return NormalFit(fit); }, py::call_guard<py::gil_scoped_release>())
+      .def("kept_normals", &NormalFit::kept_normals, py::arg("V"), py::call_guard<py::gil_scoped_release>())
       .def("normals", &NormalFit::normals, py::arg("V"), py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("refit_count", &NormalFit::refit_count);
 }

@@ -3,9 +3,11 @@
 
 namespace reflines {
 
+// Errors and classes are this copy's own: of two installed copies of the add-on each must see its own ones only.
 void bind_errors(pybind11::module_& module) {
-  pybind11::register_exception<InvalidInput>(module, "InvalidInput", PyExc_ValueError);
-  pybind11::register_exception<SolverFailure>(module, "SolverFailure", PyExc_RuntimeError);
+  pybind11::register_local_exception<InvalidInput>(module, "InvalidInput", PyExc_ValueError);
+  pybind11::register_local_exception<SolverFailure>(module, "SolverFailure", PyExc_RuntimeError);
+  pybind11::register_local_exception<Cancelled>(module, "Cancelled");
 }
 
 }  // namespace reflines

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "native/bindings/bind.h"
+#include "native/bindings/line_directions.h"
 #include "native/bindings/names.h"
 #include "native/errors.h"
 #include "native/optimization/progress.h"
@@ -37,16 +38,6 @@ std::vector<Border> border_codes(const std::variant<std::string, Codes>& border,
   return result;
 }
 
-// 3 numbers, or #families x 3.
-std::vector<Vector3> directions(const Eigen::MatrixXd& lines) {
-  const bool one = lines.cols() == 1 && lines.rows() == 3;
-  if (!one && lines.cols() != 3) throw InvalidInput("A line direction has three numbers; give 3, or #families x 3.");
-  std::vector<Vector3> result;
-  if (one) result.push_back(lines.col(0));
-  for (Eigen::Index k = 0; !one && k < lines.rows(); ++k) result.push_back(lines.row(k));
-  return result;
-}
-
 std::vector<Target> listed(const Targets& targets) {
   if (std::holds_alternative<Target>(targets)) return {std::get<Target>(targets)};
   return std::get<std::vector<Target>>(targets);
@@ -56,7 +47,7 @@ std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Triangles& F, con
                                      const Eigen::MatrixXd& line_direction,
                                      const std::variant<std::string, Codes>& border, const std::optional<Mask>& fixed,
                                      const std::string& stencil, const std::string& linear_solver, double crease_angle,
-                                     double proximity) {
+                                     double proximity, std::shared_ptr<Progress> progress) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -64,6 +55,7 @@ std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Triangles& F, con
   options.linear_solver = named(kSolvers, linear_solver, "linear solver");
   options.crease_angle = crease_angle;
   options.proximity = proximity;
+  options.progress = std::move(progress);
   const std::vector<Vector3> lines = directions(line_direction);
   const py::gil_scoped_release release;
   return std::make_unique<ShapeOptimizer>(V, F, view_direction, lines, options);
@@ -97,30 +89,33 @@ int checked_family(const ShapeOptimizer& optimizer, int family) {
 void bind_optimizer(py::module_& module) {
   const MinimizerOptions minimizer;
   const ShapeOptions shape;
+  using Shape = ShapeOptimizer;
   using Release = py::call_guard<py::gil_scoped_release>;
-  py::class_<ShapeOptimizer>(module, "ShapeOptimizer")
+  py::class_<ShapeOptimizer>(module, "ShapeOptimizer", py::module_local())
       .def(py::init(&make), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
            py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
            py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
-           py::arg("crease_angle") = shape.crease_angle, py::arg("proximity") = shape.proximity)
+           py::arg("crease_angle") = shape.crease_angle, py::arg("proximity") = shape.proximity,
+           py::arg("progress") = py::none())
       .def_property_readonly("region", &ShapeOptimizer::region)
       .def_property_readonly("frame", &frame_rows)
-      .def_property_readonly("heights", &ShapeOptimizer::heights)
-      .def_property_readonly("positions", &ShapeOptimizer::positions)
-      .def_property_readonly("free", &ShapeOptimizer::free)
-      .def_property_readonly("active", &ShapeOptimizer::active)
-      .def_property_readonly("xy", [](const ShapeOptimizer& o) { return o.region_field(0).xy; })
-      .def_property_readonly("centers", [](const ShapeOptimizer& o) { return o.region_field(0).center; })
-      .def_property_readonly("area", [](const ShapeOptimizer& o) { return o.region_field(0).area; })
+      .def_property_readonly("heights", py::cpp_function(&ShapeOptimizer::heights, Release()))
+      .def_property_readonly("positions", py::cpp_function(&ShapeOptimizer::positions, Release()))
+      .def_property_readonly("free", py::cpp_function(&ShapeOptimizer::free, Release()))
+      .def_property_readonly("active", py::cpp_function(&ShapeOptimizer::active, Release()))
+      .def_property_readonly("changeable", py::cpp_function(&ShapeOptimizer::changeable, Release()))
+      .def_property_readonly("xy", py::cpp_function(&ShapeOptimizer::xy, Release()))
+      .def_property_readonly("centers", py::cpp_function(&ShapeOptimizer::centers, Release()))
+      .def_property_readonly("area", py::cpp_function(&ShapeOptimizer::area, Release()))
       .def(
-          "theta", [](const ShapeOptimizer& o, int family) { return o.theta(checked_family(o, family)); },
-          py::arg("family") = 0)
+          "theta", [](const Shape& o, int family) { return o.theta(checked_family(o, family)); }, py::arg("family") = 0,
+          Release())
       .def(
-          "field", [](const ShapeOptimizer& o, int family) { return o.field(checked_family(o, family)); },
-          py::arg("family") = 0)
+          "field", [](const Shape& o, int family) { return o.field(checked_family(o, family)); }, py::arg("family") = 0,
+          Release())
       .def(
-          "energy", [](ShapeOptimizer& o, const Targets& targets) { return o.energy(listed(targets)); },
-          py::arg("target"))
+          "energy", [](Shape& o, const Targets& targets) { return o.energy(listed(targets)); }, py::arg("target"),
+          Release())
       .def("residual", &ShapeOptimizer::residual, py::arg("target"), Release())
       .def(
           "score",
@@ -129,7 +124,8 @@ void bind_optimizer(py::module_& module) {
       .def("solve", &solve, py::arg("target"), py::kw_only(), py::arg("strategy") = to_string(minimizer.strategy),
            py::arg("gradient_tolerance") = minimizer.gradient_tolerance,
            py::arg("max_iterations") = minimizer.max_iterations, py::arg("progress") = py::none())
-      .def("reset", &ShapeOptimizer::reset);
+      .def("watch", &ShapeOptimizer::watch, py::arg("progress"))
+      .def("reset", &ShapeOptimizer::reset, Release());
 }
 
 }  // namespace reflines

@@ -19,6 +19,9 @@ class InvalidInput(ValueError):
 class SolverFailure(RuntimeError):
     """A numerical breakdown; nothing was changed."""
 
+class Cancelled(Exception):
+    """A watching Progress was cancelled while something was made: there is no result. A solve reports it instead."""
+
 class Progress:
     """Shared by the thread that solves and the thread that watches. Thread safe."""
     fraction: float  # read only, 0..1
@@ -38,7 +41,8 @@ class Region:
     turned_away: int   # triangles with n.v <= 0, their vertices held
     unused_pieces: int # pieces without a free vertex
     creases: int       # edges held because they bend by more than the crease angle
-    features: int      # triangles the last smoothing left alone: strong bends longer than its length
+    features: int      # triangles whose lines are kept: strong bends that run on for more than the smoothing length, or,
+                       # before any smoothing and for the other tools, than a sixth of the region's diagonal
     hidden: int        # triangles of less weight: the reflected ray is nearly parallel to the lines
     closed: bool       # the region has no border edge
     messages: list[str]
@@ -47,7 +51,8 @@ class Target:
     """One wanted gradient of theta and one weight per triangle, for one family of lines."""
     gradient: np.ndarray  # #F x 2, image plane, radians / length
     weight: np.ndarray    # #F, >= 0
-    theta: np.ndarray     # #F wanted theta for a value fit (eq. 3), empty for a gradient fit (eq. 4)
+    theta: np.ndarray     # #F wanted theta for a value fit (eq. 3), empty for a gradient fit (eq. 4). The gradient then
+                          # only keeps the surface smooth at the scale of the triangles, and may be 0 x 2
     family: int           # which of the optimizer's line directions
     def __init__(self, gradient: np.ndarray, weight: np.ndarray | None = None, *, theta: np.ndarray | None = None,
                  family: int = 0) -> None: ...
@@ -72,7 +77,7 @@ class Report:
     seconds: float
     unknowns: int
     largest_move: float   # along the view direction, scene units
-    residual_rms: float   # rms of |grad theta - target| over the region, radians / length
+    residual_rms: float   # rms of |grad theta - target| over the triangles that can change, radians / length
 
 class ShapeOptimizer:
     """The live optimizer of one region seen from one view. Expensive to build, cheap to step.
@@ -88,6 +93,7 @@ class ShapeOptimizer:
     centers: np.ndarray    # #F x 2, the triangles' centroids in the image plane
     area: np.ndarray       # #F, in the image plane; 0 where not active
     active: np.ndarray     # #F bool: triangles that belong to a height-field piece
+    changeable: np.ndarray # #F bool: those of them with a vertex that can move
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
                  line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
                  border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped (border vertices)
@@ -95,6 +101,7 @@ class ShapeOptimizer:
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
                  crease_angle: float = 0.5236,                   # radians: sharper edges are held, no stencil reaches across
                  proximity: float = -1.0,                        # weight of staying near the start; -1: default
+                 progress: Progress | None = None,               # watches from the start, see `watch`
                  ) -> None: ...
     def theta(self, family: int = 0) -> np.ndarray: ...           # #F, radians in (-pi, pi]
     def field(self, family: int = 0) -> np.ndarray: ...           # #F x 2, the current grad theta
@@ -103,6 +110,9 @@ class ShapeOptimizer:
     def score(self, length: float, family: int = 0) -> float: ... # wobble of the lines in degrees, see score.h
     def solve(self, target: Target | list[Target], *, strategy: Strategy = "adaptive", gradient_tolerance: float = 1e-6,
               max_iterations: int = 100, progress: Progress | None = None) -> Report: ...
+    def watch(self, progress: Progress | None) -> None:
+        """Tells `progress` between the steps of building, of smoothing and of the score, and raises Cancelled there where it
+        asks to stop. A solve looks at its own."""
     def reset(self) -> None: ...                                  # back to the heights it was built with
 
 class CageOptimizer(ShapeOptimizer):
@@ -124,11 +134,12 @@ class CageOptimizer(ShapeOptimizer):
                  level: int = 2, scheme: Scheme = "catmull_clark", boundary: Boundary = "all",
                  creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                  corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit: bool = True,
+                 sparse: bool = False,                # for drags: from level 3 on, few of the triangles count for all
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
-                 crease_angle: float = 0.5236, proximity: float = -1.0) -> None: ...
+                 crease_angle: float = 0.5236, proximity: float = -1.0, progress: Progress | None = None) -> None: ...
     def fit(self, heights: np.ndarray, weight: np.ndarray) -> None:
-        """Moves the cage so that its surface is nearest to these heights along the view (#region vertices), by least squares
-        with these weights; 0 where there is no such height. A free border is then drawn to that shape."""
+        """Moves the cage so that its surface is nearest to these heights along the view (#region vertices), by least squares;
+        `weight` is the area each speaks for, 0 where there is no such height. Later solves are drawn to the heights."""
 
 def mirror_pairs(V: np.ndarray, *, point: Sequence[float], normal: Sequence[float], tolerance: float) -> np.ndarray:
     """#V: the vertex in the place of each one's mirror image, itself on the plane, -1 where there is none."""
@@ -160,15 +171,23 @@ def warp(optimizer: ShapeOptimizer, *, low: Sequence[float], high: Sequence[floa
     of a regular grid over low .. high go. Also the number of triangles that would show lines from outside the region."""
 
 def pattern(optimizer: ShapeOptimizer, *, image: np.ndarray, strength: float = 1.0, blur: float = 0.0, keep: float = 1.0,
-            centre: Sequence[float] = (0, 0), width: float = 1.0, angle: float = 0.0, weight: np.ndarray | None = None,
-            family: int = 0) -> Target:
+            centre: Sequence[float] = (0, 0), width: float = 1.0, angle: float = 0.0, by_value: bool = False,
+            weight: np.ndarray | None = None, family: int = 0) -> Target:
     """`strength` radians of theta between black and white of a grey image (#rows x #columns, first row at the bottom), added
-    to `keep` times the current lines; see native/reflection/pattern.h."""
+    to `keep` times the current lines; by value each line is asked to lie where the image puts it, not only to run so (eq. 3);
+    see native/reflection/pattern.h."""
+
+def match_dense(optimizer: ShapeOptimizer, dense: ShapeOptimizer, *, family: int = 0
+                ) -> tuple[Target, np.ndarray, np.ndarray, np.ndarray]:
+    """The lines of another mesh as a target, with weight 0 where the view meets none of it; theta there (#F), its heights at
+    the region's vertices (#V), and the area each speaks for: what CageOptimizer.fit takes. Both have the same view and lines."""
 
 class NormalFit:
     """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""
     def __init__(self, V: np.ndarray, F: np.ndarray, *, refit_angle: float = 0.35) -> None: ...
     def normals(self, V: np.ndarray) -> np.ndarray: ...           # #V x 3, unit; isolated vertices (0, 0, 1)
+    def kept_normals(self, V: np.ndarray) -> np.ndarray: ...      # the same without refits: changes nothing, thread safe
+    def copy(self) -> "NormalFit": ...
 
 class Subdivision:
     """A cage under a Subdivision Surface, with the modifier's rules: refined vertices are a matrix S times the cage's vertices.

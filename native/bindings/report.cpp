@@ -12,7 +12,7 @@ namespace reflines {
 namespace {
 
 void bind_region(py::module_& module) {
-  py::class_<Region>(module, "Region")
+  py::class_<Region>(module, "Region", py::module_local())
       .def_readonly("triangles", &Region::triangles)
       .def_readonly("free", &Region::free)
       .def_readonly("fixed", &Region::fixed)
@@ -32,13 +32,13 @@ void bind_region(py::module_& module) {
 
 void bind_report(py::module_& module) {
   bind_region(module);
-  py::class_<Progress, std::shared_ptr<Progress>>(module, "Progress")
+  py::class_<Progress, std::shared_ptr<Progress>>(module, "Progress", py::module_local())
       .def(py::init<>())
       .def_property_readonly("fraction", &Progress::fraction)
       .def_property_readonly("stage", &Progress::stage)
       .def_property_readonly("cancelled", &Progress::cancelled)
       .def("cancel", &Progress::cancel);
-  py::class_<Report>(module, "Report")
+  py::class_<Report>(module, "Report", py::module_local())
       .def_property_readonly("termination", [](const Report& r) { return to_string(r.termination); })
       .def_property_readonly("strategy", [](const Report& r) { return to_string(r.strategy); })
       .def_property_readonly("linear_solver", [](const Report& r) { return to_string(r.linear_solver); })

@@ -63,7 +63,7 @@ py::tuple matrix(const SubdividedCage& cage) {
 
 void bind_subdivision(py::module_& module) {
   const SubdivisionOptions defaults;
-  py::class_<SubdividedCage>(module, "Subdivision")
+  py::class_<SubdividedCage>(module, "Subdivision", py::module_local())
       .def(py::init(&make), "face_offsets"_a, "face_vertices"_a, py::kw_only(), "vertices"_a,
            "level"_a = defaults.level, "scheme"_a = "catmull_clark", "boundary"_a = "all", "creases"_a = Indices(),
            "crease_sharpness"_a = Numbers(), "corners"_a = Indices(), "corner_sharpness"_a = Numbers(),

@@ -12,7 +12,7 @@ namespace py = pybind11;
 namespace reflines {
 
 void bind_target(py::module_& module) {
-  py::class_<Target>(module, "Target")
+  py::class_<Target>(module, "Target", py::module_local())
       .def(py::init([](const PlaneVectors& gradient, const std::optional<Vector>& weight,
                        const std::optional<Vector>& theta, int family) {
              return Target{gradient, weight.value_or(Vector()), theta.value_or(Vector()), family};

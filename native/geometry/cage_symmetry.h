@@ -20,4 +20,17 @@ IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double to
 // Heights of partners rise alike, which keeps a cage symmetric where the view direction lies in the plane.
 SparseMatrix cage_unknowns(const Mask& held, const IndexVector& partner);
 
+// #rows of S: the row that S turns into when partners are exchanged, itself for rows of the plane, -1 where there is
+// none: refined vertices in each other's image. Found from the weights alone.
+IndexVector refined_partners(const SparseMatrix& S, const IndexVector& partner);
+
+// S with the weights of partners alike bit for bit: OpenSubdiv adds them up in an order of its own, and they differ by
+// 3e-16.
+SparseMatrix symmetrized(const SparseMatrix& S, const IndexVector& partner, const IndexVector& refined_partner);
+
+// S V for such an S, added up in such an order that partners lie in each other's image bit for bit where those of the
+// cage do.
+Positions symmetric_positions(const SparseMatrix& S, const IndexVector& partner, const IndexVector& refined_partner,
+                              const Positions& V);
+
 }  // namespace reflines

@@ -15,19 +15,26 @@ constexpr double kChainReach = 0.08;   // of the region's diagonal
 
 using Bends = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-Vector3 unit_normal(const Positions& V, const Triangles& F, int t) {
-  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-  return (b - a).cross(c - a).normalized();
+Positions unit_normals(const Positions& V, const Triangles& F) {
+  Positions normals(F.rows(), 3);
+#pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
+  for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
+    const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
+    normals.row(t) = (b - a).cross(c - a).normalized();
+  }
+  return normals;
 }
 
 // Angle between the triangles on both sides of each edge, radians; 0 on borders.
 Bends bends(const Positions& V, const Triangles& F, const Triangles& neighbors) {
-  Bends result = Bends::Zero(F.rows(), 3);
-  for (int t = 0; t < F.rows(); ++t) {
+  const Positions normals = unit_normals(V, F);
+  Bends result(F.rows(), 3);
+#pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
+  for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
+    const Vector3 own = normals.row(t);
     for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) < 0) continue;
-      const Vector3 a = unit_normal(V, F, t), b = unit_normal(V, F, neighbors(t, i));
-      result(t, i) = std::atan2(a.cross(b).norm(), a.dot(b));
+      const Vector3 other = normals.row(neighbors(t, i) < 0 ? t : neighbors(t, i));
+      result(t, i) = std::atan2(own.cross(other).norm(), own.dot(other));
     }
   }
   return result;
@@ -87,6 +94,7 @@ EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& n
   const Bends bend = bends(V, F, neighbors);
   const double chained = std::min(angle, std::max(kChainShare * angle, kChainMedian * median_bend(bend, neighbors)));
   EdgeMask result = bend > chained;
+  if (!result.any()) return result;
   const Vector extent = chain_extent(V, F, result);
   const double reach = kChainReach * diagonal(V, F);
   for (int t = 0; t < F.rows(); ++t) {

@@ -94,10 +94,13 @@ void assign_roles(const Triangles& F, const Mask& edge, const Boundary& boundary
     const bool by_border = edge(v) && boundary.border[v] != Border::kFree;
     if (always_fixed(v) || held || by_border) hold(field.role, v, VertexRole::kFixed);
   }
-  const Incidence around = vertex_neighbors(F, vertex_triangles(F, field.vertex_count()));
-  for (int v = 0; v < field.vertex_count(); ++v) {
-    if (!edge(v) || boundary.border[v] != Border::kClamped) continue;
-    for (int k = around.begin(v); k < around.end(v); ++k) hold(field.role, around.items[k], VertexRole::kClamped);
+  const auto clamps = [&](int v) { return edge(v) && boundary.border[v] == Border::kClamped; };
+  for (int t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (!clamps(F(t, i))) continue;
+      hold(field.role, F(t, (i + 1) % 3), VertexRole::kClamped);
+      hold(field.role, F(t, (i + 2) % 3), VertexRole::kClamped);
+    }
   }
 }
 
@@ -158,7 +161,7 @@ HeightField make_height_field(const Positions& V, const Triangles& F, const Imag
   const Triangles neighbors = edge_neighbors(F);
   field.closed = neighbors.minCoeff() >= 0;
   project(V, frame, field);
-  field.neighbors = edge_neighbors(field.F);
+  field.neighbors = field.F.rows() == F.rows() ? neighbors : edge_neighbors(field.F);
   field.triangles_of_vertex = vertex_triangles(field.F, field.vertex_count());
   Mask held = left_out;
   const Mask on_crease = cut_creases(V, boundary.crease_angle, field);

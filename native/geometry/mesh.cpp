@@ -33,7 +33,7 @@ HalfEdge half_edge(const Triangles& F, int triangle, int corner) {
 // By lower vertex, then higher vertex, then triangle. Dealt into one short list a lower vertex first: linear in the
 // size of the mesh, where one long sort took four times as long at a million vertices.
 std::vector<HalfEdge> sorted_half_edges(const Triangles& F) {
-  const int count = static_cast<int>(F.size()), vertex_count = F.maxCoeff() + 1;
+  const int count = static_cast<int>(F.size()), vertex_count = count > 0 ? F.maxCoeff() + 1 : 0;
   std::vector<int> start(vertex_count + 1, 0);
   for (int k = 0; k < count; ++k) ++start[half_edge(F, k / 3, k % 3).low + 1];
   for (int v = 0; v < vertex_count; ++v) start[v + 1] += start[v];
@@ -143,25 +143,6 @@ Incidence vertex_triangles(const Triangles& F, int vertex_count) {
   std::vector<int> next(result.offset.begin(), result.offset.end() - 1);
   for (int t = 0; t < F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) result.items[next[F(t, i)]++] = t;
-  }
-  return result;
-}
-
-Incidence vertex_neighbors(const Triangles& F, const Incidence& triangles_of_vertex) {
-  Incidence result;
-  result.offset.push_back(0);
-  std::vector<int> around;
-  for (int v = 0; v < triangles_of_vertex.size(); ++v) {
-    around.clear();
-    for (int k = triangles_of_vertex.begin(v); k < triangles_of_vertex.end(v); ++k) {
-      for (int i = 0; i < 3; ++i) around.push_back(F(triangles_of_vertex.items[k], i));
-    }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    for (int u : around) {
-      if (u != v) result.items.push_back(u);
-    }
-    result.offset.push_back(static_cast<int>(result.items.size()));
   }
   return result;
 }

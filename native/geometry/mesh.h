@@ -28,9 +28,6 @@ Triangles edge_neighbors(const Triangles& F);
 // For every vertex 0 .. vertex_count - 1 the triangles that touch it, ascending.
 Incidence vertex_triangles(const Triangles& F, int vertex_count);
 
-// For every vertex the vertices that share an edge with it, ascending.
-Incidence vertex_neighbors(const Triangles& F, const Incidence& triangles_of_vertex);
-
 // The border of F as closed loops of vertices, each in the order of its triangles' orientation; empty for a closed
 // surface.
 std::vector<std::vector<int>> border_loops(const Triangles& F, const Triangles& neighbors);

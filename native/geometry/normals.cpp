@@ -116,11 +116,22 @@ Vector3 NormalFit::normal(const Positions& V, int v) const {
   return (fit.initial - slope.x() * fit.e1 - slope.y() * fit.e2).normalized();
 }
 
+void NormalFit::check_count(const Positions& V) const {
+  if (V.rows() == static_cast<Eigen::Index>(fits_.size())) return;
+  throw InvalidInput("There are " + std::to_string(V.rows()) + " vertices but the fit was made for " +
+                     std::to_string(fits_.size()) + "; make a new one.");
+}
+
+Positions NormalFit::kept_normals(const Positions& V) const {
+  check_count(V);
+  Positions N(V.rows(), 3);
+#pragma omp parallel for schedule(dynamic, 1024)
+  for (int v = 0; v < static_cast<int>(V.rows()); ++v) N.row(v) = normal(V, v);
+  return N;
+}
+
 Positions NormalFit::normals(const Positions& V) {
-  if (V.rows() != static_cast<Eigen::Index>(fits_.size())) {
-    throw InvalidInput("There are " + std::to_string(V.rows()) + " vertices but the fit was made for " +
-                       std::to_string(fits_.size()) + "; make a new one.");
-  }
+  check_count(V);
   Positions N(V.rows(), 3);
   int refitted = 0;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : refitted)

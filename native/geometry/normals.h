@@ -20,6 +20,9 @@ class NormalFit {
   // #V x 3, unit, on the side the triangles face; (0, 0, 1) for vertices without triangles.
   Positions normals(const Positions& V);
 
+  // The same with all fits as they are: what the refits would change is missing, and nothing is changed.
+  Positions kept_normals(const Positions& V) const;
+
   int refit_count() const { return refit_count_; }  // vertices fitted anew since construction
 
  private:
@@ -28,6 +31,7 @@ class NormalFit {
     Vector3 fitted;                                   // the normal when the fit was made
     Eigen::Matrix<double, 2, Eigen::Dynamic> slopes;  // weights of the K heights over the frame's plane
   };
+  void check_count(const Positions& V) const;
   void fit(const Positions& V, int v);
   Vector3 normal(const Positions& V, int v) const;
 

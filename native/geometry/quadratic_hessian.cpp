@@ -1,91 +1,87 @@
 // Second derivatives of the quadratic through the six points of a triangle and its three neighbours, in closed form:
-// the basis quadratic of point j is the conic through the other five, by Braikenridge-Maclaurin (paper, appendix).
+// the basis quadratic of a point is the conic through the other five (paper, appendix).
+//
+// In the triangle's barycentric coordinates l the conics through its corners are k . m with m = (l1 l2, l2 l0, l0 l1),
+// and the one through two further points p, q has k = m(p) x m(q): the appendix's construction with the corners as the
+// base points. Its value at the last point is the triple product of the three m, zero where all six lie on one conic.
+// The basis quadratics of the corners follow from those, since linear functions are interpolated too: l_i minus what
+// the opposite points have of it.
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
+#include <utility>
 
 #include "native/geometry/stencil.h"
 
 namespace reflines {
 namespace {
 
-using Matrix3 = Eigen::Matrix3d;
-
-// Below this the five-point conic almost passes through the sixth point. Points are scaled to the size of the stencil,
-// the conic to unit norm; measured: sane irregular stencils have 1e-3 and more, exact conics 1e-16.
+// Triple product of the three m over their lengths below which the six points count as lying on one conic; the same for
+// all affine images. Measured: sane irregular stencils have 1e-3 and more, exact conics 1e-16.
 constexpr double kOnConic = 1e-10;
 
-Matrix3 cross_matrix(const Vector3& a) {
-  Matrix3 R;
-  R << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return R;
-}
-
-// [a]x [b]x
-Matrix3 cross_product(const Vector3& a, const Vector3& b) {
-  Matrix3 R = b * a.transpose();
-  R.diagonal().array() -= a.dot(b);
-  return R;
-}
-
-// The conic through five points in homogeneous coordinates as a symmetric matrix of unit norm, or zero where it is not
-// unique.
-Matrix3 conic_through(const std::array<Vector3, 5>& w) {
-  const Vector3 l12 = w[0].cross(w[1]), l23 = w[1].cross(w[2]), l34 = w[2].cross(w[3]), l45 = w[3].cross(w[4]);
-  const Vector3 r = l12.cross(l45);
-  const Matrix3 M = cross_product(w[0], l34) * cross_matrix(r) * cross_product(l23, w[4]);
-  const Matrix3 symmetric = M + M.transpose();
-  const double norm = symmetric.norm();
-  return norm > 0 ? Matrix3(symmetric / norm) : Matrix3::Zero();
-}
-
-// The six points, three corners first, moved and scaled to unit size; the scale is returned in `size`.
-std::array<Vector3, 6> normalized_points(const HeightField& field, const std::vector<int>& vertex, double& size) {
-  Vector2 centre = Vector2::Zero();
-  for (int v : vertex) centre += field.xy.row(v).transpose() / 6.0;
-  size = 0;
-  for (int v : vertex) size = std::max(size, (field.xy.row(v).transpose() - centre).norm());
-  std::array<Vector3, 6> points;
-  for (int j = 0; j < 6; ++j) points[j] << (field.xy.row(vertex[j]).transpose() - centre) / size, 1.0;
-  return points;
-}
-
-int opposite_vertex(const HeightField& field, int t, int other) {
+// The opposite corner of the triangle across the edge opposite corner i, or -1 on the border.
+int opposite_vertex(const HeightField& field, int t, int i) {
+  const int other = field.neighbors(t, i);
+  if (other < 0) return -1;
+  const int left = field.F(t, (i + 1) % 3), right = field.F(t, (i + 2) % 3);
   for (int j = 0; j < 3; ++j) {
     const int v = field.F(other, j);
-    if (v != field.F(t, 0) && v != field.F(t, 1) && v != field.F(t, 2)) return v;
+    if (v != left && v != right) return v;
   }
   return -1;
 }
 
-std::vector<int> six_points(const HeightField& field, int t) {
-  std::vector<int> vertex = {field.F(t, 0), field.F(t, 1), field.F(t, 2)};
+// False on a border and at valence three, where points coincide.
+bool find_opposite(const HeightField& field, int t, int (&opposite)[3]) {
   for (int i = 0; i < 3; ++i) {
-    const int other = field.neighbors(t, i);
-    const int v = other < 0 ? -1 : opposite_vertex(field, t, other);
-    if (v < 0 || std::find(vertex.begin(), vertex.end(), v) != vertex.end()) return {};  // a border, or valence three
-    vertex.push_back(v);
+    opposite[i] = opposite_vertex(field, t, i);
+    if (opposite[i] < 0 || opposite[i] == field.F(t, i)) return false;
   }
-  return vertex;
+  return opposite[0] != opposite[1] && opposite[1] != opposite[2] && opposite[2] != opposite[0];
+}
+
+// Gradients of the barycentric coordinates, one a column.
+Eigen::Matrix<double, 2, 3> barycentric_gradients(const HeightField& field, int t) {
+  Eigen::Matrix<double, 2, 3> gradient;
+  for (int i = 0; i < 3; ++i) {
+    const Vector2 edge = field.xy.row(field.F(t, (i + 2) % 3)) - field.xy.row(field.F(t, (i + 1) % 3));
+    gradient.col(i) = Vector2(-edge.y(), edge.x()) * (0.5 / field.area(t));
+  }
+  return gradient;
+}
+
+// Columns: (f_xx, f_xy, f_yy) of l1 l2, l2 l0 and l0 l1.
+Eigen::Matrix3d bubble_hessians(const Eigen::Matrix<double, 2, 3>& gradient) {
+  Eigen::Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    const Vector2 a = gradient.col((i + 1) % 3), b = gradient.col((i + 2) % 3);
+    result.col(i) << 2 * a.x() * b.x(), a.x() * b.y() + a.y() * b.x(), 2 * a.y() * b.y();
+  }
+  return result;
 }
 
 }  // namespace
 
 HessianStencil quadratic_hessian(const HeightField& field, int t) {
   HessianStencil stencil;
-  const std::vector<int> vertex = six_points(field, t);
-  if (vertex.empty()) return stencil;
-  double size = 0;
-  const std::array<Vector3, 6> w = normalized_points(field, vertex, size);
-  stencil.weight.resize(3, 6);
-  for (int j = 0; j < 6; ++j) {
-    const Matrix3 conic =
-        conic_through({w[(j + 1) % 6], w[(j + 2) % 6], w[(j + 3) % 6], w[(j + 4) % 6], w[(j + 5) % 6]});
-    const double value = w[j].dot(conic * w[j]);
-    if (std::abs(value) < kOnConic) return stencil;
-    stencil.weight.col(j) = Vector3(conic(0, 0), conic(0, 1), conic(1, 1)) * (2.0 / (value * size * size));
+  int opposite[3];
+  if (!find_opposite(field, t, opposite)) return stencil;
+  const Eigen::Matrix<double, 2, 3> gradient = barycentric_gradients(field, t);
+  const Vector2 origin = field.xy.row(field.F(t, 0));
+  Eigen::Matrix3d l, m;  // a column for each opposite point
+  for (int j = 0; j < 3; ++j) {
+    l.col(j) = gradient.transpose() * (field.xy.row(opposite[j]).transpose() - origin);
+    l(0, j) += 1.0;
+    m.col(j) << l(1, j) * l(2, j), l(2, j) * l(0, j), l(0, j) * l(1, j);
   }
-  stencil.vertex = vertex;
+  const double triple = m.col(0).dot(m.col(1).cross(m.col(2)));
+  if (!(std::abs(triple) > kOnConic * m.col(0).norm() * m.col(1).norm() * m.col(2).norm())) return stencil;
+  Eigen::Matrix3d conics;
+  conics << m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)), m.col(0).cross(m.col(1));
+  stencil.weight.resize(3, 6);
+  stencil.weight.rightCols<3>() = bubble_hessians(gradient) * conics / triple;
+  stencil.weight.leftCols<3>() = -stencil.weight.rightCols<3>() * l.transpose();
+  stencil.vertex = {field.F(t, 0), field.F(t, 1), field.F(t, 2), opposite[0], opposite[1], opposite[2]};
   return stencil;
 }
 

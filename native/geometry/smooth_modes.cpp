@@ -1,20 +1,24 @@
 #include "native/geometry/smooth_modes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 namespace reflines {
 namespace {
 
-// Sum of a spline's values below which it would be a nearly empty row (a free corner of the region inside its rim).
-constexpr double kSmallestSupport = 1.0;
+// Sum of a spline's values over the vertices, of that of one far from all borders, below which it hardly moves any
+// (a free corner of the region inside its rim): no sample would say what it does.
+constexpr double kSmallestSupport = 0.03;
+
+// Samples along a cell's side. Nine a cell are eighteen equations for each spline.
+constexpr int kSamplesAlong = 3;
 
 struct KnotGrid {
   Vector2 origin;
   double step = 0;
-  int columns = 0, rows = 0;  // of splines
+  int columns = 0, rows = 0;  // of splines; cells are three fewer each way
+
+  Vector2 place(const Vector2& xy) const { return (xy - origin) / step; }
 };
 
 KnotGrid grid_over(const HeightField& field, double spacing) {
@@ -27,10 +31,16 @@ KnotGrid grid_over(const HeightField& field, double spacing) {
   return grid;
 }
 
-// The four uniform cubic B-splines that are not zero at t in [0, 1) of a cell.
-std::array<double, 4> cubic_splines(double t) {
+// The four uniform cubic B-splines that are not zero at t in [0, 1) of a cell; a row each for the value and the first
+// and second derivative.
+using Splines = Eigen::Matrix<double, 3, 4>;
+Splines cubic_splines(double t) {
   const double s = 1 - t;
-  return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6};
+  Splines result;
+  result << s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6,  //
+      -s * s / 2, (3 * t * t - 4 * t) / 2, (4 * s - 3 * s * s) / 2, t * t / 2,                                       //
+      s, 3 * t - 2, 3 * s - 2, t;
+  return result;
 }
 
 struct Footprint {
@@ -38,20 +48,23 @@ struct Footprint {
   std::array<double, 16> value;
 };
 
+std::array<int, 16> splines_of_cell(const KnotGrid& grid, int i, int j) {
+  std::array<int, 16> result;
+  for (int k = 0; k < 16; ++k) result[k] = (j + k / 4) * grid.columns + i + k % 4;
+  return result;
+}
+
 Footprint footprint(const KnotGrid& grid, const Vector2& xy) {
-  const Vector2 place = (xy - grid.origin) / grid.step;
+  const Vector2 place = grid.place(xy);
   const int i = static_cast<int>(place.x()), j = static_cast<int>(place.y());
-  const auto across = cubic_splines(place.x() - i), along = cubic_splines(place.y() - j);
-  Footprint result;
-  for (int k = 0; k < 16; ++k) {
-    result.spline[k] = (j + k / 4) * grid.columns + i + k % 4;
-    result.value[k] = across[k % 4] * along[k / 4];
-  }
+  const Splines across = cubic_splines(place.x() - i), along = cubic_splines(place.y() - j);
+  Footprint result{splines_of_cell(grid, i, j), {}};
+  for (int k = 0; k < 16; ++k) result.value[k] = across(0, k % 4) * along(0, k / 4);
   return result;
 }
 
 // The row of each spline, or -1 where it is left out.
-std::vector<int> number_splines(const HeightField& field, const KnotGrid& grid, int& count) {
+std::vector<int> number_splines(const HeightField& field, const KnotGrid& grid, double full_support, int& count) {
   std::vector<double> support(static_cast<size_t>(grid.columns) * grid.rows, 0.0);
   std::vector<bool> held(support.size(), false);
   for (int v = 0; v < field.vertex_count(); ++v) {
@@ -64,32 +77,91 @@ std::vector<int> number_splines(const HeightField& field, const KnotGrid& grid, 
   }
   std::vector<int> row(support.size(), -1);
   for (size_t s = 0; s < row.size(); ++s) {
-    if (!held[s] && support[s] >= kSmallestSupport) row[s] = count++;
+    if (!held[s] && support[s] >= kSmallestSupport * full_support) row[s] = count++;
   }
   return row;
 }
 
-}  // namespace
-
-SparseMatrix smooth_modes(const HeightField& field, double spacing) {
-  const KnotGrid grid = grid_over(field, spacing);
-  int count = 0;
-  const std::vector<int> row = number_splines(field, grid, count);
+SparseMatrix spline_values(const HeightField& field, const KnotGrid& grid, const std::vector<int>& row, int count) {
   const auto free = std::count(field.role.begin(), field.role.end(), VertexRole::kFree);
-  SparseMatrix modes(count, free);
-  modes.reserve(16 * free);
+  SparseMatrix values(count, free);
+  values.reserve(16 * free);
   int column = 0;
   for (int v = 0; v < field.vertex_count(); ++v) {
     if (field.role[v] != VertexRole::kFree) continue;
     const Footprint print = footprint(grid, field.xy.row(v));
-    modes.startVec(column);
+    values.startVec(column);
     for (int k = 0; k < 16; ++k) {
-      if (row[print.spline[k]] >= 0) modes.insertBack(row[print.spline[k]], column) = print.value[k];
+      if (row[print.spline[k]] >= 0) values.insertBack(row[print.spline[k]], column) = print.value[k];
     }
     ++column;
   }
-  modes.finalize();
+  values.finalize();
+  return values;
+}
+
+// Of each part of a cell the triangle nearest to its middle, standing for all; cell by cell, with room for every part.
+std::vector<ModeSample> choose_samples(const HeightField& field, const KnotGrid& grid) {
+  constexpr int kParts = kSamplesAlong * kSamplesAlong;
+  std::vector<ModeSample> samples(static_cast<size_t>(grid.columns - 3) * (grid.rows - 3) * kParts);
+  std::vector<double> distance(samples.size());
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    const Vector2 centre =
+        (field.xy.row(field.F(t, 0)) + field.xy.row(field.F(t, 1)) + field.xy.row(field.F(t, 2))).transpose() / 3;
+    const Vector2 place = grid.place(centre);
+    const Eigen::Vector2i cell = place.cast<int>();
+    const Vector2 within = place - cell.cast<double>();
+    const Eigen::Vector2i part = (kSamplesAlong * within).cast<int>();
+    const size_t at =
+        (static_cast<size_t>(cell.y()) * (grid.columns - 3) + cell.x()) * kParts + part.y() * kSamplesAlong + part.x();
+    const double off = (kSamplesAlong * within - part.cast<double>() - Vector2(0.5, 0.5)).squaredNorm();
+    samples[at].share += field.area(t);
+    if (samples[at].triangle >= 0 && off >= distance[at]) continue;
+    samples[at].triangle = t;
+    samples[at].place = within;
+    distance[at] = off;
+  }
+  return samples;
+}
+
+void add_cells(const HeightField& field, const KnotGrid& grid, const std::vector<int>& row, SmoothModes& modes) {
+  const std::vector<ModeSample> samples = choose_samples(field, grid);
+  const int columns = grid.columns - 3, parts = kSamplesAlong * kSamplesAlong;
+  for (int c = 0; c < columns * (grid.rows - 3); ++c) {
+    ModeCell cell{static_cast<int>(modes.samples.size()), 0, splines_of_cell(grid, c % columns, c / columns)};
+    for (int& mode : cell.mode) mode = row[mode];
+    if (*std::max_element(cell.mode.begin(), cell.mode.end()) < 0) continue;
+    for (int k = c * parts; k < (c + 1) * parts; ++k) {
+      if (samples[k].triangle < 0) continue;
+      modes.samples.push_back(samples[k]);
+      modes.samples.back().share /= field.area(samples[k].triangle);
+    }
+    cell.end = static_cast<int>(modes.samples.size());
+    if (cell.begin < cell.end) modes.cells.push_back(cell);
+  }
+}
+
+}  // namespace
+
+SmoothModes smooth_modes(const HeightField& field, double spacing) {
+  const KnotGrid grid = grid_over(field, spacing);
+  int count = 0;
+  const std::vector<int> row = number_splines(field, grid, spacing * spacing, count);
+  SmoothModes modes{spline_values(field, grid, row, count), {}, {}, grid.step};
+  if (count > 0) add_cells(field, grid, row, modes);
   return modes;
+}
+
+ModeDerivatives mode_derivatives(const Vector2& place, double step) {
+  const Splines across = cubic_splines(place.x()), along = cubic_splines(place.y());
+  const double one = 1 / step, two = one * one;
+  ModeDerivatives result;
+  for (int k = 0; k < 16; ++k) {
+    const auto a = across.col(k % 4), b = along.col(k / 4);
+    result.col(k) << a(0) * b(0), one * a(1) * b(0), one * a(0) * b(1), two * a(2) * b(0), two * a(1) * b(1),
+        two * a(0) * b(2);
+  }
+  return result;
 }
 
 }  // namespace reflines

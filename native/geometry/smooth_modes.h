@@ -1,14 +1,42 @@
 // Bicubic B-splines over the image plane as motions of the free vertices: what a change of shape looks like from afar.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "native/geometry/height_field.h"
 #include "native/types.h"
 
 namespace reflines {
 
-// m x n, one column for each free vertex in order, at most 16 entries each: by how much the m splines move it. The
-// knots lie about `spacing` mean vertex distances apart. A spline that would move a vertex which is not free is left
-// out, so that borders keep their position and tangent; so is one that moves next to nothing. May have no row at all.
-SparseMatrix smooth_modes(const HeightField& field, double spacing);
+// A triangle that stands for its neighbours.
+struct ModeSample {
+  int triangle = -1;
+  double share = 0.0;  // area it stands for / its own area
+  Vector2 place;       // of its centroid within the cell, in [0, 1)^2
+};
+
+// A cell of the knots' grid that holds samples: begin .. end - 1, and the splines that are not zero there.
+struct ModeCell {
+  int begin = 0, end = 0;
+  std::array<int, 16> mode;  // or -1 where a spline is left out
+};
+
+struct SmoothModes {
+  SparseMatrix values;  // m x n, one column for each free vertex in order: by how much the m splines move it
+  std::vector<ModeCell> cells;
+  std::vector<ModeSample> samples;  // one for every ninth of a cell that holds a triangle
+  double step = 0.0;                // width of a cell
+
+  int count() const { return static_cast<int>(values.rows()); }
+};
+
+// The knots lie about `spacing` mean vertex distances apart. A spline that would move a vertex which is not free is
+// left out, so that borders keep their position and tangent; so is one that hardly moves any. There may be none at all.
+SmoothModes smooth_modes(const HeightField& field, double spacing);
+
+// What a cell's 16 splines are at a place of it, one a column: value, f_x, f_y, f_xx, f_xy, f_yy.
+using ModeDerivatives = Eigen::Matrix<double, 6, 16>;
+ModeDerivatives mode_derivatives(const Vector2& place, double step);
 
 }  // namespace reflines

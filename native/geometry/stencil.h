@@ -30,6 +30,9 @@ struct Stencils {
   int triangle_count() const { return static_cast<int>(offset.size()) - 1; }
 };
 
+// Those of the triangles named, in that order.
+Stencils chosen_stencils(const Stencils& all, const std::vector<int>& triangles);
+
 // One triangle's Hessian weights before they are packed.
 struct HessianStencil {
   std::vector<int> vertex;  // the triangle's corners first
@@ -44,6 +47,10 @@ Stencils make_stencils(const HeightField& field, StencilKind kind);
 HessianStencil averaged_hessian(const HeightField& field, int t);
 HessianStencil quadratic_hessian(const HeightField& field, int t);
 HessianStencil ring_hessian(const HeightField& field, int t);
+
+// #T: triangles at a border or crease whose own heights, and those across their edges, are all held. No six-point
+// stencil of theirs moves; a ring reaches for free heights beyond, all on one side, and is of first order only.
+Mask held_at_border(const HeightField& field);
 
 // Largest |weight| times l_max^2, l_max the longest edge of the six-point stencil: the paper's measure of instability.
 double stencil_magnitude(const HeightField& field, const HessianStencil& stencil);

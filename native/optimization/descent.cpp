@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "native/errors.h"
+#include "native/optimization/dissection.h"
 
 namespace reflines {
 
@@ -83,13 +84,13 @@ void Descent::evaluate_start(const Vector& x) {
   report_.gradient_before = gradient_norm_;
   wanted_gradient_norm_ = options_.gradient_tolerance * gradient_norm_;
   if (!factor_is_kept()) return;
-  measure_rounding(work_.hessian_diagonal);
+  measure_rounding(work_.rounding_weight);
   policy_.start(gradient_norm_, std::max(wanted_gradient_norm_, gradient_rounding_));
 }
 
-void Descent::measure_rounding(const Vector& hessian_diagonal) {
-  work_.hessian_diagonal = hessian_diagonal;
-  gradient_rounding_ = kEpsilon * hessian_diagonal.cwiseProduct(work_.x).norm();
+void Descent::measure_rounding(const Vector& weight) {
+  work_.rounding_weight = weight;
+  gradient_rounding_ = kEpsilon * weight.cwiseProduct(work_.x).norm();
 }
 
 void Descent::finish(Vector& x) {
@@ -120,11 +121,12 @@ bool Descent::renew_factor() {
   tell("assembling");
   const SparseMatrix& hessian = problem_.hessian(work_.x, model_of(options_.strategy));
   ++report_.assemblies;
-  measure_rounding(hessian.diagonal());
+  measure_rounding(problem_.rounding_weight(hessian));
   if (gradient_is_rounding() || is_cancelled()) return false;
   if (!work_.solver.has_pattern_of(hessian)) {
     tell("ordering");
-    work_.solver.analyze(hessian);
+    const PlanePositions places = problem_.places();
+    work_.solver.analyze(hessian, places.rows() > 0 ? dissection_order(hessian, places) : std::vector<int>());
     ++report_.analyses;
     if (is_cancelled()) return false;
   }
@@ -179,12 +181,16 @@ void Descent::take_step() {
     work_.gradient = work_.trial_gradient - work_.gradient;
     work_.memory.learn(work_.direction, work_.gradient);
   }
+  accept_trial();
+  policy_.observe(gradient_norm_);
+  ++report_.iterations;
+}
+
+void Descent::accept_trial() {
   work_.x.swap(work_.trial);
   work_.gradient.swap(work_.trial_gradient);
   current_.energy = trial_.energy;
   gradient_norm_ = work_.gradient.norm();
-  policy_.observe(gradient_norm_);
-  ++report_.iterations;
 }
 
 bool Descent::blame_factor() {

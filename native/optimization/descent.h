@@ -9,7 +9,6 @@
 #include "native/optimization/progress.h"
 #include "native/optimization/refactor_policy.h"
 #include "native/optimization/report.h"
-#include "native/optimization/subspace.h"
 #include "native/optimization/workspace.h"
 
 namespace reflines {
@@ -25,8 +24,8 @@ class Descent {
  private:
   void evaluate_start(const Vector& x);
   void approach();
-  int descend_along(Subspace& subspace, Vector& coefficients);
-  void measure_rounding(const Vector& hessian_diagonal);
+  int move_along(CoarseProblem& coarse);
+  void measure_rounding(const Vector& weight);
   void descend();
   void finish(Vector& x);
 
@@ -39,6 +38,7 @@ class Descent {
   bool backtrack();
   void try_step(double step);
   void take_step();
+  void accept_trial();
   bool blame_factor();
 
   // Stopping tests. Each that holds writes Report::termination and its sentence.

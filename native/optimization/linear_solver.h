@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "native/types.h"
 
@@ -27,8 +28,9 @@ class LinearSolver {
   // True where `matrix` has the pattern last analysed: its factorization needs no new analysis.
   bool has_pattern_of(const SparseMatrix& matrix) const;
 
-  // Chooses the elimination order for a pattern (the values do not matter). Drops a factor that is kept.
-  void analyze(const SparseMatrix& matrix);
+  // Chooses the elimination order for a pattern (the values do not matter), or takes the one handed over (n, first to
+  // last; CHOLMOD only). Drops a factor that is kept.
+  void analyze(const SparseMatrix& matrix, const std::vector<int>& order = {});
 
   // Numeric factorization; the pattern must be the one analysed. A positive semi-definite matrix that breaks down is
   // tried again with a small multiple of its diagonal added (see diagonal_shift). SolverFailure where that does not

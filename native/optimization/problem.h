@@ -2,9 +2,13 @@
 // constant pattern. It knows nothing of meshes; tests drive it with textbook functions.
 #pragma once
 
+#include <memory>
+
 #include "native/types.h"
 
 namespace reflines {
+
+class CoarseProblem;
 
 class Problem {
  public:
@@ -19,9 +23,25 @@ class Problem {
   // The reference stays valid, and its values are overwritten, until the next call.
   virtual const SparseMatrix& hessian(const Vector& x, HessianModel model) = 0;
 
-  // P^T, m x n with m much smaller than n: column j says by how much each of m smooth motions moves unknown j. A
-  // minimum far away is first approached along them. Null where the problem knows of none.
-  virtual const SparseMatrix* smooth_modes() { return nullptr; }
+  // n: what rounding each unknown by one part does to the gradient, as a Euclidean norm, given that Hessian. Where
+  // heights follow fewer unknowns their own rounding counts, which the small Hessian does not know.
+  virtual Vector rounding_weight(const SparseMatrix& hessian) { return hessian.diagonal(); }
+
+  // Where each unknown lies in a plane (n x 2), if it does: neighbours in the Hessian near each other. Empty: unknown.
+  virtual PlanePositions places() { return {}; }
+
+  // A stand-in near x, where the gradient is `gradient`, with which a minimum far away is first approached. Null where
+  // the problem knows of none. The problem outlives it.
+  virtual std::unique_ptr<CoarseProblem> coarse(const Vector& x, const Vector& gradient);
 };
+
+// Far fewer unknowns c, the strengths of smooth motions P, and an energy close to E(x + P c) that costs a fraction of
+// it; the gradient at c = 0 is that of E.
+class CoarseProblem : public Problem {
+ public:
+  virtual void move(const Vector& c, Vector& x) const = 0;  // x += P c
+};
+
+inline std::unique_ptr<CoarseProblem> Problem::coarse(const Vector&, const Vector&) { return nullptr; }
 
 }  // namespace reflines

@@ -3,6 +3,8 @@
 
 #include <atomic>
 
+#include "native/errors.h"
+
 namespace reflines {
 
 // Thread safe without locks: one thread solves and reports, any number of threads read and may cancel.
@@ -12,6 +14,11 @@ class Progress {
   void report(double fraction, const char* stage) {
     fraction_.store(fraction, std::memory_order_relaxed);
     stage_.store(stage, std::memory_order_relaxed);
+  }
+  // The same for work that throws Cancelled where it was told to stop.
+  void enter(double fraction, const char* stage) {
+    report(fraction, stage);
+    if (cancelled()) throw Cancelled();
   }
   double fraction() const { return fraction_.load(std::memory_order_relaxed); }
   const char* stage() const { return stage_.load(std::memory_order_relaxed); }

@@ -41,7 +41,7 @@ struct Report {
 
   // Filled in by the owner of the geometry: the minimizer knows of neither.
   double largest_move = 0.0;  // along the view direction, scene units
-  double residual_rms = 0.0;  // of |grad theta - target| over the region, radians / length
+  double residual_rms = 0.0;  // of |grad theta - target| over the triangles that can change, radians / length
 
   bool converged() const {
     return termination == Termination::kConverged || termination == Termination::kAlreadyOptimal;

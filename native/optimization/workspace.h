@@ -14,13 +14,13 @@ struct Workspace {
   LinearSolver solver;
   HessianModel factored_model = HessianModel::kGaussNewton;
   QuasiNewtonMemory memory;      // pairs seen since that factor was made
-  Vector hessian_diagonal;       // of the matrix last assembled
+  Vector rounding_weight;        // of the matrix last assembled, see Problem
   Vector x, gradient;            // the current point
   Vector trial, trial_gradient;  // the point being tried
   Vector direction;
 
   bool has_factor_of(HessianModel model, Eigen::Index n) const {
-    return solver.has_factor() && factored_model == model && hessian_diagonal.size() == n;
+    return solver.has_factor() && factored_model == model && rounding_weight.size() == n;
   }
 
   // No-op for the same n: then nothing is allocated in a second solve.

@@ -18,7 +18,10 @@ void check_influence(const RegionField& field, const Vector& influence) {
   throw InvalidInput("An influence lies outside 0 to 1; check the fall-off curve.");
 }
 
-double share(const Vector& influence, int t) { return influence.size() == 0 ? 1.0 : influence(t); }
+double share(const RegionField& field, const Vector& influence, int t) {
+  if (field.feature(t)) return 0.0;
+  return influence.size() == 0 ? 1.0 : influence(t);
+}
 
 // Position of each triangle along the axis, 0 at the region's first and 1 at its last.
 Vector along_axis(const RegionField& field, const Vector2& axis) {
@@ -53,7 +56,7 @@ Target uniform_target(const RegionField& field, const UniformOptions& options, c
   for (int t = 0; t < field.F.rows(); ++t) {
     const double density = unit * (options.density + position(t) * (end - options.density));
     const Eigen::RowVector2d now = field.gradient.row(t);
-    target.gradient.row(t) += share(influence, t) * (density * across.transpose() - now);
+    target.gradient.row(t) += share(field, influence, t) * (density * across.transpose() - now);
   }
   return target;
 }
@@ -63,7 +66,7 @@ Target turned_target(const RegionField& field, double angle, const Vector& influ
   if (!std::isfinite(angle)) throw InvalidInput("The angle is not a number; give radians.");
   Target target{field.gradient, {}, {}, field.family};
   for (int t = 0; t < field.F.rows(); ++t) {
-    const double own = angle * share(influence, t);
+    const double own = angle * share(field, influence, t);
     if (own == 0) continue;
     const double x = field.gradient(t, 0), y = field.gradient(t, 1);
     target.gradient.row(t) << std::cos(own) * x - std::sin(own) * y, std::sin(own) * x + std::cos(own) * y;

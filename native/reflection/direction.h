@@ -15,11 +15,12 @@ struct UniformOptions {
 };
 
 // Lines of one direction and density. `influence` (#F in [0, 1], or empty for 1) blends from the current field: 0 keeps
-// it bit for bit. Of the two gradients across the direction the one that agrees with the region's mean is taken.
+// it bit for bit, and so do features (field.feature). Of the two gradients across the direction the one that agrees
+// with the region's mean is taken.
 Target uniform_target(const RegionField& field, const UniformOptions& options, const Vector& influence);
 
 // The current gradients turned by `angle` (radians, counter-clockwise in the image plane) times the influence of each
-// triangle.
+// triangle; 0 for features.
 Target turned_target(const RegionField& field, double angle, const Vector& influence);
 
 // c(d) for every triangle (#F): `curve` tabulated at equal steps from d = 0 to d = radius, linear between, constant

@@ -1,12 +1,12 @@
 // One triangle's share of the energy as a function of its five numbers u = (f_x, f_y, f_xx, f_xy, f_yy).
 #pragma once
 
+#include "native/geometry/derivatives.h"
 #include "native/reflection/reflection_function.h"
 #include "native/types.h"
 
 namespace reflines {
 
-using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 // grad theta of a triangle.

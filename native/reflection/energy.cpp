@@ -18,12 +18,11 @@ double chunked_sum(const Vector& values) {
   return sum;
 }
 
-Vector pull_weights(const HeightField& field, double proximity) {
-  if (proximity <= 0) return {};
+Vector pull_weights(const HeightField& field, double density) {
+  if (density <= 0) return {};
   Vector pull = Vector::Zero(field.vertex_count());
-  const double scale = proximity / std::pow(field.diagonal(), 4);
   for (int t = 0; t < field.triangle_count(); ++t) {
-    for (int i = 0; i < 3; ++i) pull(field.F(t, i)) += scale * field.area(t) / 3.0;
+    for (int i = 0; i < 3; ++i) pull(field.F(t, i)) += density * field.area(t) / 3.0;
   }
   return pull;
 }
@@ -45,32 +44,56 @@ Energy::Energy(const HeightField& field, const Stencils& stencils, double proxim
     : stencils_(stencils),
       entries_(stencils, field.vertex_count()),
       start_(field.z),
-      pull_(pull_weights(field, proximity)),
-      y_(stencils.triangle_count(), 5),
-      share_(stencils.triangle_count()) {}
+      pull_density_(proximity > 0 ? proximity / std::pow(field.diagonal(), 4) : 0.0),
+      proximity_(pull_weights(field, pull_density_)),
+      pull_(proximity_),
+      share_(stencils.triangle_count()),
+      products_(stencils.vertex.size()) {}
 
-double Energy::sum_triangles(bool with_gradient) {
-#pragma omp parallel for schedule(static) if (stencils_.triangle_count() > kWorthThreads)
-  for (int t = 0; t < stencils_.triangle_count(); ++t) {
-    const Vector5 u = u_.row(t);
-    Vector5 slope = Vector5::Zero();
-    double sum = 0;
-    for (const EnergyTerm& term : terms_) {
-      if (term.weight(t) == 0) continue;
-      Vector5* gradient = with_gradient ? &slope : nullptr;
-      sum += term.theta.size() > 0 ? value_fit(term.reflection, u, term.theta(t), term.weight(t), gradient)
-                                   : gradient_fit(term.reflection, u, term.gradient.row(t), term.weight(t), gradient);
-    }
-    share_(t) = sum;
-    y_.row(t) = slope;
-  }
-  return chunked_sum(share_);
+void Energy::pull_to(const Vector& z, const Vector& weight) {
+  start_ = z;
+  pull_ = proximity_.size() > 0 ? Vector(proximity_ + weight) : weight;
 }
 
+void Energy::pull_as_built(const Vector& z) {
+  start_ = z;
+  pull_ = proximity_;
+}
+
+double Energy::triangle(int t, const Vector5& u, Vector5* gradient) const {
+  double sum = 0;
+  for (const EnergyTerm& term : terms_) {
+    if (term.weight(t) == 0) continue;
+    sum += term.theta.size() > 0 ? value_fit(term.reflection, u, term.theta(t), term.weight(t), gradient)
+                                 : gradient_fit(term.reflection, u, term.gradient.row(t), term.weight(t), gradient);
+  }
+  return sum;
+}
+
+Matrix5 Energy::triangle_hessian(int t, const Vector5& u, HessianModel model) const {
+  Matrix5 M = Matrix5::Zero();
+  for (const EnergyTerm& term : terms_) {
+    if (term.weight(t) != 0) M += term_hessian(term, t, u, model);
+  }
+  return model == HessianModel::kNewton ? projected(M) : M;
+}
+
+double Energy::mean_rise(const Eigen::RowVector3i& corners, const Vector& z) const {
+  double sum = 0;
+  for (const int v : corners) sum += z(v) - start_(v);
+  return sum / 3.0;
+}
+
+// One pass over the triangles' weights, by far the largest arrays: memory is what an evaluation waits for.
 double Energy::evaluate(const Vector& z, Vector* gradient) {
-  apply_stencils(stencils_, z, u_);
-  double energy = sum_triangles(gradient != nullptr);
-  if (gradient) apply_transposed(stencils_, entries_, y_, products_, *gradient);
+#pragma omp parallel for schedule(static) if (stencils_.triangle_count() > kWorthThreads)
+  for (int t = 0; t < stencils_.triangle_count(); ++t) {
+    Vector5 y = Vector5::Zero();
+    share_(t) = triangle(t, apply_stencil(stencils_, t, z), gradient ? &y : nullptr);
+    if (gradient) multiply_stencil(stencils_, t, y, products_);
+  }
+  double energy = chunked_sum(share_);
+  if (gradient) sum_products(entries_, products_, *gradient);
   if (pull_.size() == 0) return energy;
   for (int v = 0; v < z.size(); ++v) energy += pull_(v) * (z(v) - start_(v)) * (z(v) - start_(v));
   if (gradient) gradient->array() += 2 * pull_.array() * (z - start_).array();
@@ -78,15 +101,10 @@ double Energy::evaluate(const Vector& z, Vector* gradient) {
 }
 
 const Energy::ElementHessians& Energy::element_hessians(const Vector& z, HessianModel model) {
-  apply_stencils(stencils_, z, u_);
   elements_.resize(stencils_.triangle_count(), 15);
 #pragma omp parallel for schedule(static) if (stencils_.triangle_count() > kWorthThreads)
   for (int t = 0; t < stencils_.triangle_count(); ++t) {
-    Matrix5 M = Matrix5::Zero();
-    for (const EnergyTerm& term : terms_) {
-      if (term.weight(t) != 0) M += term_hessian(term, t, u_.row(t), model);
-    }
-    if (model == HessianModel::kNewton) M = projected(M);
+    const Matrix5 M = triangle_hessian(t, apply_stencil(stencils_, t, z), model);
     int k = 0;
     for (int i = 0; i < 5; ++i) {
       for (int j = i; j < 5; ++j) elements_(t, k++) = M(i, j);

@@ -28,6 +28,9 @@ class Energy {
   void set_terms(std::vector<EnergyTerm> terms) { terms_ = std::move(terms); }
 
   void set_start(const Vector& z) { start_ = z; }  // #V: where the pull goes to
+  // #V each: what else pulls, weight (z - start)^2, beside the proximity (where that is switched off, too).
+  void pull_to(const Vector& z, const Vector& weight);
+  void pull_as_built(const Vector& z);  // only the proximity, to z
 
   // E(z); dE/dz (#V) into `gradient` where it is not null.
   double evaluate(const Vector& z, Vector* gradient);
@@ -41,21 +44,27 @@ class Energy {
   // Diagonal of the proximity term's Hessian (#V).
   Vector proximity_hessian() const { return 2 * pull_; }
 
+  // One triangle's share without the pull as a function of its derivatives u, and its second-order model.
+  double triangle(int t, const Vector5& u, Vector5* gradient) const;  // adds to `gradient` where it is not null
+  Matrix5 triangle_hessian(int t, const Vector5& u, HessianModel model) const;
+
+  // The pull as a field: its weight for one unit of area, and how far z lies above its rest over a triangle's corners.
+  double pull_density() const { return pull_density_; }
+  double mean_rise(const Eigen::RowVector3i& corners, const Vector& z) const;
+
   const Stencils& stencils() const { return stencils_; }
   const StencilEntries& entries() const { return entries_; }
 
  private:
-  double sum_triangles(bool with_gradient);
-
   const Stencils& stencils_;
   StencilEntries entries_;
   std::vector<EnergyTerm> terms_;
-  Vector start_;           // #V
-  Vector pull_;            // #V: weight of (z - start)^2; empty without proximity
-  TriangleDerivatives u_;  // #T x 5, work space
-  TriangleDerivatives y_;  // #T x 5: dE/du
-  Vector share_;           // #T: a triangle's energy
-  Vector products_;        // #entries, work space
+  Vector start_;  // #V
+  double pull_density_;
+  Vector proximity_;  // #V: weight of (z - start)^2 by the proximity; empty without
+  Vector pull_;       // #V: that, or what was set later
+  Vector share_;      // #T: a triangle's energy
+  Vector products_;   // #entries, work space
   ElementHessians elements_;
 };
 

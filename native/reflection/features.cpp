@@ -8,11 +8,15 @@ namespace {
 
 constexpr double kStrong = 8.0;  // times the median: dents of 2 mm in 8 cm reach 5 to 10 times, fillets 50 and more
 
-Mask stronger_than_median(const PlaneVectors& gradient) {
+// Over the piece's diagonal: a bend of less than a fifth of that as its radius (|grad theta| is some 2 / radius). Where
+// most of a panel is flat the median is rounding, and every dent would be 8 times that.
+constexpr double kLeast = 10.0;
+
+Mask strongly_bent(const PlaneVectors& gradient, double diagonal) {
   const Vector size = gradient.rowwise().norm();
   std::vector<double> sorted(size.data(), size.data() + size.size());
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  return size.array() > kStrong * sorted[sorted.size() / 2];
+  return size.array() > std::max(kStrong * sorted[sorted.size() / 2], kLeast / diagonal);
 }
 
 // The triangles connected to `first` through marked ones, which are unmarked on the way.
@@ -44,7 +48,7 @@ double extent(const HeightField& field, const std::vector<int>& triangles) {
 }  // namespace
 
 Mask strong_features(const HeightField& field, const PlaneVectors& gradient, double length) {
-  Mask strong = stronger_than_median(gradient);
+  Mask strong = strongly_bent(gradient, field.diagonal());
   Mask features = Mask::Constant(field.triangle_count(), false);
   for (int t = 0; t < field.triangle_count(); ++t) {
     if (!strong(t)) continue;

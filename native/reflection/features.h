@@ -7,9 +7,9 @@
 namespace reflines {
 
 // #T, true for features of a field (#T x 2): connected triangles whose |grad theta| is over 8 times the region's median
-// and that together reach farther than `length`. A strong bend shorter than the length in every direction is a flaw and
-// is smoothed; one that runs on is design. Without this a smoothing length of 0.2 m takes a fillet of 4 cm radius away:
-// measured on a car's bonnet cut out with its flanks, vertices move by 36 mm.
+// and over 10 / diagonal, and that together reach farther than `length`. A strong bend shorter than the length in every
+// direction is a flaw and is smoothed; one that runs on is design. Without this a smoothing length of 0.2 m takes a
+// fillet of 4 cm radius away: measured on a car's bonnet cut out with its flanks, vertices move by 36 mm.
 Mask strong_features(const HeightField& field, const PlaneVectors& gradient, double length);
 
 }  // namespace reflines

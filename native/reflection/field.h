@@ -1,4 +1,4 @@
-// The reflection lines a surface has: theta and its gradient for every triangle.
+// The reflection lines a surface has, triangle by triangle.
 #pragma once
 
 #include "native/geometry/derivatives.h"
@@ -10,13 +10,12 @@ namespace reflines {
 struct ReflectionField {
   Vector theta;           // #T, radians in (-pi, pi]
   PlaneVectors gradient;  // #T x 2, radians / length, in the image plane; without 2 pi jumps
-  Vector visibility;      // #T: sine of the angle between reflected ray and lines; theta is undefined where it is 0
 };
 
 ReflectionField reflection_field(const ReflectionFunction& reflection, const TriangleDerivatives& u);
 
-// Weight of a triangle by its visibility, 1 from 0.05 up and 0 where theta is undefined: there grad theta has a pole,
-// and one triangle would outweigh the panel.
-double visibility_weight(double visibility);
+// #T: 1 where the reflected ray is well away from the lines (visibility 0.05 and more), 0 where it is parallel to them
+// and theta is undefined: there grad theta has a pole, and one triangle would outweigh the panel.
+Vector visibility_weights(const ReflectionFunction& reflection, const TriangleDerivatives& u);
 
 }  // namespace reflines

@@ -54,6 +54,7 @@ HessianAssembly::HessianAssembly(const Stencils& stencils, const StencilEntries&
 void HessianAssembly::append_rows(int unknown, std::vector<int>& rows) const {
   const auto before = static_cast<std::ptrdiff_t>(rows.size());
   const Incidence& lists = entries_.entries_of_vertex;
+  rows.push_back(unknown);  // a vertex that no stencil names has its diagonal, too
   for (int k = lists.begin(vertex_[unknown]); k < lists.end(vertex_[unknown]); ++k) {
     const int t = entries_.triangle[lists.items[k]];
     for (int e = stencils_.offset[t]; e < stencils_.offset[t + 1]; ++e) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "native/errors.h"
+#include "native/reflection/reflection_function.h"
 #include "native/reflection/scalar_gradient.h"
 
 namespace reflines {
@@ -57,14 +58,16 @@ void check(const Eigen::MatrixXd& image, const PatternOptions& options) {
   if (image.size() == 0 || !image.allFinite())
     throw InvalidInput("The image is empty or has values that are not finite.");
   if (!(options.width > 0)) throw InvalidInput("The width of the image in the scene must be positive.");
+  if (!(options.blur >= 0 && options.blur <= static_cast<double>(image.rows() + image.cols()))) {
+    throw InvalidInput("The blur must be positive and no wider than the image of " + std::to_string(image.cols()) +
+                       " x " + std::to_string(image.rows()) + " pixels.");
+  }
   if (!(options.keep >= 0 && options.keep <= 1))
     throw InvalidInput("The share of the lines to keep must lie between 0 and 1.");
 }
 
-}  // namespace
-
-Target pattern_target(const RegionField& field, const Eigen::MatrixXd& image, const PatternOptions& options) {
-  check(image, options);
+// What the image adds to theta at the vertices (#V).
+Vector added(const RegionField& field, const Eigen::MatrixXd& image, const PatternOptions& options) {
   const Eigen::MatrixXd soft = blurred(image, options.blur);
   const double pixel = options.width / image.cols();
   Vector delta(field.xy.rows());
@@ -75,14 +78,32 @@ Target pattern_target(const RegionField& field, const Eigen::MatrixXd& image, co
     delta(v) = options.strength * sample(soft, turned.x() / pixel + 0.5 * (image.cols() - 1),
                                          turned.y() / pixel + 0.5 * (image.rows() - 1));
   }
+  return delta;
+}
+
+// keep * (theta - mean) + mean (#F); the mean of directions, since theta may jump by 2 pi within the region.
+Vector kept_values(const RegionField& field, double keep) {
+  if (keep == 1) return field.theta;
+  const double mean = std::atan2(field.area.dot(field.theta.array().sin().matrix()),
+                                 field.area.dot(field.theta.array().cos().matrix()));
+  return field.theta.unaryExpr([mean, keep](double theta) { return mean + keep * wrapped(theta - mean); });
+}
+
+}  // namespace
+
+Target pattern_target(const RegionField& field, const Eigen::MatrixXd& image, const PatternOptions& options) {
+  check(image, options);
+  const Vector delta = added(field, image, options);
   Target target{field.gradient, {}, {}, field.family};
-  if (options.keep < 1) target.gradient *= options.keep;
+  if (options.by_value) target.theta = field.theta;
+  const Vector kept = kept_values(field, options.keep);
   for (int t = 0; t < field.F.rows(); ++t) {
-    if (!field.active(t)) continue;
+    if (!field.active(t) || field.feature(t)) continue;
     const double at_a = delta(field.F(t, 0));
     const Vector2 gradient =
         linear_gradient(field.xy, field.F.row(t), delta(field.F(t, 1)) - at_a, delta(field.F(t, 2)) - at_a);
-    target.gradient.row(t) += gradient.transpose();
+    target.gradient.row(t) = options.keep * field.gradient.row(t) + gradient.transpose();
+    if (options.by_value) target.theta(t) = kept(t) + (at_a + delta(field.F(t, 1)) + delta(field.F(t, 2))) / 3.0;
   }
   return target;
 }

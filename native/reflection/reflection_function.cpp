@@ -1,6 +1,7 @@
 #include "native/reflection/reflection_function.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace reflines {
 namespace {
@@ -22,6 +23,8 @@ Quadratic reflected_component(const Vector3& b, const Vector3& c) {
 }
 
 }  // namespace
+
+double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 ReflectionFunction::ReflectionFunction(const ImagePlane& frame, const Vector3& view_direction,
                                        const Vector3& line_direction) {
@@ -48,7 +51,9 @@ double ReflectionFunction::theta(double p, double q) const {
   return std::atan2(value.imag(), value.real());
 }
 
-double ReflectionFunction::visibility(double p, double q) const { return std::abs(w(p, q)) / (1 + p * p + q * q); }
+double ReflectionFunction::visibility(double p, double q) const {
+  return std::sqrt(std::norm(w(p, q))) / (1 + p * p + q * q);
+}
 
 ThetaDerivatives ReflectionFunction::derivatives(double p, double q, int order) const {
   Complex value = w(p, q);

@@ -19,6 +19,9 @@ struct ThetaDerivatives {
   double ppp = 0, ppq = 0, pqq = 0, qqq = 0;  // third
 };
 
+// A difference of two values of theta, brought to [-pi, pi].
+double wrapped(double angle);
+
 class ReflectionFunction {
  public:
   // Slopes are taken in `frame`; view and line direction are in world coordinates and need not be those of the frame

@@ -10,7 +10,9 @@ namespace reflines {
 struct Target {
   PlaneVectors gradient;  // #F x 2: wanted grad theta in the image plane, radians / length (eq. 4)
   Vector weight;          // #F, >= 0; empty: 1 everywhere
-  Vector theta;    // #F: wanted theta, radians. If not empty, values are fitted (eq. 3) and `gradient` is not read
+  // #F: wanted theta, radians. If not empty, values are fitted (eq. 3); `gradient` then only keeps the surface smooth
+  // at the scale of the triangles, with a weight that vanishes with their area, and may be empty.
+  Vector theta;
   int family = 0;  // which of the optimizer's families of light lines
 };
 

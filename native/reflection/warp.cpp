@@ -1,10 +1,12 @@
 #include "native/reflection/warp.h"
 
 #include <cmath>
-#include <numbers>
+#include <optional>
+#include <vector>
 
 #include "native/errors.h"
 #include "native/geometry/locate.h"
+#include "native/reflection/reflection_function.h"
 #include "native/reflection/scalar_gradient.h"
 
 namespace reflines {
@@ -63,8 +65,6 @@ PlanePositions pulled_back(const RegionField& field, const WarpGrid& grid) {
   return result;
 }
 
-double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
-
 // theta at `point` of the triangle that holds it, relative to `reference` and within pi of it.
 double theta_near(const RegionField& field, const Location& at, const Vector2& point, double reference) {
   double sum = 0;
@@ -85,6 +85,8 @@ WarpResult add_difference(const RegionField& field, const Vector& delta, const M
   if (by_value) result.target.theta = Vector::Zero(triangles);
   for (int t = 0; t < triangles; ++t) {
     if (!field.active(t)) continue;
+    if (by_value) result.target.theta(t) = field.theta(t);
+    if (field.feature(t)) continue;
     const int a = field.F(t, 0), b = field.F(t, 1), c = field.F(t, 2);
     const double db = wrapped(delta(b) - delta(a)), dc = wrapped(delta(c) - delta(a));
     const bool known = !unknown(a) && !unknown(b) && !unknown(c);
@@ -96,29 +98,62 @@ WarpResult add_difference(const RegionField& field, const Vector& delta, const M
   return result;
 }
 
+// The piece of each vertex (#V); -1 where several meet: theta at the vertex is a mean over both sides of a crease.
+Eigen::VectorXi piece_of_vertices(const RegionField& field) {
+  constexpr int kNone = -2;
+  Eigen::VectorXi piece = Eigen::VectorXi::Constant(field.xy.rows(), kNone);
+  for (int t = 0; t < field.F.rows(); ++t) {
+    if (!field.active(t)) continue;
+    for (int v : field.F.row(t)) piece(v) = piece(v) == kNone || piece(v) == field.piece(t) ? field.piece(t) : -1;
+  }
+  return piece;
+}
+
+// Finds the triangles in which lines can be read: smooth ones, away from creases.
+class LineSource {
+ public:
+  explicit LineSource(const RegionField& field) : piece_(piece_of_vertices(field)) {
+    active_.resize(field.F.rows(), 3);
+    for (int t = 0; t < field.F.rows(); ++t) {
+      if (!field.active(t)) continue;
+      active_.row(static_cast<int>(number_.size())) = field.F.row(t);
+      number_.push_back(t);
+    }
+    active_.conservativeResize(static_cast<int>(number_.size()), 3);
+    locator_.emplace(field.xy, active_);
+  }
+
+  // triangle -1: `point` lies outside, on a feature, or in another piece than vertex v.
+  Location locate(const RegionField& field, int v, const Vector2& point) const {
+    Location at = locator_->locate(point);
+    if (at.triangle < 0) return at;
+    at.triangle = number_[at.triangle];
+    bool smooth = !field.feature(at.triangle) && piece_(v) >= 0;
+    for (int corner : field.F.row(at.triangle)) smooth = smooth && piece_(corner) == piece_(v);
+    if (!smooth) at.triangle = -1;
+    return at;
+  }
+
+ private:
+  Eigen::VectorXi piece_;    // #V
+  Triangles active_;         // the locator's
+  std::vector<int> number_;  // of each of them in the region
+  std::optional<TriangleLocator> locator_;
+};
+
 }  // namespace
 
 WarpResult warp_target(const RegionField& field, const WarpGrid& grid, bool by_value) {
   const PlanePositions shift = pulled_back(field, grid);
-  Triangles seen(field.F.rows(), 3);  // the active triangles
-  std::vector<int> number;
-  for (int t = 0; t < field.F.rows(); ++t) {
-    if (!field.active(t)) continue;
-    seen.row(static_cast<int>(number.size())) = field.F.row(t);
-    number.push_back(t);
-  }
-  seen.conservativeResize(static_cast<int>(number.size()), 3);
-  const TriangleLocator locator(field.xy, seen);
+  const LineSource lines(field);
   Vector delta = Vector::Zero(field.xy.rows());
   Mask outside = Mask::Constant(field.xy.rows(), false);
   for (int v = 0; v < static_cast<int>(field.xy.rows()); ++v) {
     if (shift.row(v).isZero(0.0)) continue;
     const Vector2 source = (field.xy.row(v) + shift.row(v)).transpose();
-    Location at = locator.locate(source);
+    const Location at = lines.locate(field, v, source);
     outside(v) = at.triangle < 0;
-    if (at.triangle < 0) continue;
-    at.triangle = number[at.triangle];
-    delta(v) = theta_near(field, at, source, field.vertex_theta(v));
+    if (!outside(v)) delta(v) = theta_near(field, at, source, field.vertex_theta(v));
   }
   return add_difference(field, delta, outside, by_value);
 }

@@ -4,11 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import reflines
 
 Array = np.ndarray
 MESHES = Path(os.environ.get("REFLINES_MESHES", Path(__file__).resolve().parents[3] / "shared" / "meshes"))
 VIEW = np.array([0.0, -0.5, 1.0]) / np.hypot(0.5, 1.0)
 LINE = np.array([0.0, 1.0, 0.1])
+DENT = 0.002
 
 
 def hood(columns: int = 16, rows: int = 14) -> tuple[Array, Array, Array]:
@@ -30,3 +32,18 @@ def roof() -> tuple[Array, Array, Array]:
     faces = [[int(word.split("/")[0]) - 1 for word in row[1:]] for row in rows if row[0] == "f"]
     V = np.array([row[1:4] for row in rows if row[0] == "v"], float)
     return V, np.cumsum([0] + [len(face) for face in faces]), np.concatenate(faces)
+
+
+def optimizer(cage: tuple, view: Array = VIEW, line: Array = LINE, **options: object) -> reflines.CageOptimizer:
+    return reflines.CageOptimizer(*cage, view_direction=view, line_direction=line, **options)
+
+
+def dented(cage: tuple, view: Array, line: Array, **options: object) -> tuple:
+    """Every second vertex of the cage that may move, moved up or down."""
+    V, offsets, corners = cage
+    rng = np.random.default_rng(7)
+    free = np.flatnonzero(optimizer(cage, view, line, **options).cage_free)
+    moved = V.copy()
+    pick = rng.choice(free, len(free) // 2, replace=False)
+    moved[pick] += DENT * rng.choice([-1.0, 1.0], len(pick))[:, None] * view
+    return moved, offsets, corners

@@ -178,6 +178,7 @@ def test_reachable_pattern_is_reached(solver):
     (lambda s: reflines.falloff(s, centre=(0, 0), radius=0.0, curve=np.ones(2)), "radius"),
     (lambda s: reflines.pattern(s, image=np.zeros((0, 0))), "image"),
     (lambda s: reflines.pattern(s, image=np.ones((2, 2)), width=0.0), "width"),
+    (lambda s: reflines.pattern(s, image=np.ones((2, 2)), blur=1e9), "blur"),
     (lambda s: reflines.smooth(s, length=0.1, family=3), "family 3"),
 ])
 def test_bad_settings_get_a_sentence(solver, call, words):

@@ -68,3 +68,17 @@ def test_unusable_input_gets_one_sentence(settings: dict, said: str) -> None:
 def test_positions_must_fit_the_cage(wrong: np.ndarray) -> None:
     with pytest.raises(reflines.InvalidInput, match="16 rows"):
         grid().positions(wrong)
+
+
+@pytest.mark.parametrize("scheme", ["catmull_clark", "loop"])
+def test_all_levels_lie_on_one_limit_surface_with_one_normal(scheme: str) -> None:
+    triangles = np.concatenate([FACES[:, [0, 1, 2]], FACES[:, [0, 2, 3]]])
+    faces = triangles if scheme == "loop" else FACES
+    offsets = np.arange(0, faces.size + 1, faces.shape[1])
+    levels = [reflines.Subdivision(offsets, faces.ravel(), vertices=16, level=level, scheme=scheme)
+              for level in range(1, 7)]
+    shared = len(levels[0].positions(V))
+    for coarse, fine in zip(levels[:-1], levels[1:], strict=True):
+        assert len(fine.faces) == 4 * len(coarse.faces)
+        assert np.allclose(fine.positions(V)[:shared], levels[0].positions(V), rtol=0, atol=1e-12)
+        assert np.allclose(fine.normals(V)[:shared], levels[0].normals(V), rtol=0, atol=1e-10)

@@ -14,9 +14,14 @@ MAY_INCLUDE = {
     "optimization": BASE,
     "reflection": BASE | {"geometry"},
     "motion": SOLVER,
-    "piece_problem": SOLVER | {"motion"},
-    "shape_optimizer": SOLVER | {"motion", "piece_problem"},
-    "cage_optimizer": SOLVER | {"motion", "shape_optimizer"},
+    "coarse_piece": SOLVER,
+    "piece_problem": SOLVER | {"motion", "coarse_piece"},
+    "piece_targets": SOLVER | {"piece_problem"},
+    "region": SOLVER,
+    "shape_optimizer": SOLVER | {"motion", "piece_problem", "region"},
+    "shape_fields": SOLVER | {"piece_problem", "shape_optimizer"},
+    "cage_surface": SOLVER | {"motion", "shape_optimizer"},
+    "cage_optimizer": SOLVER | {"motion", "shape_optimizer", "cage_surface"},
     "bindings": SOLVER | {"shape_optimizer", "cage_optimizer"},
 }
 

@@ -17,25 +17,30 @@ MAY_IMPORT = {
     "menus": {"properties"},
     "keymaps": {"properties"},
     "preferences": {"native", "keymaps"},
-    "session": {"native", "bridge", "properties"},
-    "tool": {"session", "bridge", "properties", "targets"},
+    "solving": {"native", "bridge", "targets"},
+    "session": {"native", "bridge", "solving"},
+    "saved": {"session", "solving", "bridge"},
+    "tool": {"session", "solving", "bridge", "properties", "targets"},
     "drag.motion": set(),
     "drag.worker": set(),
-    "drag.pursuit": {"native", "session", "bridge"},
-    "drag.modal": {"drag.motion", "drag.worker", "drag.pursuit", "overlay.circle", "tool", "session", "bridge",
-                   "targets"},
+    "drag.pursuit": {"native", "session", "solving", "bridge"},
+    "drag.modal": {"drag.motion", "drag.worker", "drag.pursuit", "overlay.circle", "tool", "session", "solving",
+                   "bridge", "targets"},
     "overlay.circle": set(),
-    "operators": {"drag.modal", "drag.motion", "tool", "tool_settings", "session", "bridge", "properties", "targets"},
+    "live": {"drag.pursuit", "drag.worker", "session", "solving", "bridge", "targets"},
+    "operators": {"live", "drag.modal", "drag.motion", "tool", "tool_settings", "session", "solving", "bridge",
+                  "properties", "targets"},
     "overlay.stripes": set(),
     "overlay.shader": {"overlay.stripes"},
     "overlay.normals": {"overlay.stripes", "native"},
     "overlay.last_solve": set(),
+    "overlay.limit": {"native", "bridge"},
     "overlay.seen": {"overlay.stripes", "bridge", "session", "properties"},
-    "overlay.draw": {"overlay.stripes", "overlay.shader", "overlay.normals", "overlay.last_solve", "overlay.seen",
-                     "bridge", "session", "properties"},
+    "overlay.draw": {"overlay.stripes", "overlay.shader", "overlay.normals", "overlay.last_solve", "overlay.limit",
+                     "overlay.seen", "native", "bridge", "session", "solving", "properties"},
 }
 # Registration sees everything; the index of a package sees the package.
-INDEXES = {"__init__", "drag.__init__", "operators.__init__", "overlay.__init__"}
+INDEXES = {"__init__", "drag.__init__", "live.__init__", "operators.__init__", "overlay.__init__"}
 
 # Module from elsewhere -> the only modules of addon/ that may import it.
 WALLS = {"reflines": ("native",), "bmesh": ("bridge",), "gpu": ("overlay",), "gpu_extras": ("overlay",)}

@@ -56,6 +56,28 @@ TEST(NormalFit, RefitsNothingThatHasNotTurnedHoweverSmallTheAngle) {
   EXPECT_EQ(fit.refit_count(), 0);
 }
 
+// The error of a fit that is kept grows with the square of the turn since it was made.
+TEST(NormalFit, KeptFitsAreOfSecondOrderInTheTurn) {
+  const samples::Mesh mesh =
+      samples::lifted(samples::grid(12, 0.3), [](double x, double y) { return 0.2 * x * x - 0.1 * x * y; });
+  const NormalFit fit(mesh.V, mesh.F);
+  const auto error = [&](double slope) {
+    Positions V = mesh.V;
+    V.col(2) += slope * V.col(0);
+    return (fit.kept_normals(V) - NormalFit(V, mesh.F).normals(V)).rowwise().norm().maxCoeff();
+  };
+  EXPECT_LT(error(0.0), 1e-14);
+  EXPECT_LT(error(0.01), 1e-3);
+  EXPECT_LT(error(0.01), 0.4 * error(0.02));
+}
+
+// As where all faces of a mesh are hidden.
+TEST(NormalFit, NeedsNoTriangle) {
+  const samples::Mesh mesh = samples::grid(2);
+  NormalFit fit(mesh.V, Triangles(0, 3));
+  EXPECT_EQ(fit.normals(mesh.V), Positions(Eigen::RowVector3d(0, 0, 1).replicate(mesh.V.rows(), 1)));
+}
+
 TEST(NormalFit, LooseVertexHasANormalToo) {
   samples::Mesh mesh = samples::grid(2);
   mesh.V.conservativeResize(10, 3);

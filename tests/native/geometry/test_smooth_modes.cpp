@@ -28,7 +28,7 @@ HeightField flat_square(Border border) {
 
 TEST(SmoothModesTest, AddUpToOneWhereNothingIsHeld) {
   const HeightField field = flat_square(Border::kClamped);
-  const SparseMatrix modes = smooth_modes(field, 4.0);
+  const SparseMatrix modes = smooth_modes(field, 4.0).values;
   const Vector sums = modes.transpose() * Vector::Ones(modes.rows());
   ASSERT_EQ(modes.cols(), (kSide - 3) * (kSide - 3));
   EXPECT_GT(modes.rows(), 9);
@@ -40,13 +40,36 @@ TEST(SmoothModesTest, AddUpToOneWhereNothingIsHeld) {
 
 TEST(SmoothModesTest, AFreeBorderMovesToo) {
   const HeightField field = flat_square(Border::kFree);
-  const SparseMatrix modes = smooth_modes(field, 4.0);
+  const SparseMatrix modes = smooth_modes(field, 4.0).values;
   const Vector sums = modes.transpose() * Vector::Ones(modes.rows());
   EXPECT_EQ(modes.cols(), (kSide + 1) * (kSide + 1));
   EXPECT_GT(sums.minCoeff(), 0.5);
 }
 
-TEST(SmoothModesTest, ASmallRegionHasNone) { EXPECT_EQ(smooth_modes(flat_square(Border::kClamped), 20.0).rows(), 0); }
+TEST(SmoothModesTest, ASmallRegionHasNone) { EXPECT_EQ(smooth_modes(flat_square(Border::kClamped), 20.0).count(), 0); }
+
+// The samples are a quadrature: together they stand for the area of all cells that hold a motion, each once.
+TEST(SmoothModesTest, SamplesStandForTheWholeArea) {
+  const HeightField field = flat_square(Border::kFree);
+  const SmoothModes modes = smooth_modes(field, 4.0);
+  double area = 0;
+  for (const ModeSample& sample : modes.samples) area += sample.share * field.area(sample.triangle);
+  EXPECT_NEAR(area, kSide * kSide, 1e-9);
+  EXPECT_LT(modes.samples.size(), field.triangle_count() / 2);
+}
+
+TEST(SmoothModesTest, DerivativesAreThoseOfTheSplines) {
+  const double step = 0.5, h = 1e-4;
+  const Vector2 place(0.3, 0.8);
+  const ModeDerivatives here = mode_derivatives(place, step);
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vector2 aside = Vector2::Unit(axis) * h / step;
+    const ModeDerivatives change = mode_derivatives(place + aside, step) - mode_derivatives(place - aside, step);
+    EXPECT_LT((change.row(0) / (2 * h) - here.row(1 + axis)).norm(), 1e-6);
+    EXPECT_LT((change.row(1) / (2 * h) - here.row(3 + axis)).norm(), 1e-5);
+    EXPECT_LT((change.row(2) / (2 * h) - here.row(4 + axis)).norm(), 1e-5);
+  }
+}
 
 }  // namespace
 }  // namespace reflines

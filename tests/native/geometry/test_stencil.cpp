@@ -102,9 +102,10 @@ TEST(Stencil, TransposedProductIsTheAdjoint) {
   const Vector z = Vector::Random(field.vertex_count());
   const TriangleDerivatives y = TriangleDerivatives::Random(field.triangle_count(), 5);
   TriangleDerivatives u;
-  Vector products, transposed;
+  Vector products(stencils.vertex.size()), transposed;
   apply_stencils(stencils, z, u);
-  apply_transposed(stencils, entries, y, products, transposed);
+  for (int t = 0; t < field.triangle_count(); ++t) multiply_stencil(stencils, t, y.row(t), products);
+  sum_products(entries, products, transposed);
   EXPECT_NEAR(u.cwiseProduct(y).sum(), z.dot(transposed), 1e-9 * u.norm() * y.norm());
 }
 

@@ -1,0 +1,15 @@
+// An elimination order for unknowns that lie in a plane, neighbours near each other: nested dissection by straight cuts
+// (George 1973).
+#pragma once
+
+#include <vector>
+
+#include "native/types.h"
+
+namespace reflines {
+
+// The order in which to eliminate the unknowns of a symmetric matrix (lower triangle, n x n), first to last. `places`
+// (n x 2) are read as hints: any values give a valid order, those of a surface's vertices a good one.
+std::vector<int> dissection_order(const SparseMatrix& matrix, const PlanePositions& places);
+
+}  // namespace reflines

@@ -1,0 +1,41 @@
+"""What is found does not depend on how: one minimum for every strategy; values of theta alone (eq. 3) find it too."""
+import numpy as np
+import reflines
+from sample_panels import LINE, VIEW, inside, panel, rippled
+
+STRATEGIES = ("adaptive", "linearized", "gauss_newton", "newton")
+
+
+def made(positions, triangles, **options):
+    return reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW, line_direction=LINE, **options)
+
+
+def test_every_strategy_ends_in_the_same_minimum():
+    """The wish has curl and cannot be met, so that the energy left is a number of its own and no rounding."""
+    clean, triangles = panel(20)
+    start = rippled(clean, amplitude=1e-3, wavelength=0.3)
+    energies, heights = [], []
+    for strategy in STRATEGIES:
+        solver = made(start, triangles)
+        report = solver.solve(reflines.smooth(solver, length=0.4), strategy=strategy, gradient_tolerance=1e-9,
+                              max_iterations=2000)
+        assert report.strategy == strategy and report.converged, report.message
+        assert 1e-3 < report.energy_after / report.energy_before < 0.5
+        energies.append(report.energy_after)
+        heights.append(solver.heights)
+    move = np.abs(heights[0] - made(start, triangles).heights).max()
+    assert np.ptp(energies) < 1e-9 * energies[0]
+    assert np.ptp(heights, axis=0).max() < 1e-6 * move
+
+
+def test_values_of_theta_and_a_held_border_find_a_known_surface():
+    clean, triangles = panel(24)
+    wanted = made(clean, triangles)
+    start = clean + 0.02 * inside(clean, margin=0.4)[:, None] * VIEW
+    solver = made(start, triangles, border="fixed")
+    before = np.abs(solver.heights - wanted.heights).max()
+    target = reflines.Target(np.zeros((0, 2)), theta=wanted.theta())
+    report = solver.solve(target, gradient_tolerance=1e-10)
+    assert report.converged, report.message
+    assert report.energy_after < 1e-12 * report.energy_before
+    assert np.abs(solver.heights - wanted.heights).max() < 1e-6 * before
