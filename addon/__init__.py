@@ -6,15 +6,18 @@ import importlib
 
 from . import native
 from .targets import falloff, smooth as smooth_target, direction as direction_target, untwist as untwist_target
-from .targets import warp as warp_target, pattern as pattern_target
-from .bridge import refusal, versions, view, region, gather, cage, apply, surface, environment, matcap
-from .bridge import lattice, picture, place, curve
-from . import tool_settings, stripe_settings, properties, session, tool
+from .targets import mirrored, warp as warp_target, pattern as pattern_target, fit as fit_target
+from .bridge import refusal, versions, view, region, mirror, gather, cage, keys, apply, surface, dense, shown_cage
+from .bridge import environment, matcap
+from .bridge import panels as bridge_panels, lattice, start, record, picture, place, curve
+from . import tool_settings, stripe_settings, properties, solving, session, saved, tool
 from .overlay import circle
 from .drag import motion, worker, pursuit, modal
-from .overlay import stripes, shader, normals, last_solve, seen, draw
+from .live import scene as live_scene, follower, handlers
+from .overlay import stripes, shader, normals, last_solve, limit, seen, draw
 from .operators import add_light_direction, add_view_camera, add_warp_lattice
-from .operators import direction, pattern, pick_direction, smooth, store_result, untwist, warp
+from .operators import direction, fit, live_warp, pattern, pick_direction, resolve, smooth, store_result, untwist
+from .operators import warp
 from .operators import stripes as stripes_operators, install_matcap
 from . import keymaps, preferences, panels, stripes_panel, menus
 
@@ -28,13 +31,13 @@ bl_info = {
     "category": "Mesh",
 }
 
-MODULES = (native, falloff, smooth_target, direction_target, untwist_target, warp_target, pattern_target,
-           refusal, versions, view, region, gather, cage, apply, surface, environment, matcap,
-           lattice, picture, place, curve,
-           tool_settings, stripe_settings, properties, session, tool, circle, motion, worker, pursuit, modal,
-           stripes, shader, normals, last_solve, seen, draw,
+MODULES = (native, falloff, smooth_target, direction_target, untwist_target, mirrored, warp_target, pattern_target,
+           fit_target, refusal, versions, view, region, mirror, gather, cage, keys, apply, surface, dense, shown_cage,
+           environment, matcap, bridge_panels, lattice, start, record, picture, place, curve,
+           tool_settings, stripe_settings, properties, solving, session, saved, tool, circle, motion, worker, pursuit,
+           modal, live_scene, follower, handlers, stripes, shader, normals, last_solve, limit, seen, draw,
            add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth,
-           store_result, untwist, warp, stripes_operators, install_matcap,
+           fit, resolve, store_result, untwist, warp, live_warp, stripes_operators, install_matcap,
            menus, keymaps, preferences, panels, stripes_panel)
 
 if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.

@@ -5,6 +5,7 @@ import bpy
 TOOLS = (
     ("reflines.smooth", 'MOD_SMOOTH'), ("reflines.direction", 'ALIGN_JUSTIFY'), ("reflines.untwist", 'LOOP_BACK'),
     ("reflines.warp", 'MOD_LATTICE'), ("reflines.pattern", 'IMAGE_DATA'),
+    ("reflines.fit", 'MOD_SHRINKWRAP'),
 )
 SETUP = (
     ("reflines.add_view_camera", 'CAMERA_DATA'), ("reflines.add_light_direction", 'EMPTY_SINGLE_ARROW'),
@@ -30,6 +31,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.prop_menu_enum(stripes, "mode")
         layout.operator("reflines.freeze_eye", icon='FREEZE')
         layout.operator("reflines.install_matcap", icon='MATSPHERE')
+        layout.operator("reflines.resolve", icon='FILE_REFRESH')
         layout.operator("reflines.store_result", icon='SPREADSHEET')
 
 

@@ -45,3 +45,4 @@ STATE = state()
 if STATE.usable:
     InvalidInput = reflines.InvalidInput
     SolverFailure = reflines.SolverFailure
+    Cancelled = reflines.Cancelled

@@ -53,13 +53,18 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         layout = self.layout
         layout.label(text=self.region_text(context.view_layer.objects.active), icon='FACESEL')
         layout.row().prop(context.scene.reflection_lines, "border", expand=True)
+        layout.use_property_split, layout.use_property_decorate = True, False
+        layout.prop(context.scene.reflection_lines, "result")
         if self.is_subdivided(context.view_layer.objects.active):
-            layout.row().prop(context.scene.reflection_lines, "solve_for", expand=True)
+            layout.prop(context.scene.reflection_lines, "solve_for")
+            layout.operator("reflines.fit", icon='MOD_SHRINKWRAP')
 
     def is_subdivided(self, ob: bpy.types.Object | None) -> bool:
         return ob is not None and len(ob.modifiers) > 0 and ob.modifiers[-1].type == 'SUBSURF'
 
     def region_text(self, ob: bpy.types.Object | None) -> str:
+        if ob is not None and ob.type == 'LATTICE' and ob.reflection_lines.panel is not None:
+            return f"Faces of {ob.reflection_lines.panel.name}"
         if ob is None or ob.type != 'MESH':
             return "Make the panel's mesh active"
         if ob.mode == 'EDIT':
@@ -136,11 +141,24 @@ class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
         own = settings.warp
         layout.prop(own, "lattice")
         layout.operator("reflines.add_warp_lattice", icon='ADD')
-        layout.prop(own, "fit")
-        layout.prop(own, "cells")
+        for name in ("amount", "fit", "cells"):
+            layout.prop(own, name)
+        if settings.live.panel is not None:
+            self.draw_live(layout.box(), context, settings.live)
+            return
+        layout.operator("reflines.start_live_warp", icon='PLAY')
         if context.mode == 'EDIT_LATTICE':
             paragraph(layout, context, "Leave the lattice's Edit Mode to warp", 'INFO')
         layout.operator("reflines.warp", icon='MOD_LATTICE')
+
+    def draw_live(self, layout: bpy.types.UILayout, context: bpy.types.Context, live: bpy.types.PropertyGroup) -> None:
+        says = context.window_manager.reflection_lines.live
+        paragraph(layout, context, f"{live.panel_name()} follows the lattice", 'PLAY')
+        if says:
+            paragraph(layout, context, says, 'INFO')
+        row = layout.row(align=True)
+        row.operator("reflines.apply_live_warp", icon='CHECKMARK')
+        row.operator("reflines.discard_live_warp", icon='CANCEL')
 
 
 class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
@@ -150,7 +168,7 @@ class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         own = settings.pattern
         layout.template_ID(own, "image", new="image.new", open="image.open")
-        for name in ("strength", "blur", "keep_lines"):
+        for name in ("fit", "strength", "blur", "keep_lines"):
             layout.prop(own, name)
         layout.prop(own, "width", text="Width" if own.width else "Width (of the region)")
         layout.prop(own, "angle")
@@ -167,7 +185,8 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         return ob is not None and ob.reflection_lines.report.termination != ""
 
     def draw(self, context: bpy.types.Context) -> None:
-        report = context.view_layer.objects.active.reflection_lines.report
+        ob = context.view_layer.objects.active
+        report, run = ob.reflection_lines.report, ob.reflection_lines.run
         column = self.layout.column(align=True)
         icon = 'CHECKMARK' if report.termination in {"converged", "already_optimal"} else 'INFO'
         column.label(text=report.termination.replace('_', ' ').capitalize(), icon=icon)
@@ -175,8 +194,16 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         column.label(text=f"Wobble {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
         column.label(text=f"Residual {report.residual_before:.3g} \u2192 {report.residual_after:.3g}")
         column.label(text=f"Largest move {report.moved()}")
+        if report.fit:
+            paragraph(column, context, report.fit, 'MOD_SHRINKWRAP')
         for note in report.notes.splitlines():
             paragraph(column, context, note, 'ERROR')
+        keys = ob.data.shape_keys.key_blocks if ob.type == 'MESH' and ob.data.shape_keys is not None else {}
+        if run.key in keys:
+            self.layout.prop(keys[run.key], "value", text="Strength", slider=True)
+        if run.operator and ob.type == 'MESH' and ob.mode == 'OBJECT' and run.difference(ob.data):
+            paragraph(self.layout, context, run.difference(ob.data), 'ERROR')
+        self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
         self.layout.operator("reflines.store_result", icon='GROUP_VERTEX')
 
 

@@ -1,4 +1,6 @@
 """What is saved in the .blend file: settings on the scene, the last result on the object."""
+import json
+
 import bpy
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
 
@@ -17,6 +19,18 @@ KINDS = (
 )
 
 
+RESULTS = (
+    ('MESH', "Mesh", "The vertices themselves move"),
+    ('SHAPE_KEY', "Shape Key", "Into the shape key Reflection Lines, whose value says how much of it is seen; the mesh "
+     "and its other keys stay as they are. Rename the key to keep it and begin another"),
+)
+
+
+def result_property(**options: object) -> object:
+    return EnumProperty(name="Result", items=RESULTS, default='MESH', **options,
+                        description="Where the moved vertices go")
+
+
 def solve_for_property(**options: object) -> object:
     return EnumProperty(name="Solve for", items=KINDS, default='CAGE', **options,
                         description="What moves where the object's last modifier is Subdivision Surface")
@@ -32,6 +46,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
     termination: StringProperty(name="Termination")
     message: StringProperty(name="Message")
     notes: StringProperty(name="Notes", description="What was held fixed or left out, one sentence a line")
+    fit: StringProperty(name="Fit", description="How far a fitted cage is from the other mesh")
     iterations: IntProperty(name="Iterations")
     seconds: FloatProperty(name="Time", unit='NONE')
     unknowns: IntProperty(name="Free Vertices")
@@ -44,12 +59,12 @@ class ReflinesReport(bpy.types.PropertyGroup):
     residual_after: FloatProperty(name="Residual After", description="What it still lacks")
 
     def fill(self, solution: object, notes: tuple[str, ...]) -> None:
-        """Takes over a finished `session.Solution`."""
+        """Takes over a finished `solving.Solution`."""
         for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move"):
             setattr(self, name, getattr(solution.report, name))
         for name in ("length", "score_before", "score_after", "residual_before", "residual_after"):
             setattr(self, name, getattr(solution, name))
-        self.notes = "\n".join(notes)
+        self.notes, self.fit = "\n".join(notes), ""
 
     def summary(self) -> str:
         return (f"{self.termination.replace('_', ' ')} after {self.iterations} iterations in {self.seconds:.2f} s, "
@@ -66,11 +81,60 @@ def is_mesh(_: object, ob: bpy.types.Object) -> bool:
     return ob.type == 'MESH'
 
 
+def plain(value: object) -> object:
+    """As JSON takes it: a vector as a list."""
+    return value if isinstance(value, str) or not hasattr(value, "__len__") else list(value)
+
+
+class ReflinesRun(bpy.types.PropertyGroup):
+    """The last run of a tool on an object, to run it again."""
+    operator: StringProperty(name="Operator", description="Its identifier")
+    settings: StringProperty(name="Settings", description="As JSON")
+    key: StringProperty(name="Shape Key", description="That the result went to; empty for the mesh")
+    vertices: IntProperty(name="Vertices")
+    faces: IntProperty(name="Faces")
+
+    def fill(self, operator: bpy.types.Operator, mesh: bpy.types.Mesh, key: str) -> None:
+        self.note(operator.bl_idname, {name: plain(getattr(operator, name))
+                                       for name, about in operator.properties.bl_rna.properties.items()
+                                       if not about.is_readonly and not about.is_hidden}, mesh, key)
+
+    def note(self, operator: str, settings: dict[str, object], mesh: bpy.types.Mesh, key: str) -> None:
+        self.operator, self.settings, self.key = operator, json.dumps(settings), key
+        self.vertices, self.faces = len(mesh.vertices), len(mesh.polygons)
+
+    def difference(self, mesh: bpy.types.Mesh) -> str:
+        """What the mesh has more or less than after the run, as a sentence; empty where its faces are the same."""
+        vertices, faces = len(mesh.vertices) - self.vertices, len(mesh.polygons) - self.faces
+        if not vertices and not faces:
+            return ""
+        return (f"The mesh has changed since the last run: {vertices:+} vertices, {faces:+} faces; Re-solve takes the "
+                "faces of that run as they are now")
+
+
 class ReflinesObject(bpy.types.PropertyGroup):
     report: PointerProperty(type=ReflinesReport)
     panel: PointerProperty(name="Panel", type=bpy.types.Object, poll=is_mesh,
                            description="The mesh that this lattice warps")
     center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
+    run: PointerProperty(type=ReflinesRun)
+    last: StringProperty(name="Last Solve", description="As saved with the file, see bridge/record.py",
+                         options={'HIDDEN'})
+
+
+class ReflinesLive(bpy.types.PropertyGroup):
+    """The scene's live warp, none where `panel` is empty. Where it began is kept with the mesh, see bridge/start.py."""
+    panel: PointerProperty(type=bpy.types.Object, poll=is_mesh)
+    solve_for: solve_for_property()
+    result: result_property()
+
+    def panel_name(self) -> str:
+        """Of the panel; empty where there is no live warp."""
+        return self.panel.name if self.panel is not None else ""
+
+    def obstacle(self, ob: bpy.types.Object) -> str:
+        """Why no other tool can run on an object, as a sentence; empty where they can."""
+        return f"{ob.name} follows its warp lattice: apply or discard the live warp first" if self.panel == ob else ""
 
 
 def is_camera(_: object, ob: bpy.types.Object) -> bool:
@@ -88,9 +152,11 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
                            description="An empty whose local Z axis is the direction of the line lights")
     border: border_property()
     solve_for: solve_for_property()
+    result: result_property()
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     warp: PointerProperty(type=ReflinesWarp)
+    live: PointerProperty(type=ReflinesLive)
     pattern: PointerProperty(type=ReflinesPattern)
     curve: PointerProperty(type=bpy.types.NodeTree, description="Holds the artist's own fall-off curve")
     stripes: PointerProperty(type=ReflinesStripes)
@@ -112,7 +178,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
         return self.present(self.camera) and self.camera.data.type != 'ORTHO'
 
 
-CLASSES = (ReflinesReport, ReflinesObject, ReflinesScene)
+CLASSES = (ReflinesReport, ReflinesRun, ReflinesObject, ReflinesLive, ReflinesScene)
 
 
 def register() -> None:

@@ -1,12 +1,14 @@
 """What the operators that solve share: when they can run, gathering, applying, and telling the artist what happened."""
 import bpy
+import numpy as np
+from bpy.props import BoolProperty
 
-from . import session
-from .bridge import apply, cage, curve, gather, place
+from . import session, solving
+from .bridge import apply, curve, gather, keys, panels, place
 from .bridge.gather import Panel
 from .bridge.refusal import Refusal
-from .properties import border_property, solve_for_property
-from .session import BuildTarget
+from .properties import border_property, result_property, solve_for_property
+from .solving import BuildTarget
 from .targets import falloff
 from .targets.falloff import Falloff
 
@@ -19,6 +21,8 @@ class Tool:
 
     border: border_property(options={'SKIP_SAVE'})
     solve_for: solve_for_property(options={'SKIP_SAVE'})
+    result: result_property(options={'SKIP_SAVE'})
+    anew: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Begin with the shape before the last run")
 
     def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         """The set of settings that stands for those not given."""
@@ -27,7 +31,7 @@ class Tool:
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> BuildTarget:
         raise NotImplementedError
 
-    def remarks(self, _solution: session.Solution) -> tuple[str, ...]:
+    def remarks(self, _solution: solving.Solution) -> tuple[str, ...]:
         """Sentences about a finished solve beside the solver's own."""
         return ()
 
@@ -41,7 +45,7 @@ class Tool:
         if ob is None or ob.type != 'MESH' or ob.mode not in {'EDIT', 'OBJECT'}:
             cls.poll_message_set("Make the panel's mesh the active object, in Edit Mode or Object Mode")
             return False
-        obstacle = session.obstacle(context.scene)
+        obstacle = session.obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
         cls.poll_message_set(obstacle)
         return not obstacle
 
@@ -49,7 +53,7 @@ class Tool:
         context.view_layer.update()  # transforms set by a script a moment ago
         self.take_settings(context.scene)
         try:
-            solutions = [self.solved(context, ob) for ob in gather.subjects(context)]
+            solutions = [self.solved(context, ob) for ob in self.subjects(context)]
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
@@ -59,29 +63,40 @@ class Tool:
             self.keep(ob, solution)
         return {'FINISHED'}
 
+    def subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        return gather.subjects(context)
+
     def take_settings(self, scene: bpy.types.Scene) -> None:
         own = self.scene_settings(scene)
         for name, _ in self.properties.bl_rna.properties.items():
-            holder = scene.reflection_lines if name in {"border", "solve_for"} else own
+            holder = scene.reflection_lines if name in {"border", "solve_for", "result"} else own
             taken = holder.bl_rna.properties.get(name)
             if taken is not None and taken.type != 'POINTER' and not self.properties.is_property_set(name):
                 setattr(self, name, getattr(holder, name))
 
-    def solved(self, context: bpy.types.Context, ob: bpy.types.Object) -> session.Solution:
+    def solved(self, context: bpy.types.Context, ob: bpy.types.Object) -> solving.Solution:
         panel = self.panel_of(ob)
         build = self.build_target(context, ob, panel)
-        settings = session.Settings(self.border, self.detail(context.scene))
+        settings = solving.Settings(self.border, self.detail(context.scene))
         return session.solve(panel, session.view_of(context.scene, panel.center), settings, build)
 
     def panel_of(self, ob: bpy.types.Object) -> Panel:
-        return cage.gather_cage(ob) if self.solve_for == 'CAGE' and cage.is_under_subdivision(ob) else gather.gather(ob)
+        return panels.gathered(ob, self.solve_for, self.result, self.original(ob) if self.anew else None)
 
-    def keep(self, ob: bpy.types.Object, solution: session.Solution) -> None:
+    def original(self, ob: bpy.types.Object) -> np.ndarray | None:
+        """#vertices x 3: the shape before the last run; None where the mesh has been changed since. In Object Mode."""
+        if self.result == 'SHAPE_KEY':
+            return keys.original(ob)
+        last = session.last_solution(ob.name)
+        return None if last is None else apply.before(ob, last.panel, last.positions)
+
+    def keep(self, ob: bpy.types.Object, solution: solving.Solution) -> None:
         """All that is remembered of a solution beside the positions."""
         apply.keep_region(ob, solution.panel)
-        session.remember(solution)
+        session.remember(solution.last())
         stored = ob.reflection_lines
         stored.center = solution.panel.local_center
+        stored.run.fill(self, ob.data, solution.panel.key)
         stored.report.fill(solution, (*solution.notes, *self.remarks(solution)))
         self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")
         for note in stored.report.notes.splitlines():

@@ -94,13 +94,19 @@ class UntwistSettings(FalloffSettings):
                          description="How far the lines are turned, counter-clockwise in the camera's picture")
 
 
-class WarpSettings:
-    cells: IntProperty(name="Raster", default=128, min=4, soft_max=512, max=2048, **SAVED,
-                       description="Cells a side of the grid on which the lattice's map is sampled")
+class FitSettings:
     fit: EnumProperty(name="Fit", items=FITS, default='GRADIENT', **SAVED)
 
 
-class PatternSettings:
+class WarpSettings(FitSettings):
+    amount: FloatProperty(name="Amount", default=100.0, min=0.0, soft_max=100.0, max=1000.0, subtype='PERCENTAGE',
+                          precision=1, **SAVED, description="How far of the way that the lattice's control points went "
+                          "the lines go")
+    cells: IntProperty(name="Raster", default=128, min=4, soft_max=512, max=2048, **SAVED,
+                       description="Cells a side of the grid on which the lattice's map is sampled")
+
+
+class PatternSettings(FitSettings):
     strength: FloatProperty(name="Strength", subtype='ANGLE', default=0.1, soft_min=-1.0, soft_max=1.0, **SAVED,
                             description="Turn of the reflected light from black to white; 0 leaves the panel as it is")
     blur: FloatProperty(name="Blur", default=2.0, min=0.0, soft_max=50.0, subtype='PIXEL', **SAVED,

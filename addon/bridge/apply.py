@@ -3,7 +3,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import region
+from . import gather, keys, mirror, region
 from .gather import Panel
 
 SAMPLE = 64  # positions that are compared to know a mesh again
@@ -11,8 +11,21 @@ FEW = 0.03  # share of the vertices below which their normals are brought up to 
 
 
 def apply(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> None:
-    """Writes world positions (#V x 3) of the region."""
-    show(ob, panel, local(panel, positions), start(panel))
+    """Writes world positions (#V x 3) of the region, into a shape key where the panel asks for that.
+
+    That key can only be made in Object Mode, so there this ends, unless the key is what is being edited.
+    """
+    if panel.key and not keys.is_edited(ob):
+        if ob.mode == 'EDIT':
+            keep_region(ob, panel)
+            bpy.ops.object.mode_set(mode='OBJECT')
+        keys.open_key(ob)
+    show(ob, panel, local(panel, positions), start(panel) if ob.mode == 'EDIT' else now(ob, panel))
+
+
+def now(ob: bpy.types.Object, panel: Panel) -> np.ndarray:
+    """#V x 3 float32, object space: what the mesh has, in Object Mode."""
+    return gather.coordinates(ob, panel.key)[panel.index].astype(np.float32)
 
 
 def start(panel: Panel) -> np.ndarray:
@@ -25,22 +38,45 @@ def local(panel: Panel, positions: np.ndarray) -> np.ndarray:
 
     What is added is the move, taken back to object space, so that a vertex leaves its place along the view only.
     """
-    move = np.linalg.solve(panel.matrix[:3, :3], (positions - panel.V).T).T
-    return (panel.local + move).astype(np.float32)
+    move = (positions - panel.V) @ np.linalg.inv(panel.matrix[:3, :3]).T
+    new = (panel.local + move).astype(np.float32)
+    return new if panel.mirror is None else mirror.settled(panel.mirror, new, panel.local)
 
 
 def show(ob: bpy.types.Object, panel: Panel, new: np.ndarray, old: np.ndarray) -> None:
     """Writes object-space positions (#V x 3 float32) over those that the mesh has now."""
     moved = (new != old).any(axis=1)
     if moved.any():
-        write = write_edit_mesh if ob.mode == 'EDIT' else write_mesh
-        write(ob.data, panel.index[moved], new[moved])
+        if ob.mode == 'EDIT':
+            write_edit_mesh(ob.data, panel.index[moved], new[moved])
+        else:
+            write_shape(ob, panel.key, panel.index[moved], new[moved])
+
+
+def before(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> np.ndarray | None:
+    """#vertices x 3: the mesh before the region went to `positions`; None where it is not there, but for rounding."""
+    whole = gather.coordinates(ob, panel.key)
+    if len(whole) <= panel.index[-1]:
+        return None
+    apart = np.abs(whole[panel.index] - local(panel, positions))
+    if not (apart <= 2.0 * np.spacing(np.abs(whole[panel.index]).max().astype(np.float32))).all():
+        return None
+    whole[panel.index] = panel.local
+    return whole
+
+
+def counts(ob: bpy.types.Object) -> tuple[int, int, int]:
+    """Vertices, edges and faces of the mesh as it is edited."""
+    if ob.mode == 'EDIT':
+        edit = bmesh.from_edit_mesh(ob.data)
+        return len(edit.verts), len(edit.edges), len(edit.faces)
+    return len(ob.data.vertices), len(ob.data.edges), len(ob.data.polygons)
 
 
 def still_has(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> bool:
     """Whether nobody else changed the mesh: its size, and a sample of the positions (#V x 3 float32, object space)."""
     mesh = bmesh.from_edit_mesh(ob.data) if ob.mode == 'EDIT' else ob.data
-    vertices, faces = (mesh.verts, mesh.faces) if ob.mode == 'EDIT' else (mesh.vertices, mesh.polygons)
+    vertices, faces = (mesh.verts, mesh.faces) if ob.mode == 'EDIT' else (gather.points(ob, panel.key), mesh.polygons)
     if len(faces) != len(panel.faces) or panel.index[-1] >= len(vertices):
         return False
     if ob.mode == 'EDIT':
@@ -50,11 +86,15 @@ def still_has(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> bool
     return np.array_equal(now, positions[sample])
 
 
-def write_mesh(mesh: bpy.types.Mesh, index: np.ndarray, new: np.ndarray) -> None:
-    values = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    mesh.vertices.foreach_get("co", values)
+def write_shape(ob: bpy.types.Object, key: str, index: np.ndarray, new: np.ndarray) -> None:
+    """In Object Mode, into the shape that gather.points says."""
+    mesh, points = ob.data, gather.points(ob, key)
+    values = np.empty(3 * len(points), dtype=np.float32)
+    points.foreach_get("co", values)
     values.reshape(-1, 3)[index] = new
-    mesh.vertices.foreach_set("co", values)
+    points.foreach_set("co", values)
+    if mesh.shape_keys is not None:
+        mesh.shape_keys.update_tag()
     mesh.update()
 
 
@@ -63,7 +103,8 @@ def write_edit_mesh(mesh: bpy.types.Mesh, index: np.ndarray, new: np.ndarray) ->
     edit.verts.ensure_lookup_table()
     vertices = edit.verts
     moved = [vertices[i] for i in index.tolist()]
-    for vertex, co in zip(moved, new.tolist(), strict=True):
+    columns = new.T.tolist()  # a list for each vertex would take three times longer, in Python's search for garbage
+    for vertex, co in zip(moved, zip(*columns, strict=True), strict=True):
         vertex.co = co
     if len(moved) < FEW * len(vertices):
         update_normals(moved)

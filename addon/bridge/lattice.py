@@ -29,17 +29,45 @@ def add(panel: Panel, frame: np.ndarray, *, columns: int, rows: int, kind: str,
     return lattice
 
 
+def chosen(scene: bpy.types.Scene, name: str = "") -> bpy.types.Object:
+    """The one with this name, else the scene's."""
+    named = scene.objects.get(name) if name else scene.reflection_lines.warp.lattice
+    if named is None or named.type != 'LATTICE' or scene.objects.get(named.name) != named:
+        raise Refusal("There is no warp lattice: "
+                      "press Add Warp Lattice, or pick one in the sidebar's Reflection tab")
+    return named
+
+
 def read(ob: bpy.types.Object) -> Lattice:
     """As it is now, in Edit Mode too: unlike a mesh a lattice shows there what is being edited."""
     data = ob.data
-    count = len(data.points)
-    rest, now = np.empty(3 * count, np.float32), np.empty(3 * count, np.float32)
-    data.points.foreach_get("co", rest)
+    now = np.empty(3 * len(data.points), np.float32)
     data.points.foreach_get("co_deform", now)
-    rest, now = rest.reshape(-1, 3).astype(float), now.reshape(-1, 3).astype(float)
     matrix = np.array(ob.matrix_world, dtype=np.float64)
     if np.linalg.matrix_rank(matrix[:3, :2]) < 2 or data.points_u < 2 or data.points_v < 2:
         raise Refusal(f"{ob.name} has no area: give it at least 2 x 2 points and a scale other than zero")
+    u, v, w = untouched(data)
+    rest = np.stack([axis.ravel() for axis in np.meshgrid(w, v, u, indexing='ij')][::-1], axis=1)
     shape = (data.points_w, data.points_v, data.points_u, 3)
     kinds = (data.interpolation_type_u, data.interpolation_type_v, data.interpolation_type_w)
-    return Lattice(rest[0], rest[-1], (now - rest).reshape(shape), kinds, matrix)
+    return Lattice(rest[0], rest[-1], (now.reshape(-1, 3).astype(float) - rest).reshape(shape), kinds, matrix)
+
+
+def untouched(data: bpy.types.Lattice) -> list[np.ndarray]:
+    """Where the control points would be, along u, v and w: evenly about the middle.
+
+    In Edit Mode Blender 3.4 counts `co` from a wrong first point, so that only the steps between points can be trusted.
+    """
+    values = np.empty(3 * len(data.points), np.float32)
+    data.points.foreach_get("co", values)
+    return [row(np.unique(axis), count) for axis, count
+            in zip(values.reshape(-1, 3).astype(float).T, (data.points_u, data.points_v, data.points_w), strict=True)]
+
+
+def row(values: np.ndarray, count: int) -> np.ndarray:
+    """`count` places at the distance between these values, in order."""
+    if count == 1:
+        return np.zeros(1)
+    whole = values[-1] - values[0]
+    step = whole / max(round(whole / np.diff(values).min()), 1)
+    return step * (np.arange(count) - 0.5 * (count - 1))

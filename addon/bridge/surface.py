@@ -27,6 +27,7 @@ class Surface:
     V: np.ndarray         # #V x 3
     topology: Topology
     selected: np.ndarray  # #F, bool
+    normals: np.ndarray | None = None  # #V x 3, where they are known without a fit
 
     @property
     def F(self) -> np.ndarray:

@@ -1,4 +1,5 @@
 """All that differs between Blender 3.4, 4.3 and 5.2 in what this add-on uses."""
+import bmesh
 import bpy
 import numpy as np
 
@@ -26,5 +27,15 @@ def crease_values(mesh: bpy.types.Mesh, name: str, count: int, before: object) -
         if len(before) > 0:
             before.foreach_get("crease" if name == "crease_edge" else "value", values)
     elif name in mesh.attributes:
-        mesh.attributes[name].data.foreach_get("value", values)
+        attribute = mesh.attributes[name]
+        if mesh.is_editmode:  # attributes have no data there
+            values[:] = edited_values(bmesh.from_edit_mesh(mesh), attribute.domain, name)
+        else:
+            attribute.data.foreach_get("value", values)
     return values.astype(np.float64)
+
+
+def edited_values(edited: bmesh.types.BMesh, domain: str, name: str) -> list[float]:
+    elements = edited.edges if domain == 'EDGE' else edited.verts
+    layer = elements.layers.float.get(name)
+    return [0.0] * len(elements) if layer is None else [element[layer] for element in elements]

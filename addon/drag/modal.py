@@ -8,7 +8,7 @@ from contextlib import suppress
 import bpy
 import numpy as np
 
-from .. import session
+from .. import session, solving
 from ..bridge import apply, gather
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
@@ -37,11 +37,12 @@ class Drag:
     def __init__(self, tool: "DraggedTool", context: bpy.types.Context) -> None:
         scene = context.scene
         self.tool, self.area = tool, context.area
-        self.panels = [tool.panel_of(ob) for ob in gather.subjects(context)]
+        subjects = gather.subjects(context)
+        self.panels, self.counts = [tool.panel_of(ob) for ob in subjects], [apply.counts(ob) for ob in subjects]
         views = [session.view_of(scene, panel.center) for panel in self.panels]
         self.shown = [apply.start(panel) for panel in self.panels]
         self.motion = self.motion_of(scene)
-        self.frame = session.frame_of(self.panels[0], views[0])
+        self.frame = solving.frame_of(self.panels[0], views[0])
         self.request(context)  # refuses before anything is begun
         self.pursuit = Pursuit(self.panels, views, tool.border)
         self.circle = circle.add(lambda: self.reach)
@@ -59,8 +60,9 @@ class Drag:
     def objects(self) -> list[bpy.types.Object]:
         """Refuses where somebody else changed what is dragged."""
         found = [bpy.data.objects.get(panel.name) for panel in self.panels]
-        for ob, panel, shown in zip(found, self.panels, self.shown, strict=True):
-            if ob is None or ob.type != 'MESH' or not apply.still_has(ob, panel, shown):
+        for ob, panel, shown, counts in zip(found, self.panels, self.shown, self.counts, strict=True):
+            same = ob is not None and ob.type == 'MESH' and apply.counts(ob) == counts
+            if not same or not apply.still_has(ob, panel, shown):
                 raise Refusal(f"{panel.name} was changed while it was dragged: it is left as it is now")
         return found
 
@@ -71,7 +73,7 @@ class Drag:
                 setattr(self.tool, handle.name, self.motion.value(index))
         builds = tuple(self.tool.build_target(context, ob, panel)
                        for ob, panel in zip(self.objects(), self.panels, strict=True))
-        self.wanted = Request(builds, session.Settings(self.tool.border, self.tool.detail(context.scene)), final)
+        self.wanted = Request(builds, solving.Settings(self.tool.border, self.tool.detail(context.scene)), final)
         falloff = self.tool.falloff(context, self.objects()[0], self.panels[0])
         self.reach = circle.around(falloff.centre, falloff.radius, self.frame) if falloff else None
 
@@ -94,6 +96,15 @@ class Drag:
         for ob, panel, to, now in zip(self.objects(), self.panels, new, self.shown, strict=True):
             apply.show(ob, panel, to, now)
         self.shown = new
+
+    def land(self, solutions: tuple[solving.Solution, ...]) -> None:
+        """What was shown so far in the mesh goes into a shape key where that is wanted."""
+        if not any(panel.key for panel in self.panels):
+            return
+        self.restore()
+        for ob, solution in zip(self.objects(), solutions, strict=True):
+            apply.apply(ob, solution.panel, solution.positions)
+        self.shown = [apply.local(solution.panel, solution.positions) for solution in solutions]
 
     def restore(self) -> None:
         self.write([apply.start(panel) for panel in self.panels])
@@ -119,7 +130,7 @@ class Drag:
         context.window_manager.event_timer_remove(self.timer)
         if self.worker.idle():
             self.pursuit.give_back()
-        self.pursuit.progress.cancel()
+        self.pursuit.end()
         self.worker.stop()
         circle.remove(self.circle)
         self.area.header_text_set(None)
@@ -142,6 +153,8 @@ def in_units(handle: Handle, value: float, scene: bpy.types.Scene) -> str:
         return f"{np.degrees(value):.2f}\u00b0" if units.system_rotation == 'DEGREES' else f"{value:.4f}"
     if handle.unit == 'LENGTH' and units.system != 'NONE':
         return bpy.utils.units.to_string(units.system, 'LENGTH', value * units.scale_length, precision=4)
+    if handle.unit == 'PERCENT':
+        return f"{value:.1f} %"
     return f"{value:.4g}" if handle.unit == 'LENGTH' else f"{value:.3f}"
 
 
@@ -163,7 +176,7 @@ class DraggedTool(Tool):
 
     def automatic(self, name: str, panel: Panel) -> float:
         """What 0 stands for in a property."""
-        return {"length": session.length_of(panel, 0.0), "radius": AUTOMATIC_RADIUS * panel.diagonal}.get(name, 0.0)
+        return {"length": solving.length_of(panel, 0.0), "radius": AUTOMATIC_RADIUS * panel.diagonal}.get(name, 0.0)
 
     def falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, _panel: Panel) -> Falloff | None:
         """None where the tool acts everywhere alike."""
@@ -256,6 +269,7 @@ class DraggedTool(Tool):
         return True
 
     def finish(self, context: bpy.types.Context, outcome: Outcome) -> set[str]:
+        self.drag.land(outcome.solutions)
         for ob, solution in zip(self.drag.objects(), outcome.solutions, strict=True):
             self.keep(ob, solution)
         self.drag.end(context)

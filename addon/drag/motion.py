@@ -18,7 +18,7 @@ class Handle:
     low: float
     high: float
     doubles: bool = False
-    unit: str = 'NONE'    # 'LENGTH' or 'ANGLE': how it is shown and typed
+    unit: str = 'NONE'    # 'LENGTH', 'ANGLE' or 'PERCENT': how it is shown and typed
     wheel: bool = False   # the wheel turns it
 
     def at(self, start: float, pixels: float) -> float:

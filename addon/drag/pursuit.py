@@ -10,11 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import native, session
+from .. import native, session, solving
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..bridge.view import View
-from ..session import BuildTarget, Live, Settings, Solution
+from ..solving import BuildTarget, Live, Settings, Solution
+
+FOLLOWED = 1e-4  # of the gradient that a move of the mouse makes; 1e-2 leaves 4e-5 of the size after a closed path
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,7 @@ class Pursuit:
         self.followers: list[object] = []
         self.progress = native.reflines.Progress()
         self.stage = "Preparing"
+        self.over = False
 
     @property
     def ready(self) -> bool:
@@ -51,31 +54,44 @@ class Pursuit:
         inner = self.progress.stage
         return f"{self.stage} {self.progress.fraction:.0%}" + (f" ({inner})" if inner else "")
 
+    def end(self) -> None:
+        """Nothing is begun any more, and what runs ends at its next look. To end only that, cancel the progress."""
+        self.over = True
+        self.progress.cancel()
+
     def run(self, request: Request) -> Outcome:
         self.progress = native.reflines.Progress()
+        if self.over:
+            self.progress.cancel()
         try:
             self.prepare()
             return self.finished(request) if request.final else self.followed(request)
         except Refusal as refusal:
             return Outcome(request, refusal=str(refusal))
+        except native.Cancelled as cancelled:
+            return Outcome(request, refusal=str(cancelled))
 
     def prepare(self) -> None:
-        while not self.ready and not self.progress.cancelled:
+        for start in self.starts:
+            if start is not None:
+                start.optimizer.watch(self.progress)
+        while not self.ready:
             which = len(self.followers)
             panel, seen = self.panels[which], self.views[which]
-            with session.refusing(panel):
+            with solving.refusing(panel):
                 if self.starts[which] is None:
-                    self.starts[which] = session.built(panel, seen, self.border)
-                self.followers.append(session.built(panel, seen, self.border).optimizer)
+                    self.starts[which] = solving.built(panel, seen, self.border, self.progress)
+                follower = solving.built(panel, seen, self.border, self.progress, to_follow=True)
+                self.followers.append(follower.optimizer)
 
     def followed(self, request: Request) -> Outcome:
         self.stage = "Following"
         positions = []
         every = zip(self.panels, self.starts, self.followers, request.builds, strict=True)
         for panel, start, follower, build in every:
-            with session.refusing(panel):
-                follower.solve(build(start.optimizer), progress=self.progress)
-                positions.append(session.positions_of(panel, follower))
+            with solving.refusing(panel):
+                follower.solve(solving.target_of(start, build), gradient_tolerance=FOLLOWED, progress=self.progress)
+                positions.append(solving.positions_of(panel, start.view, follower))
         return Outcome(request, tuple(positions))
 
     def finished(self, request: Request) -> Outcome:
@@ -83,8 +99,9 @@ class Pursuit:
         solutions = []
         for start, build in zip(self.starts, request.builds, strict=True):
             start.optimizer.reset()
-            with session.refusing(start.panel):
-                solutions.append(session.solved(start, build, request.settings, self.progress))
+            with solving.refusing(start.panel):
+                solutions.append(solving.solved(start, build, request.settings, self.progress))
+            start.optimizer.reset()  # the next target is about the lines at the start too
         return Outcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
 
     def give_back(self) -> None:

@@ -1,7 +1,7 @@
 """Add Warp Lattice."""
 import bpy
 
-from .. import session
+from .. import session, solving
 from ..bridge import apply, gather, lattice
 from ..bridge.refusal import Refusal
 from ..tool import Tool
@@ -32,7 +32,7 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
         try:
             ob = gather.subjects(context)[0]
             panel = gather.gather(ob)
-            frame = session.frame_of(panel, session.view_of(context.scene, panel.center))
+            frame = solving.frame_of(panel, session.view_of(context.scene, panel.center))
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}

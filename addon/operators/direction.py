@@ -10,7 +10,7 @@ from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..drag.modal import DraggedTool, radius_handle
 from ..drag.motion import Handle
-from ..session import BuildTarget
+from ..solving import BuildTarget
 from ..targets import direction
 from ..targets.falloff import Falloff
 from ..tool import placed_falloff

@@ -10,7 +10,7 @@ from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..drag.modal import DraggedTool
 from ..drag.motion import Handle
-from ..session import BuildTarget
+from ..solving import BuildTarget
 from ..targets import pattern
 from ..tool_settings import PatternSettings
 
@@ -37,7 +37,7 @@ What no surface can show is left over: see the colour map of the residual"""
         centre = panel.center + self.offset[0] * right + self.offset[1] * up
         settings = pattern.Pattern(
             picture.grey(self.chosen(context.scene)), centre, right, self.width or np.ptp(panel.V @ right),
-            self.angle, self.strength, self.blur, self.keep_lines)
+            self.angle, self.strength, self.blur, self.keep_lines, self.fit == 'VALUE')
         return partial(pattern.target, settings=settings)
 
     def chosen(self, scene: bpy.types.Scene) -> bpy.types.Image:

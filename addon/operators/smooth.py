@@ -3,11 +3,11 @@ from functools import partial
 
 import bpy
 
-from .. import session
+from .. import solving
 from ..bridge.gather import Panel
 from ..drag.modal import DraggedTool
 from ..drag.motion import Handle
-from ..session import BuildTarget
+from ..solving import BuildTarget
 from ..targets import smooth
 from ..tool_settings import SmoothSettings
 
@@ -32,7 +32,7 @@ Quads and n-gons stay as they are"""
         return self.length
 
     def build_target(self, _context: bpy.types.Context, _ob: bpy.types.Object, panel: Panel) -> BuildTarget:
-        length = session.length_of(panel, self.length)
+        length = solving.length_of(panel, self.length)
         return partial(smooth.target, settings=smooth.Smooth(length, self.strength, self.directional))
 
 

@@ -2,8 +2,8 @@
 import bpy
 import numpy as np
 
-from .. import session
-from ..bridge import apply, gather
+from .. import session, solving
+from ..bridge import apply
 
 
 class REFLINES_OT_store_result(bpy.types.Operator):
@@ -16,22 +16,20 @@ mesh's vertices, for shaders, modifiers and other programs"""
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         ob = context.view_layer.objects.active
-        cls.poll_message_set("Make a panel active on which a tool has run since the file was opened")
+        cls.poll_message_set("Make a panel active that is as a tool left it")
         return ob is not None and ob.type == 'MESH' and session.last_solution(ob.name) is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = context.view_layer.objects.active
         if ob.mode == 'EDIT':
             ob.update_from_editmode()
-        solution, V = session.last_solution(ob.name), gather.coordinates(ob)
-        index = solution.panel.index
-        left = apply.local(solution.panel, solution.positions)
-        if len(V) <= index.max() or not np.array_equal(V[index].astype(np.float32), left):
+        solution = session.last_solution(ob.name)
+        if apply.before(ob, solution.panel, solution.positions) is None:
             self.report({'ERROR'}, f"{ob.name} is not as the last solve left it: run the tool again")
             return {'CANCELLED'}
-        for name, values in session.vertex_values(solution).items():
-            everywhere = np.zeros(len(V))
-            everywhere[index] = values
+        for name, values in solving.vertex_values(solution).items():
+            everywhere = np.zeros(len(ob.data.vertices))
+            everywhere[solution.panel.index] = values
             apply.store_vertex_values(ob, f"reflines_{name}", everywhere)
         return {'FINISHED'}
 

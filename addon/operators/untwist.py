@@ -7,7 +7,7 @@ import bpy
 from ..bridge.gather import Panel
 from ..drag.modal import DraggedTool, radius_handle
 from ..drag.motion import Handle
-from ..session import BuildTarget
+from ..solving import BuildTarget
 from ..targets import untwist
 from ..targets.falloff import Falloff
 from ..tool import placed_falloff

@@ -5,9 +5,9 @@ import bpy
 import gpu
 import numpy as np
 
-from .. import session
-from ..bridge import environment, surface
-from . import last_solve, seen, shader, stripes
+from .. import native, session, solving
+from ..bridge import environment, shown_cage, surface
+from . import last_solve, limit, seen, shader, stripes
 from .normals import Fits
 
 POLL = 0.05  # seconds between two looks at the fits in threads
@@ -30,6 +30,7 @@ class Cache:
     """Of all viewports. Shader and textures are kept: Blender 5.2 crashes when a texture dies after its shader."""
     shown: dict[str, Shown] = field(default_factory=dict)
     fits: Fits = field(default_factory=Fits)
+    limits: limit.Limits = field(default_factory=limit.Limits)
     shader: object = None
     uniforms: dict = field(default_factory=dict)   # one buffer an object: drawing is not done when the next is filled
     textures: dict = field(default_factory=dict)
@@ -46,7 +47,7 @@ def batch_builds() -> int:
 
 def is_waiting() -> bool:
     """Whether a fit of normals is on its way."""
-    return bool(_cache.fits.jobs)
+    return _cache.fits.is_waiting()
 
 
 def draw() -> None:
@@ -71,10 +72,10 @@ def draw() -> None:
 def refresh(shown: Shown, ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
             depsgraph: bpy.types.Depsgraph) -> None:
     solution = session.last_solution(ob.name) if seen.needs_solution(settings) else None
-    kind = (ob.mode, seen.content(ob, settings), id(solution))
+    kind = (ob.mode, seen.content(ob, settings), id(solution), settings.id_data.reflection_lines.solve_for)
     if not shown.stale and shown.kind == kind:
         return
-    read = surface.read(ob, depsgraph, shown.topology)
+    read = limit_surface(ob, settings) or surface.read(ob, depsgraph, shown.topology)
     if solution is not None and not last_solve.is_current(solution, read.V, len(ob.data.vertices)):
         solution = None
     arrays = arrays_of(ob, settings, read, solution)
@@ -84,8 +85,15 @@ def refresh(shown: Shown, ob: bpy.types.Object, settings: bpy.types.PropertyGrou
     shown.topology, shown.kind, shown.stale = read.topology, kind, False
 
 
+def limit_surface(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> surface.Surface | None:
+    """Of a cage, where that is what is solved for."""
+    wanted = settings.id_data.reflection_lines.solve_for == 'CAGE' and native.STATE.usable
+    read = shown_cage.read(ob) if wanted else None
+    return None if read is None else _cache.limits.surface(ob.name, *read)
+
+
 def arrays_of(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: surface.Surface,
-              solution: session.Solution | None) -> tuple[np.ndarray, ...]:
+              solution: solving.Last | None) -> tuple[np.ndarray, ...]:
     """What is uploaded; nothing for a map of no solve."""
     if settings.mode in seen.MAPS:
         make = last_solve.residual_map if settings.mode == 'RESIDUAL' else last_solve.deviation_map
@@ -98,7 +106,7 @@ def arrays_of(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: sur
 
 def whole(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Positions, triangles and normals of a batch."""
-    return read.V, read.F, _cache.fits.normals(name, read.V, read.F)
+    return read.V, read.F, _cache.fits.normals(name, read.V, read.F) if read.normals is None else read.normals
 
 
 def part(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -106,7 +114,8 @@ def part(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.n
     inside = stripes.around(read.F, read.selected, len(read.V), rings=3)
     used, F = np.unique(read.F[inside], return_inverse=True)
     V, F = read.V[used], F.reshape(-1, 3).astype(np.int32)
-    return V, F[read.selected[inside]], _cache.fits.normals(name, V, F)
+    normals = _cache.fits.normals(name, V, F) if read.normals is None else read.normals[used]
+    return V, F[read.selected[inside]], normals
 
 
 def make_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
@@ -164,6 +173,7 @@ def paint(name: str, batch: gpu.types.GPUBatch, values: np.ndarray, texture: gpu
 
 def poll_fits() -> float | None:
     """A timer, so on Blender's own thread: draws again what has better normals now."""
+    _cache.fits.advance()
     for name in _cache.fits.finished():
         _cache.fits.collect(name)
         _cache.shown.setdefault(name.removeprefix(BEFORE), Shown()).stale = True
@@ -199,6 +209,7 @@ def forget(*_: object) -> None:
     _cache.shown.clear()
     _cache.textures.clear()
     _cache.fits.forget()
+    _cache.limits.forget()
 
 
 HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", note_everything), ("redo_post", note_everything),

@@ -24,7 +24,7 @@ def is_current(solution: object, V: np.ndarray, vertices: int) -> bool:
 
 
 def residual_map(solution: object, full: float) -> Arrays:
-    """One value a triangle, so each has vertices of its own. Of a cage there is none: the residual is its surface's."""
+    """One value a triangle, so each has vertices of its own; none where the residual is not known."""
     F = solution.panel.F if len(solution.residual) == len(solution.panel.F) else solution.panel.F[:0]
     residual = solution.residual[:len(F)]
     V = left_at(solution)[F].reshape(-1, 3)

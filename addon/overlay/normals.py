@@ -1,5 +1,6 @@
 """Normals fitted to the surfaces that are shown; those of large surfaces in a thread, while rough ones are drawn."""
 import threading
+import time
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,6 +10,7 @@ from . import stripes
 
 REFIT_ANGLE = 0.005  # radians a normal may turn before its fit is made anew: a twentieth of the usual stripes' period
 AT_ONCE = 8000       # vertices that are fitted within 100 ms on one slow core
+AGAIN = 0.3          # seconds between the starts of two fits of a surface that moves
 FIT_RINGS = 3        # triangles further away have no part in a normal
 
 
@@ -23,34 +25,50 @@ class Fit:
 
 @dataclass
 class Job:
-    """A fit on its way."""
+    """A fit on its way, of the surface V."""
+    V: np.ndarray
     thread: threading.Thread
     result: list = field(default_factory=list)
 
 
 class Fits:
-    """By the name of the object. One job a name: when it ends and the surface has changed since, the next begins."""
+    """By the name of the object. One job a name at a time; while the surface moves the kept fit follows it."""
 
     def __init__(self) -> None:
         self.done: dict[str, Fit] = {}
         self.jobs: dict[str, Job] = {}
+        self.wanted: dict[str, tuple[np.ndarray, np.ndarray]] = {}  # surfaces that are to be fitted, soon
+        self.started: dict[str, float] = {}
 
     def normals(self, name: str, V: np.ndarray, F: np.ndarray) -> np.ndarray:
         """#V x 3, the best there are now; `finished` tells when better ones have come."""
         self.collect(name)
         old = self.done.get(name)
-        alike = old is not None and np.array_equal(old.F, F)
+        alike = old is not None and len(old.V) == len(V) and np.array_equal(old.F, F)
         if alike and np.array_equal(old.V, V):
             return old.normals
-        if name not in self.jobs:
-            if len(V) <= AT_ONCE:
-                self.done[name] = fitted(V, F, old if alike else None)
-                return self.done[name].normals
-            self.start(name, V, F, old if alike else None)
-        return old.normals if alike else stripes.area_normals(V, F)
+        if len(V) <= AT_ONCE and name not in self.jobs:
+            self.done[name] = fitted(V, F, old if alike else None)
+            return self.done[name].normals
+        if name not in self.jobs or not np.array_equal(self.jobs[name].V, V):
+            self.wanted[name] = V, F
+            self.advance()
+        follows = alike and old.native_fit is not None
+        return old.native_fit.kept_normals(V) if follows else stripes.area_normals(V, F)
+
+    def advance(self) -> None:
+        """Starts what is wanted, not too often: a fit that comes in the middle of a drag costs a redraw."""
+        for name in [name for name in self.wanted if name not in self.jobs]:
+            old, (V, F) = self.done.get(name), self.wanted[name]
+            alike = old is not None and len(old.V) == len(V) and np.array_equal(old.F, F)
+            if not alike or time.monotonic() - self.started.get(name, 0.0) > AGAIN:
+                self.start(name, V, F, old if alike else None)
 
     def start(self, name: str, V: np.ndarray, F: np.ndarray, old: Fit | None) -> None:
-        job = Job(threading.Thread(target=lambda: job.result.append(fitted(V, F, old)), daemon=True))
+        """No daemon: Blender waits for it when it is closed, where a killed thread could take Blender with it."""
+        self.started[name] = time.monotonic()
+        del self.wanted[name]
+        job = Job(V, threading.Thread(target=lambda: job.result.append(fitted(V, F, old))))
         self.jobs[name] = job
         job.thread.start()
 
@@ -64,10 +82,13 @@ class Fits:
         """Names whose job has ended since they were last asked for."""
         return [name for name, job in self.jobs.items() if not job.thread.is_alive()]
 
+    def is_waiting(self) -> bool:
+        return bool(self.jobs or self.wanted)
+
     def forget(self) -> None:
         """Threads that still run end by themselves; nobody asks for what they bring."""
-        self.done.clear()
-        self.jobs.clear()
+        for kept in (self.done, self.jobs, self.wanted, self.started):
+            kept.clear()
 
 
 def fitted(V: np.ndarray, F: np.ndarray, old: Fit | None) -> Fit:
@@ -76,9 +97,9 @@ def fitted(V: np.ndarray, F: np.ndarray, old: Fit | None) -> Fit:
     if not native.STATE.usable:
         return rough
     try:
-        native_fit = old.native_fit if old is not None else None
-        if native_fit is None:
-            native_fit = native.reflines.NormalFit(V, F, refit_angle=REFIT_ANGLE)
+        kept = old.native_fit if old is not None else None
+        # A copy, since the kept one goes on following in the meantime.
+        native_fit = kept.copy() if kept else native.reflines.NormalFit(V, F, refit_angle=REFIT_ANGLE)
         return Fit(V, F, native_fit.normals(V), native_fit)
     except (native.InvalidInput, native.SolverFailure):
         return rough

@@ -17,6 +17,16 @@ def shown_objects(context: bpy.types.Context, settings: bpy.types.PropertyGroup)
 
 
 def candidates(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> list[bpy.types.Object]:
+    """With a warp lattice in the place of its panel: who edits that watches this."""
+    return list(dict.fromkeys(panel_of(ob) for ob in chosen(context, settings)))
+
+
+def panel_of(ob: bpy.types.Object | None) -> bpy.types.Object | None:
+    warps = ob is not None and ob.type == 'LATTICE' and ob.reflection_lines.panel is not None
+    return ob.reflection_lines.panel if warps else ob
+
+
+def chosen(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> list[bpy.types.Object]:
     layer = context.view_layer
     if settings.scope == 'COLLECTION' and settings.collection is not None:
         wanted = {ob.name for ob in settings.collection.all_objects}

@@ -70,11 +70,15 @@ def around(F: np.ndarray, chosen: np.ndarray, count: int, *, rings: int) -> np.n
 
 
 def area_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """#V x 3, of any length: the sum of the triangles' normals by area. Cheap, and as rough as Blender's own."""
-    corner = V[F]
-    across = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    """#V x 3, of any length: the sum of the triangles' normals by area. Cheap, and as rough as Blender's own.
+
+    By columns, since numpy's cross product of 400,000 triangles alone takes as long as all of this.
+    """
+    first = V.take(F[:, 0], axis=0)
+    a, b = ((V.take(F[:, k], axis=0) - first).T for k in (1, 2))
     where = F.T.ravel()
-    return np.column_stack([np.bincount(where, np.tile(across[:, k], 3), len(V)) for k in range(3)])
+    return np.column_stack([np.bincount(where, np.tile(a[i] * b[j] - a[j] * b[i], 3), len(V))
+                            for i, j in ((1, 2), (2, 0), (0, 1))])
 
 
 def uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.ndarray, eye: Eye, lights: Lights,

@@ -18,10 +18,12 @@ class Pattern:
     strength: float = 1.0     # radians of theta from black to white
     blur: float = 0.0         # pixels
     keep: float = 1.0         # share of the present lines that the pattern is added to
+    by_value: bool = False    # each line where the picture puts it, black leaving it where it is
 
 
 def target(optimizer: object, settings: Pattern) -> object:
     x, y = in_plane(optimizer, settings.right)
     return native.reflines.pattern(
         optimizer, image=settings.grey, strength=settings.strength, blur=settings.blur, keep=settings.keep,
-        centre=in_plane(optimizer, settings.centre), width=settings.width, angle=settings.angle + np.arctan2(y, x))
+        centre=in_plane(optimizer, settings.centre), width=settings.width, angle=settings.angle + np.arctan2(y, x),
+        by_value=settings.by_value)

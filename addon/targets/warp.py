@@ -4,7 +4,7 @@ The lattice is Blender's: a point moves by the weighted sum of how far the contr
 those of a uniform cubic spline (or of linear interpolation) with the outermost control points repeated. A test holds it
 against Blender's own modifier. An untouched lattice moves nothing, bit for bit, whatever the spline.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,12 +22,23 @@ class Lattice:
     kinds: tuple[str, str, str]  # interpolation along u, v, w
     matrix: np.ndarray   # 4 x 4, to world space
 
+    def same(self, other: "Lattice") -> bool:
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
+
+    def scaled(self, share: float) -> "Lattice":
+        """With control points that went a share of their way; all of it changes no bit."""
+        return replace(self, moves=share * self.moves)
+
 
 @dataclass(frozen=True)
 class Warp:
     lattice: Lattice
     cells: int = 128       # a side of the regular grid that the map is sampled on
     by_value: bool = False
+
+    def same(self, other: "Warp | None") -> bool:
+        return (other is not None and self.lattice.same(other.lattice)
+                and (self.cells, self.by_value) == (other.cells, other.by_value))
 
 
 def target(optimizer: object, settings: Warp) -> object:
@@ -42,9 +53,12 @@ def target(optimizer: object, settings: Warp) -> object:
                                 position=position, by_value=settings.by_value)[0]
 
 
-def outside(wanted: object) -> int:
-    """Triangles that would show lines from beyond the region: they count for little."""
-    return int((wanted.weight < 1.0).sum())
+def remarks(wanted: object) -> tuple[str, ...]:
+    """Sentences about a target."""
+    outside = int((wanted.weight < 1.0).sum())
+    if not outside:
+        return ()
+    return (f"{outside} triangles would show lines from beyond the region; they are left nearly as they are",)
 
 
 def extent(xy: np.ndarray, lattice: Lattice, to_plane: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

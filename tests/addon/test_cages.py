@@ -2,6 +2,8 @@
 import bpy
 import numpy as np
 import pytest
+from reflection_lines import session
+from reflection_lines.overlay import last_solve
 
 import scenes
 
@@ -183,3 +185,35 @@ def test_simple_subdivision_is_refused_in_words() -> None:
     subdivided(subdivision_type='SIMPLE')
     with pytest.raises(RuntimeError, match="Simple"):
         scenes.smooth()
+
+
+def test_what_could_not_be_reached_is_known_for_the_cages_faces_and_stored() -> None:
+    ob = subdivided()
+    scenes.smooth(length=0.8)
+    solution = session.last_solution(ob.name)
+    assert len(solution.residual) == len(solution.panel.F)
+    assert solution.residual.min() > 0.0
+    pairs = solution.residual.reshape(-1, 2)  # of the triangles of a quad
+    assert np.array_equal(pairs[:, 0], pairs[:, 1])
+    assert len(np.unique(pairs)) > 10
+    V, F, _, share = last_solve.residual_map(solution, 0.0)
+    assert len(V) == 3 * len(F) == 3 * len(solution.panel.F)
+    assert share.max() == 1.0
+    bpy.ops.reflines.store_result('EXEC_DEFAULT', True)
+    scenes.object_mode()
+    assert "reflines_residual" in ob.data.attributes
+
+
+def test_sharp_creases_are_said_to_be_kept_and_not_held() -> None:
+    ob = subdivided()
+    scenes.object_mode()
+    crease_row(ob, 1.0)
+    for vertex in ob.data.vertices:
+        vertex.co.z -= 0.8 * abs(vertex.co.y)
+    before = scenes.positions(ob)
+    scenes.edit_inner(ob, CELLS)
+    scenes.smooth(length=0.8)
+    notes = ob.reflection_lines.report.notes
+    assert "kept sharp" in notes and "held, the lines" not in notes
+    middle = np.abs(before[:, 1]) < 1e-6
+    assert (scenes.positions(ob) != before)[middle].any()

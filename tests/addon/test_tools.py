@@ -47,6 +47,7 @@ IDENTITIES = {
     "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True, angle=0.0),
     "warp": lattice_at_rest,
     "pattern": lambda: pattern(strength=0.0),
+    "pattern by value": lambda: pattern(strength=0.0, fit='VALUE'),
 }
 CHANGES = {
     "smooth": lambda: scenes.smooth(directional=True),
@@ -57,6 +58,7 @@ CHANGES = {
     "curve": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2, centre='CURSOR', shape='CURVE'),
     "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True, angle=0.1, centre='REGION', radius=0.7),
     "pattern": pattern,
+    "pattern by value": lambda: pattern(fit='VALUE'),
 }
 
 

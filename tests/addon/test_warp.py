@@ -61,6 +61,17 @@ def test_the_map_is_that_of_blenders_modifier(panel, kind, columns, rows) -> Non
     assert np.abs(ours - deformed_by_modifier(ob, world[:, :3])).max() < 1e-6
 
 
+@pytest.mark.parametrize(("columns", "rows"), [(5, 5), (4, 3), (2, 7)])
+def test_the_lattice_is_the_same_in_its_edit_mode(panel, columns, rows) -> None:
+    ob = added(panel, columns=columns, rows=rows)
+    scenes.object_mode()
+    disturb(ob, 0.3)
+    outside = lattice.read(ob)
+    assert np.allclose(outside.low, ob.data.points[0].co) and np.allclose(outside.high, ob.data.points[-1].co)
+    scenes.edit(ob)
+    assert lattice.read(ob).same(outside)
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_untouched_lattice_moves_nothing_bit_for_bit(panel, kind) -> None:
     before = scenes.positions(panel)

@@ -1,0 +1,59 @@
+"""Fit Cage to Mesh."""
+import bpy
+import numpy as np
+
+from .. import session, solving
+from ..bridge import cage, dense, gather
+from ..bridge.refusal import Refusal
+from ..targets.fit import Fit, Misfit
+from ..tool import Tool
+
+
+class REFLINES_OT_fit(Tool, bpy.types.Operator):
+    """Move the cage below a Subdivision Surface along the view so that the subdivided surface lies on another mesh and
+has its reflection lines: a scan, or an optimised dense panel.
+
+Select that mesh, then the cage, so that the cage is the active object. In Object Mode all of a cage is fitted that has
+no region from a run before"""
+    bl_idname = "reflines.fit"
+    bl_label = "Fit Cage to Mesh"
+
+    def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
+        return scene.reflection_lines
+
+    def take_settings(self, scene: bpy.types.Scene) -> None:
+        """Unless told otherwise the border lies on the other mesh, too."""
+        if not self.properties.is_property_set("border"):
+            self.border = 'free'
+
+    def subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """The other mesh may be in Edit Mode, too."""
+        return [gather.active(context)]
+
+    def solved(self, context: bpy.types.Context, ob: bpy.types.Object) -> solving.Solution:
+        if not cage.is_under_subdivision(ob):
+            raise Refusal(f"{ob.name} is no cage: its last modifier has to be a Subdivision Surface with levels")
+        panel = cage.gather_cage(ob, or_all=True)
+        seen = session.view_of(context.scene, panel.center)
+        fit = Fit(dense.read(context, ob), seen.view_direction, seen.line_direction)
+        solution = session.solve(panel, seen, solving.Settings(self.border, self.detail(context.scene)), fit)
+        before, after = fit.before, fit.misfit()
+        self.said = (f"Distance from {fit.dense.name} {distance(before)} before, {distance(after)} after; lines off by "
+                     f"{np.degrees(before.angle):.3g} degrees before, {np.degrees(after.angle):.3g} after")
+        return solution
+
+    def keep(self, ob: bpy.types.Object, solution: solving.Solution) -> None:
+        super().keep(ob, solution)
+        ob.reflection_lines.report.fit = self.said
+        self.report({'INFO'}, self.said)
+
+
+def distance(misfit: Misfit) -> str:
+    """In the scene's units."""
+    system = bpy.context.scene.unit_settings.system
+    mean, largest = (bpy.utils.units.to_string(system, 'LENGTH', value, precision=4)
+                     for value in (misfit.mean, misfit.largest))
+    return f"{mean} (at most {largest})"
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_fit])

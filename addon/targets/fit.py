@@ -1,0 +1,60 @@
+"""The lines and heights of another, dense mesh: what a cage is fitted to."""
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import native
+
+COVERED = 0.5  # share of the panel's area that has to lie over the dense mesh
+
+
+@dataclass(frozen=True)
+class Dense:
+    """A mesh in world space."""
+    name: str
+    V: np.ndarray  # #V x 3
+    F: np.ndarray  # #F x 3
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """Of a surface from the dense mesh, where that is: along the view in world units, and of theta in radians."""
+    mean: float     # root mean square
+    largest: float
+    angle: float    # root mean square
+
+
+@dataclass
+class Fit:
+    """Builds the target, and first moves the optimizer to the heights that are nearest by least squares."""
+    dense: Dense
+    view_direction: np.ndarray
+    line_direction: np.ndarray
+    match: tuple = field(default=(), init=False)
+    optimizer: object = field(default=None, init=False)
+    before: Misfit | None = field(default=None, init=False)
+
+    def __call__(self, optimizer: object) -> object:
+        self.optimizer = optimizer
+        try:
+            dense = native.reflines.ShapeOptimizer(self.dense.V, self.dense.F, view_direction=self.view_direction,
+                                                   line_direction=self.line_direction, border="free")
+        except native.InvalidInput as error:
+            raise native.InvalidInput(f"{self.dense.name}: {error}") from error
+        target, _, heights, weight = self.match = native.reflines.match_dense(optimizer, dense)
+        covered = float(optimizer.area @ (target.weight > 0.0) / max(optimizer.area.sum(), 1e-300))
+        if covered < COVERED:
+            raise native.InvalidInput(f"Seen by the view camera, {self.dense.name} covers {covered:.0%} of the panel "
+                                      "only: move it there, or select the faces that it covers")
+        self.before = self.misfit()
+        optimizer.fit(heights, weight)
+        return target
+
+    def misfit(self) -> Misfit:
+        """Of the optimizer as it is now."""
+        target, theta, heights, weight = self.match
+        apart = (self.optimizer.heights - heights)[weight > 0.0]
+        turned = (self.optimizer.theta() - theta + np.pi) % (2.0 * np.pi) - np.pi
+        area = self.optimizer.area * (target.weight > 0.0)
+        return Misfit(float(np.sqrt(np.average(apart**2, weights=weight[weight > 0.0]))), float(np.abs(apart).max()),
+                      float(np.sqrt(np.average(turned**2, weights=area))))

@@ -1,0 +1,80 @@
+"""What a solve leaves is there again after the file was saved and opened: settings, report, maps, Re-solve."""
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+
+
+def reloaded(tmp_path: Path) -> bpy.types.Object:
+    path = str(tmp_path / "panel.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    return bpy.data.objects["Panel"]
+
+
+@pytest.fixture(params=['MESH', 'SHAPE_KEY'])
+def panel(request) -> bpy.types.Object:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    ob.location = (3.0, 2.0, 1.0)
+    scenes.edit_inner(ob)
+    bpy.context.scene.reflection_lines.length = 0.5
+    bpy.context.scene.reflection_lines.result = request.param
+    scenes.smooth()
+    return ob
+
+
+def stored(ob: bpy.types.Object) -> dict[str, np.ndarray]:
+    assert bpy.ops.reflines.store_result() == {'FINISHED'}
+    if ob.mode == 'EDIT':
+        scenes.object_mode()
+    values = {}
+    for name in ("reflines_deviation", "reflines_residual"):
+        values[name] = np.empty(len(ob.data.vertices), np.float32)
+        ob.data.attributes[name].data.foreach_get("value", values[name])
+        ob.data.attributes.remove(ob.data.attributes[name])
+    return values
+
+
+@pytest.mark.parametrize("mode", ['OBJECT', 'EDIT'])
+def test_maps_of_the_last_solve(panel, mode, tmp_path) -> None:
+    expected = stored(panel)
+    scenes.object_mode() if mode == 'OBJECT' else scenes.edit(panel)
+    again = stored(reloaded(tmp_path))
+    for name, values in expected.items():
+        assert values.max() > 1e-4
+        assert np.allclose(again[name], values, rtol=1e-4, atol=1e-6)
+
+
+def test_report_and_settings(panel, tmp_path) -> None:
+    summary = panel.reflection_lines.report.summary()
+    again = reloaded(tmp_path)
+    assert again.reflection_lines.report.summary() == summary
+    assert bpy.context.scene.reflection_lines.length == 0.5
+
+
+def test_resolve_begins_with_the_shape_before_the_run(panel, tmp_path) -> None:
+    def resolved(ob: bpy.types.Object) -> np.ndarray:
+        bpy.context.scene.reflection_lines.light.rotation_euler.y -= 0.3
+        assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+        return scenes.positions(ob)
+
+    scenes.object_mode()
+    path = tmp_path / "first.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    expected = resolved(panel)
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    assert np.array_equal(resolved(bpy.data.objects["Panel"]), expected)
+
+
+def test_a_mesh_changed_since_has_no_last_solve(panel, tmp_path) -> None:
+    scenes.object_mode()
+    points = panel.data.vertices if panel.data.shape_keys is None else panel.active_shape_key.data
+    points[140].co.z += 0.1
+    again = reloaded(tmp_path)
+    assert again.reflection_lines.last == ""
+    with pytest.raises(RuntimeError, match="Make a panel active that is as a tool left it"):
+        bpy.ops.reflines.store_result()

@@ -1,0 +1,222 @@
+"""Results in a shape key: what the mesh would have got, and nothing else changed; Re-solve after the view changed."""
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+
+KEY = "Reflection Lines"
+
+
+@pytest.fixture
+def panel() -> bpy.types.Object:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit_inner(ob)
+    return ob
+
+
+def into_key(**settings: object) -> None:
+    assert scenes.smooth(result='SHAPE_KEY', **settings) == {'FINISHED'}
+
+
+def shape(ob: bpy.types.Object, name: str) -> np.ndarray:
+    values = np.empty(3 * len(ob.data.vertices), dtype=np.float32)
+    ob.data.shape_keys.key_blocks[name].data.foreach_get("co", values)
+    return values.reshape(-1, 3)
+
+
+def seen(ob: bpy.types.Object) -> np.ndarray:
+    """With the keys mixed, as it is drawn."""
+    evaluated = ob.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return np.array([vertex.co for vertex in evaluated.data.vertices], dtype=np.float32)
+
+
+def another() -> bpy.types.Object:
+    """A panel like the fixture's, alone in its Edit Mode."""
+    scenes.object_mode()
+    for old in bpy.context.selected_objects:
+        old.select_set(False)
+    ob = scenes.panel("Other")
+    scenes.edit_inner(ob)
+    return ob
+
+
+def smoothed(**settings: object) -> np.ndarray:
+    """What Smooth makes of the mesh of a panel like the fixture's."""
+    ob = another()
+    scenes.smooth(**settings)
+    scenes.object_mode()
+    result = scenes.positions(ob)
+    bpy.data.objects.remove(ob)
+    return result
+
+
+@pytest.mark.parametrize("mode", ['EDIT', 'OBJECT'])
+def test_the_key_gets_what_the_mesh_would_have_got(panel, mode) -> None:
+    before = scenes.positions(panel)
+    scenes.smooth(strength=0.0)  # keeps the region for Object Mode
+    if mode == 'OBJECT':
+        scenes.object_mode()
+    into_key()
+    assert panel.mode == 'OBJECT'
+    assert np.array_equal(shape(panel, "Basis"), before)
+    key = panel.data.shape_keys.key_blocks[KEY]
+    assert key.value == 1.0 and panel.active_shape_key == key
+    whole = shape(panel, KEY)
+    assert np.array_equal(whole, smoothed())
+    assert np.allclose(seen(panel), whole, atol=1e-7)
+    key.value = 0.5
+    assert np.allclose(seen(panel), 0.5 * (whole + before), atol=1e-6)
+
+
+def test_one_undo_takes_key_and_mode_back(panel) -> None:
+    bpy.ops.ed.undo_push(message="start")
+    before = scenes.fingerprint(panel)
+    into_key()
+    bpy.ops.ed.undo()
+    again = bpy.data.objects["Panel"]
+    assert again.data.shape_keys is None
+    scenes.edit(again)
+    assert scenes.fingerprint(again) == before
+
+
+def test_other_keys_keep_every_bit(panel) -> None:
+    scenes.object_mode()
+    rng = np.random.default_rng(1)
+    for name in ("Basis", "Wide", "High"):
+        key = panel.shape_key_add(name=name, from_mix=False)
+        if name != "Basis":
+            key.data.foreach_set("co", (shape(panel, name) + 0.01 * rng.random(shape(panel, name).shape)).ravel())
+    others = {name: shape(panel, name).tobytes() for name in ("Basis", "Wide", "High")}
+    panel.active_shape_key_index = 0
+    scenes.edit_inner(panel)
+    into_key()
+    into_key(length=0.6)
+    assert {name: shape(panel, name).tobytes() for name in others} == others
+    assert [key.name for key in panel.data.shape_keys.key_blocks] == ["Basis", "Wide", "High", KEY]
+
+
+def test_tools_add_up_in_the_key(panel) -> None:
+    """As they do in the mesh: the second begins with the result of the first."""
+    into_key()
+    into_key(length=0.8)
+    ob = another()
+    scenes.smooth()
+    scenes.smooth(length=0.8)
+    scenes.object_mode()
+    assert np.array_equal(shape(panel, KEY), scenes.positions(ob))
+
+
+def test_the_key_is_edited_in_place(panel) -> None:
+    into_key()
+    first = shape(panel, KEY)
+    scenes.edit_inner(panel)
+    into_key(length=0.8)
+    assert panel.mode == 'EDIT'
+    scenes.object_mode()
+    assert not np.array_equal(shape(panel, KEY), first)
+    assert np.array_equal(shape(panel, "Basis"), scenes.positions(scenes.panel("Fresh")))
+
+
+def test_a_refused_run_makes_no_key(panel) -> None:
+    bpy.context.scene.reflection_lines.light.rotation_euler = (0.0, 0.0, 0.0)
+    before = scenes.fingerprint(panel)
+    with pytest.raises(RuntimeError, match="parallel"):
+        into_key()
+    assert scenes.fingerprint(panel) == before
+
+
+def test_absolute_keys_are_refused(panel) -> None:
+    scenes.object_mode()
+    panel.shape_key_add(name="Basis")
+    panel.data.shape_keys.use_relative = False
+    scenes.edit_inner(panel)
+    with pytest.raises(RuntimeError, match="absolute shape keys"):
+        into_key()
+
+
+def turn_light() -> None:
+    bpy.context.scene.reflection_lines.light.rotation_euler.y -= 0.3
+    bpy.context.view_layer.update()
+
+
+@pytest.mark.parametrize("result", ['MESH', 'SHAPE_KEY'])
+def test_resolve_after_the_light_turned_is_a_run_from_the_original(panel, result) -> None:
+    scenes.smooth(result=result, length=0.5, directional=True)
+    scenes.object_mode()
+    first = scenes.positions(panel)
+    turn_light()
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert not np.array_equal(scenes.positions(panel), first)
+    assert np.array_equal(scenes.positions(panel), smoothed(length=0.5, directional=True))
+
+
+def test_resolve_takes_a_mesh_changed_by_hand_as_it_is(panel) -> None:
+    scenes.smooth(length=0.5)
+    scenes.object_mode()
+    panel.data.vertices[140].co.z += 0.01
+    ob = panel.copy()
+    ob.data, ob.name = panel.data.copy(), "Other"
+    bpy.context.collection.objects.link(ob)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    resolved = scenes.positions(panel)
+    panel.select_set(False)
+    scenes.activate(ob)
+    scenes.smooth(length=0.5)
+    assert np.array_equal(scenes.positions(ob), resolved)
+
+
+def test_resolve_begins_with_the_original_of_the_key_after_that_changed(panel) -> None:
+    into_key(length=0.5)
+    basis = panel.data.shape_keys.key_blocks["Basis"]
+    basis.data[140].co.z += 0.01
+    changed = shape(panel, "Basis")
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert np.array_equal(shape(panel, "Basis"), changed)
+    ob = another()
+    scenes.object_mode()
+    ob.data.vertices[140].co.z = changed[140, 2]
+    scenes.edit_inner(ob)
+    scenes.smooth(length=0.5)
+    scenes.object_mode()
+    assert np.array_equal(shape(panel, KEY), scenes.positions(ob))
+
+
+def test_resolve_from_edit_mode_is_one_undo_step(panel) -> None:
+    scenes.smooth(length=0.5)
+    turn_light()
+    bpy.ops.ed.undo_push(message="turn")
+    before = scenes.positions(panel)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert not np.array_equal(scenes.positions(panel), before)
+    bpy.ops.ed.undo()
+    again = bpy.data.objects["Panel"]
+    assert again.mode == 'EDIT' and np.array_equal(scenes.positions(again), before)
+
+
+def test_resolve_tells_of_other_faces(panel, capfd) -> None:
+    scenes.smooth(length=0.5)
+    scenes.select_faces(panel, lambda face: face == 100)
+    bpy.ops.mesh.subdivide()
+    scenes.object_mode()
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert "The mesh has changed since the last run: +" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("how", ["apply", "discard"])
+def test_live_warp_into_a_key(panel, how) -> None:
+    before = scenes.fingerprint(panel)
+    bpy.ops.reflines.add_warp_lattice()
+    scenes.object_mode()
+    kept = scenes.fingerprint(panel)
+    settings = bpy.context.scene.reflection_lines
+    settings.result = 'SHAPE_KEY'
+    bpy.ops.reflines.start_live_warp('EXEC_DEFAULT', True)
+    settings.warp.lattice.data.points[12].co_deform.x += 0.2
+    getattr(bpy.ops.reflines, f"{how}_live_warp")('EXEC_DEFAULT', True)
+    if how == "discard":
+        assert scenes.fingerprint(panel) == kept
+        return
+    assert shape(panel, "Basis").tobytes() == before[0]
+    assert not np.array_equal(shape(panel, KEY), shape(panel, "Basis"))
