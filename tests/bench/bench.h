@@ -6,5 +6,6 @@ namespace reflines::bench {
 void register_solves();
 void register_strategies();
 void register_biharmonic();
+void register_cages();
 
 }  // namespace reflines::bench

@@ -10,13 +10,16 @@ Steps = Generator[float, None, None]
 PATIENCE = 60.0  # seconds for a solve on a busy machine
 
 
-def panel(driver: window.Window, cells: int = 16) -> bpy.types.Object:
+def panel(driver: window.Window, cells: int = 16, levels: int = 0) -> bpy.types.Object:
+    """With `levels` it is a cage below a Subdivision Surface."""
     with driver.override():
         if bpy.context.mode != 'OBJECT':
             bpy.ops.object.mode_set(mode='OBJECT')
         for old in list(bpy.data.objects):
             bpy.data.objects.remove(old)
         ob = scenes.panel(cells=cells)
+        if levels:
+            ob.modifiers.new("Subdivision", 'SUBSURF').levels = levels
         scenes.look_from_above()
         scenes.edit_inner(ob, cells)
         bpy.context.scene.reflection_lines.stripes.show = True
@@ -32,9 +35,9 @@ def shown(driver: window.Window) -> np.ndarray:
         return scenes.positions(bpy.context.view_layer.objects.active)
 
 
-def executed(driver: window.Window, **settings: object) -> np.ndarray:
+def executed(driver: window.Window, levels: int = 0, **settings: object) -> np.ndarray:
     """What the operator makes of a fresh panel without a mouse."""
-    panel(driver)
+    panel(driver, levels=levels)
     with driver.override():
         scenes.smooth(**settings)
     return shown(driver)
@@ -55,7 +58,7 @@ def settled(driver: window.Window) -> Steps:
     for _ in range(int(PATIENCE / 0.3)):
         now = shown(driver)
         same = same + 1 if last is not None and np.array_equal(now, last) else 0
-        if same == 3:
+        if same == 6:  # on a busy machine a solve of these panels can take a second
             return
         last = now
         yield 0.3
@@ -70,3 +73,13 @@ def ended(driver: window.Window) -> Steps:
             break
         yield 0.1
     yield from settled(driver)
+
+
+def adjust(driver: window.Window, *, length: float, strength: float) -> Steps:
+    """By the panel Adjust Last Operation, the last one being Smooth."""
+    with driver.override():
+        operator = bpy.context.active_operator
+        assert operator.bl_idname == "REFLINES_OT_smooth"
+        operator.properties.length, operator.properties.strength = length, strength
+        assert bpy.ops.ed.undo_redo() == {'FINISHED'}
+    yield 0.5

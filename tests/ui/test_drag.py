@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import window  # noqa: E402  (found through the line above)
 
 import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from dragging import ended, executed, panel, press, settled, shown  # noqa: E402
+from dragging import adjust, ended, executed, panel, press, settled, shown  # noqa: E402
 
 Steps = Generator[float, None, None]
 
@@ -89,12 +89,7 @@ def test_the_redo_panel_starts_from_the_mesh_before_the_drag(driver: window.Wind
     yield 0.3
     driver.key('RET')
     yield from ended(driver)
-    with driver.override():
-        operator = bpy.context.active_operator
-        assert operator.bl_idname == "REFLINES_OT_smooth"
-        operator.properties.length, operator.properties.strength = 0.9, 0.5
-        assert bpy.ops.ed.undo_redo() == {'FINISHED'}
-    yield 0.5
+    yield from adjust(driver, length=0.9, strength=0.5)
     assert np.array_equal(shown(driver), expected)
 
 

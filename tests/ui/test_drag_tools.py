@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import window  # noqa: E402  (found through the line above)
 
 import dragging  # noqa: E402  (needs what `window` finds)
+import scenes  # noqa: E402
 
 Steps = Generator[float, None, None]
 
@@ -71,4 +72,60 @@ def test_pattern(driver: window.Window) -> Steps:
     yield from kept_equals_executed(driver, "pattern", ("strength",))
 
 
-window.run(test_untwist_with_the_wheel_for_its_radius, test_density, test_pattern)
+def test_warp_by_a_typed_amount(driver: window.Window) -> Steps:
+    """Kept is what the operator makes of half the lattice's way, to the last bit."""
+    dragging.panel(driver)
+    with driver.override():
+        bpy.ops.reflines.add_warp_lattice()
+        bpy.context.scene.reflection_lines.warp.lattice.data.points[12].co_deform.x += 0.3
+        bpy.ops.object.mode_set(mode='OBJECT')
+        bpy.ops.ed.undo_push(message="Lattice")
+        bpy.ops.object.mode_set(mode='EDIT')
+        bpy.ops.ed.undo_push(message="Edit")
+    before = dragging.shown(driver)
+    yield from dragging.press(driver, "warp")
+    whole = np.abs(dragging.shown(driver) - before).max()
+    for key in ('FIVE', 'ZERO'):
+        driver.key(key)
+        yield 0.05
+    yield from dragging.settled(driver)
+    assert 0.3 * whole < np.abs(dragging.shown(driver) - before).max() < 0.7 * whole
+    driver.key('RET')
+    yield from dragging.ended(driver)
+    kept = dragging.shown(driver)
+    assert bpy.context.window_manager.operators[-1].properties.amount == 50.0
+    driver.key('Z', ctrl=True)
+    yield 0.5
+    assert np.array_equal(dragging.shown(driver), before)
+    with driver.override():
+        assert bpy.ops.reflines.warp('EXEC_DEFAULT', True, amount=50.0) == {'FINISHED'}
+    assert np.array_equal(dragging.shown(driver), kept)
+
+
+def test_smooth_into_a_shape_key(driver: window.Window) -> Steps:
+    """Esc leaves no key; Enter makes one of what is kept in the mesh otherwise; one undo takes key and mode back."""
+    expected = dragging.executed(driver, strength=0.5)
+    ob = dragging.panel(driver)
+    bpy.context.scene.reflection_lines.result = 'SHAPE_KEY'
+    before = scenes.fingerprint(ob)
+    for key in ('ESC', 'RET'):
+        yield from dragging.press(driver)
+        driver.move(250, 300)
+        yield from dragging.settled(driver)
+        assert scenes.fingerprint(bpy.data.objects["Panel"]) != before
+        driver.key(key)
+        yield from dragging.ended(driver)
+        yield 0.5
+        assert (scenes.fingerprint(bpy.data.objects["Panel"]) == before) == (key == 'ESC')
+    keys = bpy.data.objects["Panel"].data.shape_keys.key_blocks
+    assert np.array_equal(np.array([point.co for point in keys["Reflection Lines"].data], np.float32), expected)
+    assert np.array([point.co for point in keys["Basis"].data], np.float32).tobytes() == before[0]
+    driver.key('Z', ctrl=True)
+    yield 0.5
+    ob = bpy.data.objects["Panel"]
+    assert ob.mode == 'EDIT' and scenes.fingerprint(ob) == before
+    bpy.context.scene.reflection_lines.result = 'MESH'
+
+
+window.run(test_untwist_with_the_wheel_for_its_radius, test_density, test_pattern, test_warp_by_a_typed_amount,
+           test_smooth_into_a_shape_key)

@@ -27,7 +27,7 @@ def test_the_key_collides_with_nothing(_: window.Window) -> Steps:
     """In no keymap of Blender's that can be active over a 3D view."""
     own, compared, taken = own_key(), 0, []
     for keymap in bpy.context.window_manager.keyconfigs.default.keymaps:
-        if keymap.space_type not in {'EMPTY', 'VIEW_3D'}:
+        if keymap.is_modal or keymap.space_type not in {'EMPTY', 'VIEW_3D'}:  # modal: only while walking, flying ...
             continue
         for item in keymap.keymap_items:
             compared += 1

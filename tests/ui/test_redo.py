@@ -11,26 +11,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import window  # noqa: E402  (found through the line above)
 
 import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+from dragging import adjust, panel, shown  # noqa: E402
 
 Steps = Generator[float, None, None]
-
-
-def panel(driver: window.Window) -> bpy.types.Object:
-    with driver.override():
-        if bpy.context.mode != 'OBJECT':
-            bpy.ops.object.mode_set(mode='OBJECT')
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
-        ob = scenes.panel()
-        scenes.look_from_above()
-        scenes.edit_inner(ob)
-        bpy.ops.ed.undo_push(message="Start")
-    return ob
-
-
-def shown(driver: window.Window) -> np.ndarray:
-    with driver.override():
-        return scenes.positions(bpy.context.view_layer.objects.active)
 
 
 def smoothed(driver: window.Window, **settings: object) -> np.ndarray:
@@ -59,12 +42,7 @@ def test_other_settings_start_from_the_mesh_before(driver: window.Window) -> Ste
     before = shown(driver)
     yield from press_smooth(driver)
     assert not np.array_equal(shown(driver), before)
-    with driver.override():
-        operator = bpy.context.active_operator
-        assert operator.bl_idname == "REFLINES_OT_smooth"
-        operator.properties.length, operator.properties.strength = 0.9, 0.5
-        assert bpy.ops.ed.undo_redo() == {'FINISHED'}
-    yield 0.5
+    yield from adjust(driver, length=0.9, strength=0.5)
     assert np.array_equal(shown(driver), expected)
 
 

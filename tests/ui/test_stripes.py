@@ -140,6 +140,23 @@ def test_stripes_follow_a_drag_and_its_escape(driver: window.Window) -> Steps:
     assert same_picture(after, before)
 
 
+def test_a_panel_that_is_hidden_wholly(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Hidden")
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit_inner(ob, CELLS)
+    before = yield from captured(driver)
+    with driver.override():
+        bpy.ops.mesh.select_all(action='SELECT')
+        bpy.ops.mesh.hide('EXEC_DEFAULT', True)
+    hidden = yield from captured(driver)
+    with driver.override():
+        bpy.ops.mesh.reveal('EXEC_DEFAULT', True)
+    shown = yield from captured(driver)
+    assert np.ptp(hidden) < 0.1 < np.ptp(before)
+    assert same_picture(shown, before)
+
+
 def test_stripes_follow_undo_in_both_modes(driver: window.Window) -> Steps:
     ob = fresh_panel(driver, "Undone")
     prepare(driver, ob)
@@ -164,4 +181,5 @@ def test_stripes_follow_undo_in_both_modes(driver: window.Window) -> Steps:
 window.run(test_pixels_in_object_mode, test_pixels_of_a_turned_scaled_and_mirrored_object,
            test_pixels_in_edit_mode_while_the_mesh_changes, test_pixels_over_the_edit_cage,
            test_settings_view_and_light_rebuild_no_batch, test_a_moved_vertex_rebuilds_one_batch,
-           test_stripes_follow_a_drag_and_its_escape, test_stripes_follow_undo_in_both_modes)
+           test_stripes_follow_a_drag_and_its_escape, test_a_panel_that_is_hidden_wholly,
+           test_stripes_follow_undo_in_both_modes)

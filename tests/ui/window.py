@@ -52,9 +52,13 @@ class Window:
 
 def run(*tests: Test) -> None:
     """Runs the tests one after the other from a timer, prints the line of counts, and ends Blender."""
+    start(all_steps(tests))
+
+
+def start(steps: Generator[float, None, None]) -> None:
+    """From a timer, with the add-on enabled."""
     bpy.context.preferences.view.show_splash = False
     installation.install()
-    steps = all_steps(tests)
     bpy.app.timers.register(lambda: next(steps), first_interval=1.0, persistent=True)
 
 

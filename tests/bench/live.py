@@ -1,0 +1,85 @@
+"""Rows of what an artist waits for, measured inside Blender: mesh transfer, drags, Escape, stripes."""
+import json
+import os
+import statistics
+import subprocess
+import time
+from pathlib import Path
+
+import lanes
+
+from bench.row import Row
+
+ROOT = Path(__file__).resolve().parents[2]
+OUT = ROOT / "build/bench"
+PATIENCE = 1200  # seconds for a script
+
+Times = dict[str, list[float]]
+
+
+def measured(name: str, command: list[str]) -> Times:
+    """What a script of this folder leaves in build/bench."""
+    out = OUT / f"{name}.json"
+    out.unlink(missing_ok=True)
+    subprocess.run([*command, "--python-exit-code", "1", "--python", f"tests/bench/{name}.py"], cwd=ROOT, check=True,
+                   env=lanes.blender_environment(), timeout=PATIENCE, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    return json.loads(out.read_text())
+
+
+def p95(values: list[float]) -> float:
+    return sorted(values)[max(0, round(0.95 * len(values)) - 1)]
+
+
+def share(times: Times) -> float:
+    middle = statistics.median
+    return (middle(times["gather_100k"]) + middle(times["apply_100k"])) / times["solve_100k"][0]
+
+
+def transfer_rows(times: Times) -> list[Row]:
+    middle = statistics.median
+    copy = f"Blender's own copy out of Edit Mode {middle(times['blender_copy_100k']):.0f} ms of it"
+    solve = times["solve_100k"][0]
+    return [Row("gather_ms_100k", middle(times["gather_100k"]), "ms", f"in Edit Mode, {copy}; median of 9"),
+            Row("apply_ms_100k", middle(times["apply_100k"]), "ms", "all vertices moved, with normals; median of 9"),
+            Row("gather_apply_over_solve_100k", share(times), "", f"of {solve:.0f} ms from the bare mesh on"),
+            *(Row(f"drag_solve_p95_ms_{size}", p95(times[f"step_{size}"]), "ms",
+                  f"in the thread: target, solve, positions; median {middle(times[f'step_{size}']):.0f} ms of "
+                  f"{len(times[f'step_{size}'])} steps") for size in ("10k", "100k"))]
+
+
+def drag_rows(times: Times, size: str) -> list[Row]:
+    drawn, undrawn = times[f"latency_drawn_{size}"], times[f"latency_undrawn_{size}"]
+    worked = times[f"processor_undrawn_{size}"]
+    return [Row(f"drag_p95_ms_{size}", p95(drawn), "ms",
+                f"mouse to mesh in a window with stripes, drawn by the processor; window still for at most "
+                f"{max(times[f'still_drawn_{size}']):.0f} ms, median {statistics.median(drawn):.0f} ms"),
+            Row(f"drag_undrawn_p95_ms_{size}", p95(undrawn), "ms",
+                f"the same with an empty image in place of the 3D view; window still for at most "
+                f"{max(times[f'still_undrawn_{size}']):.0f} ms, median {statistics.median(undrawn):.0f} ms"),
+            Row(f"drag_processor_ms_{size}", statistics.median(worked), "ms",
+                f"of Blender's main thread in such a step, whatever else the machine does; median of {len(worked)}")]
+
+
+def feel_rows(times: Times) -> list[Row]:
+    control, thread, kicks = times["escape_control"], times["escape_thread"], times["kick"]
+    return [Row("escape_ms_100k", max(control), "ms",
+                f"until the next key works; the thread ends after at most {max(thread):.0f} ms; {len(control)} times "
+                "while a drag prepares"),
+            Row("drag_hysteresis", times["hysteresis"][0], "", "of the panel's size, after a closed path"),
+            Row("drag_kick", max(kicks) / min(kicks), "", "largest over smallest move at equal steps of the mouse"),
+            Row("stripes_ms_400k", statistics.median(times["stripes_400k"]), "ms",
+                "of the main thread, for a moved vertex of 400,000 triangles: reading, normals, upload")]
+
+
+def rows() -> list[Row]:
+    background = measured("live_transfer", [lanes.BLENDER, "-b", "--factory-startup"])
+    window = measured("live_drag", lanes.window_command())
+    load = os.getloadavg()[0]
+    print(f"live rows at {time.strftime('%H:%M')}: load {load:.1f} on {os.cpu_count()} cores", flush=True)
+    return [*transfer_rows(background), *drag_rows(window, "10k"), *drag_rows(window, "100k"), *feel_rows(window)]
+
+
+if __name__ == "__main__":
+    for row in rows():
+        print(f"{row.name:30} {row.value:10.4g} {row.unit:4} {row.note}")

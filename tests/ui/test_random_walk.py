@@ -1,0 +1,59 @@
+"""A random walk through Blender in a window: no step may end in an error of Python or a crash, whatever came before.
+
+    REFLINES_WALK=500 REFLINES_SEED=3    length and seed; the lane walks a shorter way
+"""
+import os
+import sys
+import tempfile
+from collections.abc import Generator
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import window  # noqa: E402  (found through the line above)
+
+import random_steps as steps  # noqa: E402  (needs what `window` finds)
+
+LENGTH = int(os.environ.get("REFLINES_WALK", "80"))
+SEED = int(os.environ.get("REFLINES_SEED", "1"))
+# How often each step is taken, as a share of the sum.
+STEPS = {
+    steps.run_tool: 14, steps.drag_tool: 14, steps.surprised_drag: 5, steps.grab: 3, steps.undo: 9, steps.redo: 5,
+    steps.change_mode: 8, steps.change_settings: 8, steps.select: 8, steps.change_mesh: 6, steps.add_modifier: 3,
+    steps.delete_something: 4, steps.activate: 5, steps.reload_addon: 3, steps.save: 3, steps.load: 3,
+    steps.new_panel: 8, steps.another_panel: 2, steps.pull_lattice: 12,
+}
+
+Steps = Generator[float, None, None]
+
+
+class Listener:
+    """Stands for stderr: what Blender prints of errors in operators, handlers, timers and threads goes through it."""
+
+    def __init__(self, stream: object) -> None:
+        self.stream, self.heard = stream, []
+
+    def write(self, text: str) -> int:
+        if "Traceback" in text or "Error:" in text:
+            self.heard.append(text)
+        return self.stream.write(text)
+
+    def flush(self) -> None:
+        self.stream.flush()
+
+
+def test_a_random_walk(driver: window.Window) -> Steps:
+    walker = steps.Walker(SEED, str(Path(tempfile.mkdtemp()) / "walk.blend"))
+    sys.stderr = Listener(sys.stderr)
+    yield from steps.new_panel(walker)
+    yield from steps.save(walker)
+    for number in range(LENGTH):
+        step = walker.dice.choices(list(STEPS), list(STEPS.values()))[0]
+        ob = walker.active()
+        print(f"{number}: {step.__name__} ({ob.name if ob else '-'}, {ob.mode if ob else '-'})", flush=True)
+        yield from step(walker)
+        assert not sys.stderr.heard, f"step {number} of seed {SEED}: {step.__name__}"
+    sys.stderr = sys.stderr.stream
+
+
+window.run(test_a_random_walk)

@@ -1,0 +1,86 @@
+"""Stripes of a cage below a Subdivision Surface: its limit surface with the limit's own normals, in every pixel."""
+import os
+import sys
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import window  # noqa: E402  (found through the line above)
+
+import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples  # noqa: E402
+
+
+def limit_of(ob: bpy.types.Object) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Positions in world space, triangles and normals, from the cage's arrays alone."""
+    reflines = sys.modules["reflection_lines"].native.reflines
+    corner = (np.arange(CELLS)[:, None] * (CELLS + 1) + np.arange(CELLS)).ravel()
+    quads = np.stack([corner, corner + 1, corner + CELLS + 2, corner + CELLS + 1], axis=1)
+    V = scenes.world(ob)
+    surface = reflines.Subdivision(np.arange(0, quads.size + 1, 4), quads.ravel(), vertices=len(V), level=2, limit=True)
+    F = surface.faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return surface.positions(V), F, surface.normals(V)
+
+
+def cage(driver: window.Window, name: str) -> bpy.types.Object:
+    ob = fresh_panel(driver, name)
+    modifier = ob.modifiers.new("Subdivision", 'SUBSURF')
+    modifier.levels, modifier.use_limit_surface, modifier.boundary_smooth = 2, True, 'ALL'
+    prepare(driver, ob)
+    return ob
+
+
+def share_as_theta_says(driver: window.Window, ob: bpy.types.Object, picture_name: str) -> Steps:
+    """Share of thousands of pixels whose brightness is that of theta of the limit normals, within 3/255."""
+    reflines = sys.modules["reflection_lines"].native.reflines
+    picture = yield from captured(driver)
+    if "REFLINES_PICTURES" in os.environ:
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{picture_name}.png"))
+        yield 0.3
+    V, F, limit = limit_of(ob)
+    pixel, triangle, barycentric = samples(driver, V, F)
+    normals = (limit[F[triangle]] * barycentric[:, :, None]).sum(axis=1)
+    settings = bpy.context.scene.reflection_lines
+    v, a = (np.array(axis.matrix_world)[:3, 2] for axis in (settings.camera, settings.light))
+    light = expected_light(reflines.theta(normals, v, a))
+    good = np.abs(picture[pixel[:, 1], pixel[:, 0]] - light) < 3.0 / 255.0
+    print(f"{len(good)} pixels, {good.mean():.4%} as theta of the limit says")
+    assert len(good) > 2000
+    assert np.ptp(light) > 0.99
+    return good.mean()
+
+
+def test_every_pixel_shows_the_limit_and_with_solve_for_mesh_it_does_not(driver: window.Window) -> Steps:
+    ob = cage(driver, "Limit")
+    assert (yield from share_as_theta_says(driver, ob, "limit")) > 0.999
+    bpy.context.scene.reflection_lines.solve_for = 'MESH'
+    other = yield from share_as_theta_says(driver, ob, "modifier")
+    bpy.context.scene.reflection_lines.solve_for = 'CAGE'
+    assert other < 0.995  # at 40 faces a side most of it is alike
+
+
+def test_it_follows_the_cage_in_edit_mode(driver: window.Window) -> Steps:
+    ob = cage(driver, "Edited")
+    with driver.override():
+        scenes.edit(ob)
+        mesh = bmesh.from_edit_mesh(ob.data)
+        for vertex in mesh.verts:
+            vertex.co.z = scenes.crown(vertex.co.x, 2.0 * vertex.co.y) + 0.004 * np.sin(7.0 * vertex.co.x)
+        bmesh.update_edit_mesh(ob.data)
+    yield 0.5
+    share = yield from share_as_theta_says(driver, ob, "limit_edit")
+    with driver.override():  # other faces than those stored: nothing fails, the modifier's mesh is shown
+        bpy.ops.mesh.select_all(action='SELECT')
+        bpy.ops.mesh.delete(type='FACE')
+    driver.redraw()
+    yield 0.3
+    with driver.override():
+        scenes.object_mode()
+    assert share > 0.97  # the rest lies under the cage's edges and vertices
+
+
+window.run(test_every_pixel_shows_the_limit_and_with_solve_for_mesh_it_does_not, test_it_follows_the_cage_in_edit_mode)
