@@ -4,7 +4,7 @@ Modules stand in the order of their dependencies; `register` walks the list forw
 """
 import importlib
 
-from . import native
+from . import native, worker
 from .targets import falloff, smooth as smooth_target, direction as direction_target, untwist as untwist_target
 from .targets import mirrored, warp as warp_target, pattern as pattern_target, fit as fit_target
 from .bridge import refusal, versions, view, region, mirror, gather, cage, keys, apply, surface, dense, shown_cage
@@ -12,7 +12,7 @@ from .bridge import environment, matcap
 from .bridge import panels as bridge_panels, lattice, start, record, picture, place, curve
 from . import tool_settings, stripe_settings, properties, solving, session, saved, tool
 from .overlay import circle
-from .drag import motion, worker, pursuit, modal
+from .drag import motion, pursuit, modal
 from .live import scene as live_scene, follower, handlers
 from .overlay import stripes, shader, normals, last_solve, limit, seen, draw
 from .operators import add_light_direction, add_view_camera, add_warp_lattice
@@ -31,10 +31,10 @@ bl_info = {
     "category": "Mesh",
 }
 
-MODULES = (native, falloff, smooth_target, direction_target, untwist_target, mirrored, warp_target, pattern_target,
-           fit_target, refusal, versions, view, region, mirror, gather, cage, keys, apply, surface, dense, shown_cage,
-           environment, matcap, bridge_panels, lattice, start, record, picture, place, curve,
-           tool_settings, stripe_settings, properties, solving, session, saved, tool, circle, motion, worker, pursuit,
+MODULES = (native, worker, falloff, smooth_target, direction_target, untwist_target, mirrored, warp_target,
+           pattern_target, fit_target, refusal, versions, view, region, mirror, gather, cage, keys, apply, surface,
+           dense, shown_cage, environment, matcap, bridge_panels, lattice, start, record, picture, place, curve,
+           tool_settings, stripe_settings, properties, solving, session, saved, tool, circle, motion, pursuit,
            modal, live_scene, follower, handlers, stripes, shader, normals, last_solve, limit, seen, draw,
            add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth,
            fit, resolve, store_result, untwist, warp, live_warp, stripes_operators, install_matcap,

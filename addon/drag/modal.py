@@ -15,11 +15,11 @@ from ..bridge.refusal import Refusal
 from ..overlay import circle
 from ..targets.falloff import Falloff
 from ..tool import AUTOMATIC_RADIUS, Tool
+from ..worker import Worker
 from .motion import Handle, Motion
 from .pursuit import Outcome, Pursuit, Request
-from .worker import Worker
 
-TICK = 0.03          # seconds between looks at what the thread has
+TICK = 0.01          # seconds between looks at what the thread has
 SAYS_BUSY = 0.3      # seconds of solving after which the status bar tells of it
 DIGITS = {name: str(digit) for digit, word in enumerate(
     ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"))
@@ -48,7 +48,7 @@ class Drag:
         self.circle = circle.add(lambda: self.reach)
         self.worker = Worker(self.pursuit.run)
         self.worker.submit(self.wanted)
-        self.keeping, self.busy_since, self.problem = False, time.monotonic(), ""
+        self.keeping, self.busy_since, self.problem, self.said = False, time.monotonic(), "", ("", "")
         self.timer = context.window_manager.event_timer_add(TICK, window=context.window)
 
     def motion_of(self, scene: bpy.types.Scene) -> Motion:
@@ -111,13 +111,16 @@ class Drag:
 
     def say(self, context: bpy.types.Context) -> None:
         values = "   ".join(self.text_of(context, index) for index in range(len(self.motion.handles)))
-        self.area.header_text_set(f"{self.tool.bl_label}   {values}" + (f"   {self.problem}" if self.problem else ""))
+        header = f"{self.tool.bl_label}   {values}" + (f"   {self.problem}" if self.problem else "")
         working = not self.worker.idle() and time.monotonic() - self.busy_since > SAYS_BUSY
         more = "   Tab: next value" if len(self.motion.handles) > 1 else ""
         turned = self.motion.on_wheel()
         wheel = f"   Wheel: {turned.label.lower()}" if turned else ""
-        context.workspace.status_text_set(
-            f"{self.pursuit.doing()}   Esc: cancel" if working or self.keeping else KEYS + more + wheel)
+        status = f"{self.pursuit.doing()}   Esc: cancel" if working or self.keeping else KEYS + more + wheel
+        if self.said != (header, status):  # each text that is set draws its bar again
+            self.said = header, status
+            self.area.header_text_set(header)
+            context.workspace.status_text_set(status)
 
     def text_of(self, context: bpy.types.Context, index: int) -> str:
         handle, typed = self.motion.handles[index], self.motion.typed[index]

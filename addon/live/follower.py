@@ -11,9 +11,9 @@ import numpy as np
 from ..bridge import apply, start
 from ..bridge.refusal import Refusal
 from ..drag.pursuit import Outcome, Pursuit, Request
-from ..drag.worker import Worker
 from ..solving import Solution
 from ..targets.warp import Warp
+from ..worker import Worker
 from . import scene as about
 from .scene import Ground
 

@@ -8,7 +8,7 @@ from bpy.app.handlers import persistent
 from .. import session
 from .follower import Follower
 
-TICK = 0.02  # seconds between looks at what the thread has
+TICK = 0.01  # seconds between looks at what the thread has
 
 
 @persistent

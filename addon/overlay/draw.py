@@ -173,14 +173,14 @@ def paint(name: str, batch: gpu.types.GPUBatch, values: np.ndarray, texture: gpu
 
 def poll_fits() -> float | None:
     """A timer, so on Blender's own thread: draws again what has better normals now."""
-    _cache.fits.advance()
-    for name in _cache.fits.finished():
-        _cache.fits.collect(name)
+    name = _cache.fits.finished()
+    if name is not None:
         _cache.shown.setdefault(name.removeprefix(BEFORE), Shown()).stale = True
         for window in bpy.context.window_manager.windows:
             for area in window.screen.areas:
                 if area.type == 'VIEW_3D':
                     area.tag_redraw()
+    _cache.fits.advance()
     return POLL if is_waiting() else None
 
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "native/bindings/bind.h"
+#include "native/bindings/turn.h"
 #include "native/reflection/dense_heights.h"
 #include "native/reflection/direction.h"
 #include "native/reflection/pattern.h"
@@ -42,7 +43,7 @@ py::tuple warp(ShapeOptimizer& optimizer, const Vector2& low, const Vector2& hig
                const PlanePositions& position, bool by_value, int family) {
   WarpResult result;
   {
-    const py::gil_scoped_release release;
+    const ReleaseGil release;
     result = warp_target(optimizer.region_field(family), {low, high, columns, rows, position}, by_value);
   }
   return py::make_tuple(result.target, result.outside);
@@ -58,7 +59,7 @@ py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int fami
   DenseHeights wanted;
   ShapeOptimizer::Lines lines;
   {
-    const py::gil_scoped_release release;
+    const ReleaseGil release;
     wanted = dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());
     lines = optimizer.lines_of(wanted.height, wanted.area, family);
   }
@@ -66,7 +67,7 @@ py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int fami
 }
 
 void bind_image_tools(py::module_& module) {
-  using Release = py::call_guard<py::gil_scoped_release>;
+  using Release = py::call_guard<ReleaseGil>;
   const PatternOptions pattern_defaults;
   module.def("warp", &warp, py::arg("optimizer"), py::kw_only(), py::arg("low"), py::arg("high"), py::arg("columns"),
              py::arg("rows"), py::arg("position"), py::arg("by_value") = false, py::arg("family") = 0);
@@ -82,7 +83,7 @@ void bind_image_tools(py::module_& module) {
 }  // namespace
 
 void bind_builders(py::module_& module) {
-  using Release = py::call_guard<py::gil_scoped_release>;
+  using Release = py::call_guard<ReleaseGil>;
   const UniformOptions uniform_defaults;
   module.def("smooth", &smooth, py::arg("optimizer"), py::kw_only(), py::arg("length"), py::arg("strength") = 1.0,
              py::arg("directional") = SmoothOptions().directional, py::arg("family") = 0,

@@ -9,6 +9,7 @@
 #include "native/bindings/cage_arrays.h"
 #include "native/bindings/line_directions.h"
 #include "native/bindings/names.h"
+#include "native/bindings/turn.h"
 #include "native/geometry/cage_symmetry.h"
 
 namespace reflines {
@@ -44,14 +45,14 @@ std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offs
   options.shape.proximity = proximity;
   options.shape.progress = std::move(progress);
   const std::vector<Vector3> lines = directions(line_direction);
-  const py::gil_scoped_release release;
+  const ReleaseGil release;
   return std::make_unique<CageOptimizer>(cage, V, view_direction, lines, options);
 }
 
 }  // namespace
 
 void bind_cage_optimizer(py::module_& module) {
-  using Release = py::call_guard<py::gil_scoped_release>;
+  using Release = py::call_guard<ReleaseGil>;
   const CageOptions defaults;
   py::class_<CageOptimizer, ShapeOptimizer>(module, "CageOptimizer", py::module_local())
       .def(py::init(&make), "V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a,

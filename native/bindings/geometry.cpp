@@ -1,6 +1,7 @@
 #include <pybind11/eigen.h>
 
 #include "native/bindings/bind.h"
+#include "native/bindings/turn.h"
 #include "native/errors.h"
 #include "native/geometry/image_plane.h"
 #include "native/geometry/normals.h"
@@ -50,11 +51,11 @@ void bind_geometry(py::module_& module) {
       py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
   py::class_<NormalFit>(module, "NormalFit", py::module_local())
       .def(py::init<const Positions&, const Triangles&, double>(), py::arg("V"), py::arg("F"), py::kw_only(),
-           py::arg("refit_angle") = 0.35, py::call_guard<py::gil_scoped_release>())
+           py::arg("refit_angle") = 0.35, py::call_guard<ReleaseGil>())
       .def(
-          "copy", [](const NormalFit& fit) { return NormalFit(fit); }, py::call_guard<py::gil_scoped_release>())
-      .def("kept_normals", &NormalFit::kept_normals, py::arg("V"), py::call_guard<py::gil_scoped_release>())
-      .def("normals", &NormalFit::normals, py::arg("V"), py::call_guard<py::gil_scoped_release>())
+          "copy", [](const NormalFit& fit) { return NormalFit(fit); }, py::call_guard<ReleaseGil>())
+      .def("kept_normals", &NormalFit::kept_normals, py::arg("V"), py::call_guard<ReleaseGil>())
+      .def("normals", &NormalFit::normals, py::arg("V"), py::call_guard<ReleaseGil>())
       .def_property_readonly("refit_count", &NormalFit::refit_count);
 }
 

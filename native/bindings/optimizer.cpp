@@ -7,6 +7,7 @@
 #include "native/bindings/bind.h"
 #include "native/bindings/line_directions.h"
 #include "native/bindings/names.h"
+#include "native/bindings/turn.h"
 #include "native/errors.h"
 #include "native/optimization/progress.h"
 #include "native/shape_optimizer.h"
@@ -57,7 +58,7 @@ std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Triangles& F, con
   options.proximity = proximity;
   options.progress = std::move(progress);
   const std::vector<Vector3> lines = directions(line_direction);
-  const py::gil_scoped_release release;
+  const ReleaseGil release;
   return std::make_unique<ShapeOptimizer>(V, F, view_direction, lines, options);
 }
 
@@ -68,7 +69,7 @@ Report solve(ShapeOptimizer& optimizer, const Targets& targets, const std::strin
   options.gradient_tolerance = gradient_tolerance;
   options.max_iterations = max_iterations;
   const std::vector<Target> list = listed(targets);
-  const py::gil_scoped_release release;
+  const ReleaseGil release;
   return optimizer.solve(list, options, progress.get());
 }
 
@@ -90,7 +91,7 @@ void bind_optimizer(py::module_& module) {
   const MinimizerOptions minimizer;
   const ShapeOptions shape;
   using Shape = ShapeOptimizer;
-  using Release = py::call_guard<py::gil_scoped_release>;
+  using Release = py::call_guard<ReleaseGil>;
   py::class_<ShapeOptimizer>(module, "ShapeOptimizer", py::module_local())
       .def(py::init(&make), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
            py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),

@@ -30,6 +30,20 @@ class Progress:
     def __init__(self) -> None: ...
     def cancel(self) -> None: ...
 
+class Turn:
+    """Whose turn it is to run Python: its owner's thread or one worker's. In between the worker is in native code, where
+    every call of a worker ends with waiting for its turn, or rests."""
+    wanted: bool  # read only: the worker waits for its turn
+    def __init__(self) -> None: ...
+    def lend(self, seconds: float) -> None:
+        """Owner: waits while the worker runs Python, until it rests, or is in native code when the seconds are over."""
+    def give_away(self) -> None:
+        """Owner: from now on the worker runs Python whenever it wants; then its thread can be joined."""
+    def take(self) -> None:
+        """Worker: its first call. Waits for its turn."""
+    def rest(self) -> None:
+        """Worker: nothing to do; waits for its next turn."""
+
 class Region:
     """What became of the faces and vertices that were handed in. Counts; `messages` are sentences for the user."""
     triangles: int

@@ -9,6 +9,7 @@
 
 #include "native/bindings/bind.h"
 #include "native/bindings/cage_arrays.h"
+#include "native/bindings/turn.h"
 #include "native/errors.h"
 
 namespace reflines {
@@ -31,7 +32,7 @@ std::unique_ptr<SubdividedCage> make(const Indices& face_offsets, const Indices&
   const Cage cage =
       cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness}, vertices);
   const SubdivisionOptions options = subdivision_options(level, scheme, boundary, limit);
-  const py::gil_scoped_release release;
+  const ReleaseGil release;
   return std::make_unique<SubdividedCage>(SubdividedCage{vertices, subdivide(cage, options)});
 }
 

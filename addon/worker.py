@@ -1,0 +1,139 @@
+"""A thread that does the latest thing it was asked for: native work beside Blender, Python only in turns.
+
+Blender breaks where a second thread runs Python while it does not wait for it (see native/bindings/turn.h). So the
+thread gets its turns from Blender's own thread: in `submit`, and in `take`, which is for timers to call.
+"""
+import atexit
+import gc
+import threading
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from typing import Generic, TypeVar
+
+import bpy
+
+from . import native
+
+PATIENCE = 0.004  # seconds Blender waits for native work at most; what takes longer is looked for at the next tick
+LOOK = 0.02       # seconds between looks at threads that are to end
+
+Request = TypeVar("Request")
+Outcome = TypeVar("Outcome")
+
+
+class Worker(Generic[Request, Outcome]):
+    """Requests that were overtaken are never begun; of the outcomes only the latest is kept for the one who asks.
+
+    All is called from Blender's thread. What the work gets and makes is touched by one thread at a time."""
+
+    def __init__(self, work: Callable[[Request], Outcome]) -> None:
+        self._work = work
+        self._request: Request | None = None
+        self._outcome: Outcome | None = None
+        self._busy = self._failed = self._stopped = self._ended = False
+        self._turn = native.reflines.Turn()
+        # No thread that Python itself waits for at the end, before anything could end it: see `end_all`.
+        self._thread = threading.Thread(target=self._run, name="reflection lines", daemon=True)
+        self._thread.start()
+        self._lend()
+        _workers.append(self)
+
+    def submit(self, request: Request) -> None:
+        self._request = request
+        if not self._busy or self._turn.wanted:
+            self._lend()
+
+    def take(self) -> Outcome | None:
+        if self._turn.wanted:
+            self._lend()
+        outcome, self._outcome = self._outcome, None
+        return outcome
+
+    def idle(self) -> bool:
+        return self._request is None and not self._busy
+
+    def alive(self) -> bool:
+        """False after an error in the work, which Python prints when the thread ends."""
+        return not self._failed
+
+    def stop(self) -> None:
+        """The thread ends after what it is doing now. Work in native code that takes long has to be cancelled."""
+        self._stopped, self._request = True, None
+        if reap() and not bpy.app.timers.is_registered(reap):
+            bpy.app.timers.register(reap, first_interval=LOOK, persistent=True)
+
+    def is_stopped(self) -> bool:
+        return self._stopped
+
+    def has_ended(self) -> bool:
+        """Ends a stopped thread that has done its work."""
+        if self._stopped and self._turn.wanted:
+            self._lend()
+        if self._stopped and self.idle():
+            self.end()
+        return self._ended
+
+    def end(self) -> None:
+        """Waits for the thread."""
+        self._stopped = self._ended = True
+        with without_collection():
+            self._turn.give_away()
+            self._thread.join()
+
+    def _lend(self) -> None:
+        with without_collection():
+            self._turn.lend(PATIENCE)
+
+    def _run(self) -> None:
+        self._turn.take()
+        try:
+            while not self._ended:
+                if self._request is None:
+                    self._turn.rest()
+                else:
+                    self._do()
+        finally:
+            self._busy, self._failed = False, not self._ended
+            if self._failed:
+                self._turn.rest()  # the thread ends in a turn, too
+
+    def _do(self) -> None:
+        request, self._request, self._busy = self._request, None, True
+        self._outcome = self._work(request)
+        self._busy = False
+
+
+@contextmanager
+def without_collection() -> Generator[None, None, None]:
+    """What Python collects may be Blender's, such as a batch on the GPU: no other thread may end it."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
+_workers: list[Worker] = []
+
+
+def reap() -> float | None:
+    """A timer: whether there are stopped threads that are still in native code."""
+    _workers[:] = [worker for worker in _workers if not worker.has_ended()]
+    return LOOK if any(worker.is_stopped() for worker in _workers) else None
+
+
+def end_all() -> None:
+    """When Python ends, or the add-on."""
+    while _workers:
+        _workers.pop().end()
+
+
+def register() -> None:
+    atexit.register(end_all)
+
+
+def unregister() -> None:
+    atexit.unregister(end_all)
+    end_all()

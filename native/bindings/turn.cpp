@@ -1,0 +1,94 @@
+#include "native/bindings/turn.h"
+
+#include "native/bindings/bind.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+thread_local Turn* own_turn = nullptr;  // of a worker thread
+
+}  // namespace
+
+void Turn::lend(double seconds) {
+  const py::gil_scoped_release release;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (worker_ == Worker::kResting) worker_ = Worker::kWaiting;
+  lent_ = true;
+  changed_.notify_all();
+  while (worker_ != Worker::kResting) {
+    if (runs_python()) {
+      changed_.wait(lock);
+    } else if (changed_.wait_until(lock, end) == std::cv_status::timeout && !runs_python()) {
+      break;
+    }
+  }
+  lent_ = false;
+}
+
+bool Turn::wanted() const {
+  const std::scoped_lock lock(mutex_);
+  return worker_ == Worker::kWaiting;
+}
+
+void Turn::give_away() {
+  const std::scoped_lock lock(mutex_);
+  given_away_ = true;
+  if (worker_ == Worker::kResting) worker_ = Worker::kWaiting;
+  changed_.notify_all();
+}
+
+void Turn::take() {
+  own_turn = this;
+  const py::gil_scoped_release release;
+  enter();
+}
+
+void Turn::rest() {
+  const py::gil_scoped_release release;
+  std::unique_lock<std::mutex> lock(mutex_);
+  worker_ = given_away_ ? Worker::kWaiting : Worker::kResting;
+  changed_.notify_all();
+  wait_for_turn(lock);
+}
+
+void Turn::leave(Worker to) {
+  const std::scoped_lock lock(mutex_);
+  worker_ = to;
+  changed_.notify_all();
+}
+
+void Turn::enter() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  worker_ = Worker::kWaiting;
+  changed_.notify_all();
+  wait_for_turn(lock);
+}
+
+void Turn::wait_for_turn(std::unique_lock<std::mutex>& lock) {
+  changed_.wait(lock, [this] { return (lent_ || given_away_) && worker_ == Worker::kWaiting; });
+  worker_ = Worker::kPython;
+}
+
+ReleaseGil::ReleaseGil() : state_(PyEval_SaveThread()) {
+  if (own_turn != nullptr) own_turn->leave(Turn::Worker::kNative);
+}
+
+ReleaseGil::~ReleaseGil() {
+  if (own_turn != nullptr) own_turn->enter();
+  PyEval_RestoreThread(state_);
+}
+
+void bind_turn(py::module_& module) {
+  py::class_<Turn>(module, "Turn", py::module_local())
+      .def(py::init<>())
+      .def("lend", &Turn::lend, py::arg("seconds"))
+      .def_property_readonly("wanted", &Turn::wanted)
+      .def("give_away", &Turn::give_away)
+      .def("take", &Turn::take)
+      .def("rest", &Turn::rest);
+}
+
+}  // namespace reflines
