@@ -1,4 +1,6 @@
 """From solved positions back into the mesh: only vertices that moved are written."""
+from itertools import compress
+
 import bmesh
 import bpy
 import numpy as np
@@ -8,6 +10,22 @@ from .gather import Panel
 
 SAMPLE = 64  # positions that are compared to know a mesh again
 FEW = 0.03  # share of the vertices below which their normals are brought up to date faster one by one than all together
+
+
+class EditVertices:
+    """A panel's vertices in Edit Mode, kept for a drag: to look them up takes as long as to write them."""
+
+    def __init__(self, index: np.ndarray) -> None:
+        self.index = index
+        self.edit: bmesh.types.BMesh | None = None
+        self.vertices: list[bmesh.types.BMVert] = []
+
+    def of(self, edit: bmesh.types.BMesh) -> list[bmesh.types.BMVert]:
+        if self.edit is not edit or not self.edit.is_valid:
+            edit.verts.ensure_lookup_table()
+            vertices = edit.verts
+            self.edit, self.vertices = edit, [vertices[i] for i in self.index.tolist()]
+        return self.vertices
 
 
 def apply(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> None:
@@ -43,12 +61,13 @@ def local(panel: Panel, positions: np.ndarray) -> np.ndarray:
     return new if panel.mirror is None else mirror.settled(panel.mirror, new, panel.local)
 
 
-def show(ob: bpy.types.Object, panel: Panel, new: np.ndarray, old: np.ndarray) -> None:
+def show(ob: bpy.types.Object, panel: Panel, new: np.ndarray, old: np.ndarray,
+         kept: EditVertices | None = None) -> None:
     """Writes object-space positions (#V x 3 float32) over those that the mesh has now."""
     moved = (new != old).any(axis=1)
     if moved.any():
         if ob.mode == 'EDIT':
-            write_edit_mesh(ob.data, panel.index[moved], new[moved])
+            write_edit_mesh(ob.data, kept or EditVertices(panel.index), moved, new[moved])
         else:
             write_shape(ob, panel.key, panel.index[moved], new[moved])
 
@@ -98,16 +117,14 @@ def write_shape(ob: bpy.types.Object, key: str, index: np.ndarray, new: np.ndarr
     mesh.update()
 
 
-def write_edit_mesh(mesh: bpy.types.Mesh, index: np.ndarray, new: np.ndarray) -> None:
+def write_edit_mesh(mesh: bpy.types.Mesh, vertices: EditVertices, moved: np.ndarray, new: np.ndarray) -> None:
+    """`moved`: of the vertices, bool; `new` has a row for each that did."""
     edit = bmesh.from_edit_mesh(mesh)
-    edit.verts.ensure_lookup_table()
-    vertices = edit.verts
-    moved = [vertices[i] for i in index.tolist()]
     columns = new.T.tolist()  # a list for each vertex would take three times longer, in Python's search for garbage
-    for vertex, co in zip(moved, zip(*columns, strict=True), strict=True):
+    for vertex, co in zip(compress(vertices.of(edit), moved.tolist()), zip(*columns, strict=True), strict=True):
         vertex.co = co
-    if len(moved) < FEW * len(vertices):
-        update_normals(moved)
+    if len(new) < FEW * len(edit.verts):
+        update_normals(list(compress(vertices.of(edit), moved.tolist())))
     else:
         edit.normal_update()
     bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)

@@ -41,6 +41,7 @@ class Drag:
         self.panels, self.counts = [tool.panel_of(ob) for ob in subjects], [apply.counts(ob) for ob in subjects]
         views = [session.view_of(scene, panel.center) for panel in self.panels]
         self.shown = [apply.start(panel) for panel in self.panels]
+        self.vertices = [apply.EditVertices(panel.index) for panel in self.panels]
         self.motion = self.motion_of(scene)
         self.frame = solving.frame_of(self.panels[0], views[0])
         self.request(context)  # refuses before anything is begun
@@ -93,8 +94,9 @@ class Drag:
         self.write(new)
 
     def write(self, new: list[np.ndarray]) -> None:
-        for ob, panel, to, now in zip(self.objects(), self.panels, new, self.shown, strict=True):
-            apply.show(ob, panel, to, now)
+        every = zip(self.objects(), self.panels, new, self.shown, self.vertices, strict=True)
+        for ob, panel, to, now, vertices in every:
+            apply.show(ob, panel, to, now, vertices)
         self.shown = new
 
     def land(self, solutions: tuple[solving.Solution, ...]) -> None:
