@@ -11,7 +11,7 @@ from .solving import Last
 def save(*_: object) -> None:
     for ob in bpy.data.objects:
         stored, last = ob.reflection_lines, session.last_solution(ob.name)
-        if last is None and not stored.last:
+        if ob.type != 'MESH' or last is None and not stored.last:
             continue
         if ob.mode == 'EDIT':
             ob.update_from_editmode()

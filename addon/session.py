@@ -17,6 +17,7 @@ from .bridge.view import View
 _live: dict[str, solving.Live] = {}
 _solutions: dict[str, solving.Last] = {}  # of each object
 live_warps: dict[str, object] = {}    # the live/follower of each scene with a live warp
+drags: list[object] = []              # the drag/modal.Drag that runs, if one does
 
 
 def obstacle(scene: bpy.types.Scene) -> str:
@@ -103,6 +104,8 @@ def register() -> None:
 
 def unregister() -> None:
     bpy.app.handlers.load_pre.remove(forget)
+    for drag in list(drags):  # Blender drops the operator without a word
+        drag.give_up(bpy.context)
     forget()
     del bpy.types.WindowManager.reflection_lines
     bpy.utils.unregister_class(ReflinesSession)

@@ -57,6 +57,8 @@ class Tool:
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
+        for solution in solutions:  # a result in a shape key ends Edit Mode, for all
+            apply.keep_region(bpy.data.objects[solution.panel.name], solution.panel)
         for solution in solutions:
             ob = bpy.data.objects[solution.panel.name]
             apply.apply(ob, solution.panel, solution.positions)

@@ -1,7 +1,8 @@
 """A thread that does the latest thing it was asked for: native work beside Blender, Python only in turns.
 
 Blender breaks where a second thread runs Python while it does not wait for it (see native/bindings/turn.h). So the
-thread gets its turns from Blender's own thread: in `submit`, and in `take`, which is for timers to call.
+thread gets its turns from Blender's own thread: in `submit`, and in `take`, which is for timers to call; a stopped one
+from a timer of its own.
 """
 import atexit
 import gc
@@ -26,8 +27,9 @@ class Worker(Generic[Request, Outcome]):
 
     All is called from Blender's thread. What the work gets and makes is touched by one thread at a time."""
 
-    def __init__(self, work: Callable[[Request], Outcome]) -> None:
-        self._work = work
+    def __init__(self, work: Callable[[Request], Outcome], cancel: Callable[[], None] = lambda: None) -> None:
+        """`cancel` makes native work that takes long give up."""
+        self._work, self._cancel = work, cancel
         self._request: Request | None = None
         self._outcome: Outcome | None = None
         self._busy = self._failed = self._stopped = self._ended = False
@@ -39,6 +41,9 @@ class Worker(Generic[Request, Outcome]):
         _workers.append(self)
 
     def submit(self, request: Request) -> None:
+        """Nothing is begun after an error or the end."""
+        if self._failed or self._ended:
+            return
         self._request = request
         if not self._busy or self._turn.wanted:
             self._lend()
@@ -49,16 +54,21 @@ class Worker(Generic[Request, Outcome]):
         outcome, self._outcome = self._outcome, None
         return outcome
 
+    def has_outcome(self) -> bool:
+        """For `take`."""
+        return self._outcome is not None
+
     def idle(self) -> bool:
         return self._request is None and not self._busy
 
     def alive(self) -> bool:
-        """False after an error in the work, which Python prints when the thread ends."""
+        """False after an error in the work, which Python has then printed."""
         return not self._failed
 
     def stop(self) -> None:
-        """The thread ends after what it is doing now. Work in native code that takes long has to be cancelled."""
+        """The thread ends as soon as the work that it is doing now gives up."""
         self._stopped, self._request = True, None
+        self._cancel()
         if reap() and not bpy.app.timers.is_registered(reap):
             bpy.app.timers.register(reap, first_interval=LOOK, persistent=True)
 
@@ -67,15 +77,16 @@ class Worker(Generic[Request, Outcome]):
 
     def has_ended(self) -> bool:
         """Ends a stopped thread that has done its work."""
-        if self._stopped and self._turn.wanted:
+        if self._stopped and not self._ended and self._turn.wanted:
             self._lend()
-        if self._stopped and self.idle():
+        if self._stopped and not self._ended and self.idle():
             self.end()
         return self._ended
 
     def end(self) -> None:
         """Waits for the thread."""
         self._stopped = self._ended = True
+        self._cancel()
         with without_collection():
             self._turn.give_away()
             self._thread.join()
@@ -83,6 +94,8 @@ class Worker(Generic[Request, Outcome]):
     def _lend(self) -> None:
         with without_collection():
             self._turn.lend(PATIENCE)
+        if self._failed and not self._ended:
+            self.end()
 
     def _run(self) -> None:
         self._turn.take()
@@ -95,7 +108,7 @@ class Worker(Generic[Request, Outcome]):
         finally:
             self._busy, self._failed = False, not self._ended
             if self._failed:
-                self._turn.rest()  # the thread ends in a turn, too
+                self._turn.rest()  # it has to end in `end`: who lends a turn waits for the next rest
 
     def _do(self) -> None:
         request, self._request, self._busy = self._request, None, True

@@ -32,6 +32,7 @@ Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
 void accumulate(const Report& piece, Report& sum) {
   sum.unknowns += piece.unknowns;
   sum.iterations = std::max(sum.iterations, piece.iterations);
+  sum.coarse_iterations = std::max(sum.coarse_iterations, piece.coarse_iterations);
   sum.evaluations += piece.evaluations;
   sum.assemblies += piece.assemblies;
   sum.analyses += piece.analyses;

@@ -35,7 +35,6 @@ def apply(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> None:
     """
     if panel.key and not keys.is_edited(ob):
         if ob.mode == 'EDIT':
-            keep_region(ob, panel)
             bpy.ops.object.mode_set(mode='OBJECT')
         keys.open_key(ob)
     show(ob, panel, local(panel, positions), start(panel) if ob.mode == 'EDIT' else now(ob, panel))

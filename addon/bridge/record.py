@@ -5,6 +5,7 @@ Where it left the vertices is not part of it: that is what the mesh shows, or el
 import base64
 import io
 import zipfile
+import zlib
 
 import bpy
 import numpy as np
@@ -26,10 +27,10 @@ def read(ob: bpy.types.Object, text: str) -> tuple[Panel, np.ndarray, np.ndarray
     """Panel, where its vertices are now (#V x 3, world space), and residual; None where it is of another mesh."""
     try:
         stored = dict(np.load(io.BytesIO(base64.b64decode(text))))
-    except (ValueError, zipfile.BadZipFile):  # somebody else's text
+        index, local = stored["index"], stored["local"].astype(np.float64)
+        matrix, key = stored["matrix"], str(stored["key"])
+    except (ValueError, KeyError, EOFError, zlib.error, zipfile.BadZipFile):  # somebody else's text
         return None
-    index, local = stored["index"], stored["local"].astype(np.float64)
-    matrix, key = stored["matrix"], str(stored["key"])
     if len(stored["faces"]) != len(ob.data.polygons) or index.max() >= len(ob.data.vertices):
         return None
     V = local @ matrix[:3, :3].T + matrix[:3, 3]

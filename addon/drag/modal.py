@@ -47,10 +47,11 @@ class Drag:
         self.request(context)  # refuses before anything is begun
         self.pursuit = Pursuit(self.panels, views, tool.border)
         self.circle = circle.add(lambda: self.reach)
-        self.worker = Worker(self.pursuit.run)
+        self.worker = Worker(self.pursuit.run, self.pursuit.end)
         self.worker.submit(self.wanted)
         self.keeping, self.busy_since, self.problem, self.said = False, time.monotonic(), "", ("", "")
         self.timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        session.drags.append(self)
 
     def motion_of(self, scene: bpy.types.Scene) -> Motion:
         handles = self.tool.handles()
@@ -105,6 +106,8 @@ class Drag:
             return
         self.restore()
         for ob, solution in zip(self.objects(), solutions, strict=True):
+            apply.keep_region(ob, solution.panel)
+        for ob, solution in zip(self.objects(), solutions, strict=True):
             apply.apply(ob, solution.panel, solution.positions)
         self.shown = [apply.local(solution.panel, solution.positions) for solution in solutions]
 
@@ -132,14 +135,20 @@ class Drag:
 
     def end(self, context: bpy.types.Context) -> None:
         """Leaves the window as it was. The thread ends after what it is doing now."""
+        session.drags.remove(self)
         context.window_manager.event_timer_remove(self.timer)
         if self.worker.idle():
             self.pursuit.give_back()
-        self.pursuit.end()
         self.worker.stop()
         circle.remove(self.circle)
         self.area.header_text_set(None)
         context.workspace.status_text_set(None)
+
+    def give_up(self, context: bpy.types.Context) -> None:
+        """From outside: Blender ends, opens another file or disables the add-on."""
+        with suppress(Refusal):  # the mesh is gone, or no longer as the drag left it
+            self.restore()
+        self.end(context)
 
 
 def typed_unit(handle: Handle, scene: bpy.types.Scene) -> float:
@@ -206,7 +215,7 @@ class DraggedTool(Tool):
         try:
             return self.tick(context) if event.type == 'TIMER' else self.pressed(context, event)
         except Refusal as refusal:
-            self.drag.end(context)
+            self.end(context)
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
 
@@ -277,18 +286,22 @@ class DraggedTool(Tool):
         self.drag.land(outcome.solutions)
         for ob, solution in zip(self.drag.objects(), outcome.solutions, strict=True):
             self.keep(ob, solution)
-        self.drag.end(context)
+        self.end(context)
         return {'FINISHED'}
 
     def leave(self, context: bpy.types.Context, why: str = "") -> set[str]:
         self.drag.restore()
-        self.drag.end(context)
+        self.end(context)
         if why:
             self.report({'ERROR'}, why)
         return {'CANCELLED'}
 
+    def end(self, context: bpy.types.Context) -> None:
+        """Blender keeps the operator for its redo panel; the drag holds factors of large matrices."""
+        drag, self.drag = self.drag, None
+        drag.end(context)
+
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender ends, or opens another file."""
-        with suppress(Refusal):  # it is gone, or no longer as the drag left it
-            self.drag.restore()
-        self.drag.end(context)
+        drag, self.drag = self.drag, None
+        drag.give_up(context)

@@ -53,7 +53,8 @@ class Follower:
 
     def stands(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> bool:
         """Whether the thread works on the panel as it is now."""
-        return not self.stale and self.ground.signs == about.signs(scene, ob, self.ground.panel.center)
+        return (not self.stale and self.worker.alive()
+                and self.ground.signs == about.signs(scene, ob, self.ground.panel.center))
 
     def begin(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> None:
         """Puts the thread to work on the panel as it is now; later where it is still busy with another."""
@@ -63,16 +64,18 @@ class Follower:
             self.again = True
             return
         ground, self.wish = about.ground(scene, ob), None
-        if self.ground is None or not ground.serves(self.ground):
+        if self.ground is None or not self.worker.alive() or not ground.serves(self.ground):
             self.stop()
             self.pursuit = Pursuit([ground.panel], [ground.view], ground.border)
-            self.worker = Worker(self.pursuit.run)
+            self.worker = Worker(self.pursuit.run, self.pursuit.end)
         self.ground, self.stale = ground, False
 
     def ask(self, scene: bpy.types.Scene, *, final: bool) -> None:
         self.asked_at = time.monotonic()
         if not self.is_busy():
             self.busy_since = self.asked_at
+        elif self.asked.final:
+            self.pursuit.progress.cancel()  # it takes long, and nobody wants it any more
         self.solution, self.followed = None, False
         self.asked = Request((about.build(self.wish),), about.solve_settings(scene), final)
         self.worker.submit(self.asked)
@@ -90,7 +93,7 @@ class Follower:
             self.look(scene)
         if self.followed and time.monotonic() - self.asked_at > REST:
             self.ask(scene, final=True)
-        return self.again or self.followed or self.is_busy()
+        return self.again or self.followed or self.is_busy() or self.worker.has_outcome()
 
     def is_busy(self) -> bool:
         return self.worker is not None and self.worker.alive() and not self.worker.idle()
@@ -131,7 +134,6 @@ class Follower:
             return
         if self.worker.idle():
             self.pursuit.give_back()
-        self.pursuit.end()
         self.worker.stop()
         self.worker = self.pursuit = self.ground = self.asked = None
         self.followed = False

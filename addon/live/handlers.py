@@ -46,8 +46,9 @@ def end(scene: bpy.types.Scene) -> None:
 
 def tick() -> float | None:
     """A timer as long as a thread is at work."""
-    more = [advance(bpy.data.scenes[name], follower) for name, follower in list(session.live_warps.items())
-            if name in bpy.data.scenes]
+    for name in session.live_warps.keys() - bpy.data.scenes.keys():
+        session.live_warps.pop(name).stop()
+    more = [advance(bpy.data.scenes[name], follower) for name, follower in list(session.live_warps.items())]
     return TICK if any(more) else None
 
 

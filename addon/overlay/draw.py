@@ -10,7 +10,7 @@ from ..bridge import environment, shown_cage, surface
 from . import last_solve, limit, seen, shader, stripes
 from .normals import Fits
 
-POLL = 0.05  # seconds between two looks at the fits in threads
+POLL = 0.05  # seconds between two looks at the fit in a thread
 NOTHING = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32), np.zeros((0, 3)))
 BEFORE = "before "  # the fit of an object's shape before its last solve goes by this and its name
 

@@ -40,20 +40,25 @@ class Fits:
         self.wanted: dict[str, tuple[np.ndarray, np.ndarray]] = {}  # surfaces that are to be fitted, soon
         self.started: dict[str, float] = {}
         self.job: Job | None = None
+        self.obsolete = False  # the job
         self.worker: Worker[Job, Fit] | None = None
 
     def normals(self, name: str, V: np.ndarray, F: np.ndarray) -> np.ndarray:
         """#V x 3, the best there are now; `finished` tells when better ones have come."""
         old = self.done.get(name)
         alike = old is not None and len(old.V) == len(V) and np.array_equal(old.F, F)
-        if alike and np.array_equal(old.V, V):
+        if alike and np.array_equal(old.V, V):  # also after a way there and back: what was begun on it is not wanted
+            self.wanted.pop(name, None)
+            self.obsolete |= self.is_at(name)
             return old.normals
         if not native.STATE.usable:
             return stripes.area_normals(V, F)
         if len(V) <= AT_ONCE and not self.is_at(name):
             self.done[name] = fitted(V, F, old if alike else None)
             return self.done[name].normals
-        if not (self.is_at(name) and np.array_equal(self.job.V, V)):
+        if self.is_at(name) and np.array_equal(self.job.V, V):
+            self.obsolete = False
+        else:
             self.wanted[name] = V, F
             self.advance()
         follows = alike and old.native_fit is not None
@@ -72,25 +77,31 @@ class Fits:
                 return
 
     def start(self, job: Job) -> None:
-        self.started[job.name], self.job = time.monotonic(), job
+        self.started[job.name], self.job, self.obsolete = time.monotonic(), job, False
         del self.wanted[job.name]
         self.worker = self.worker or Worker(lambda job: fitted(job.V, job.F, job.old))
         self.worker.submit(job)
 
     def finished(self) -> str | None:
         """The name whose job has ended since this was last asked."""
-        fit = self.worker.take() if self.job is not None else None
+        if self.job is None:
+            return None
+        job, fit = self.job, self.worker.take()
+        if not self.worker.alive():
+            fit, self.worker = rough(job.V, job.F), None
         if fit is None:
             return None
-        name, self.job = self.job.name, None
-        self.done[name] = fit
-        return name
+        self.job = None
+        if self.obsolete:
+            return None
+        self.done[job.name] = fit
+        return job.name
 
     def is_waiting(self) -> bool:
         return bool(self.job or self.wanted)
 
     def forget(self) -> None:
-        """A thread that still runs ends by itself; nobody asks for what it brings."""
+        """Nobody asks for what a thread that still runs brings."""
         if self.worker is not None:
             self.worker.stop()
         self.job = self.worker = None
@@ -99,11 +110,15 @@ class Fits:
 
 
 def fitted(V: np.ndarray, F: np.ndarray, old: Fit | None) -> Fit:
-    """In any thread: knows nothing of Blender. A mesh too broken to be fitted is still to be seen."""
+    """In a thread, too: knows nothing of Blender. A mesh too broken to be fitted is still to be seen."""
     try:
         kept = old.native_fit if old is not None else None
         # A copy, since the kept one goes on following in the meantime.
         native_fit = kept.copy() if kept else native.reflines.NormalFit(V, F, refit_angle=REFIT_ANGLE)
         return Fit(V, F, native_fit.normals(V), native_fit)
     except (native.InvalidInput, native.SolverFailure):
-        return Fit(V, F, stripes.area_normals(V, F), None)
+        return rough(V, F)
+
+
+def rough(V: np.ndarray, F: np.ndarray) -> Fit:
+    return Fit(V, F, stripes.area_normals(V, F), None)

@@ -13,15 +13,18 @@ thread_local Turn* own_turn = nullptr;  // of a worker thread
 
 void Turn::lend(double seconds) {
   const py::gil_scoped_release release;
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   std::unique_lock<std::mutex> lock(mutex_);
+  end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   if (worker_ == Worker::kResting) worker_ = Worker::kWaiting;
   lent_ = true;
+  entered_ = false;
   changed_.notify_all();
   while (worker_ != Worker::kResting) {
-    if (runs_python()) {
+    if (worker_ == Worker::kPython || (worker_ == Worker::kWaiting && !entered_)) {
       changed_.wait(lock);
-    } else if (changed_.wait_until(lock, end) == std::cv_status::timeout && !runs_python()) {
+    } else if (Clock::now() < end_) {
+      changed_.wait_until(lock, end_);
+    } else {
       break;
     }
   }
@@ -68,8 +71,10 @@ void Turn::enter() {
 }
 
 void Turn::wait_for_turn(std::unique_lock<std::mutex>& lock) {
-  changed_.wait(lock, [this] { return (lent_ || given_away_) && worker_ == Worker::kWaiting; });
+  changed_.wait(lock, [this] { return worker_ == Worker::kWaiting && may_enter(); });
   worker_ = Worker::kPython;
+  entered_ = true;
+  changed_.notify_all();
 }
 
 ReleaseGil::ReleaseGil() : state_(PyEval_SaveThread()) {

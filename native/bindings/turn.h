@@ -15,10 +15,10 @@
 
 namespace reflines {
 
-// Of one worker thread. All but `wanted` wait, and are called with Python's lock held; they let go of it meanwhile.
+// Of one worker thread. `lend`, `take` and `rest` wait; they are called with Python's lock and let go of it meanwhile.
 class Turn {
  public:
-  // The owner: the worker may run Python until it rests, or until it is in native code when `seconds` are over.
+  // The owner: the worker may run Python until it rests, or until it comes to native code when `seconds` are over.
   void lend(double seconds);
   // The owner: whether the worker waits for its turn, native code being done.
   bool wanted() const;
@@ -33,16 +33,19 @@ class Turn {
  private:
   friend class ReleaseGil;
   enum class Worker { kResting, kNative, kWaiting, kPython };
+  using Clock = std::chrono::steady_clock;
 
   void leave(Worker to);
   void enter();
   void wait_for_turn(std::unique_lock<std::mutex>& lock);
-  bool runs_python() const { return worker_ == Worker::kWaiting || worker_ == Worker::kPython; }
+  bool may_enter() const { return given_away_ || (lent_ && (!entered_ || Clock::now() < end_)); }
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Worker worker_ = Worker::kWaiting;
   bool lent_ = false;
+  bool entered_ = false;   // since it was lent
+  Clock::time_point end_;  // of what is lent
   bool given_away_ = false;
 };
 

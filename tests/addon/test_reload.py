@@ -70,6 +70,14 @@ def test_resolve_begins_with_the_shape_before_the_run(panel, tmp_path) -> None:
     assert np.array_equal(resolved(bpy.data.objects["Panel"]), expected)
 
 
+def test_another_object_may_have_got_the_name_of_a_solved_one(panel, tmp_path) -> None:
+    scenes.object_mode()
+    panel.name = "Door"
+    bpy.context.collection.objects.link(bpy.data.objects.new("Panel", None))
+    again = reloaded(tmp_path)
+    assert again.type == 'EMPTY' and again.reflection_lines.last == ""
+
+
 def test_a_mesh_changed_since_has_no_last_solve(panel, tmp_path) -> None:
     scenes.object_mode()
     points = panel.data.vertices if panel.data.shape_keys is None else panel.active_shape_key.data

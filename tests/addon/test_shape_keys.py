@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import scenes
+from reflection_lines.bridge import region
 
 KEY = "Reflection Lines"
 
@@ -106,6 +107,18 @@ def test_tools_add_up_in_the_key(panel) -> None:
     scenes.smooth(length=0.8)
     scenes.object_mode()
     assert np.array_equal(shape(panel, KEY), scenes.positions(ob))
+
+
+def test_of_several_panels_each_keeps_its_region(panel) -> None:
+    scenes.object_mode()
+    other = scenes.panel("Other")
+    panel.select_set(True)
+    scenes.edit(panel, other)
+    for ob in (panel, other):
+        scenes.select_faces(ob, scenes.inner())
+    into_key()
+    for ob in (panel, other):
+        assert region.stored(ob.data).tolist() == [scenes.inner()(face) for face in range(256)]
 
 
 def test_the_key_is_edited_in_place(panel) -> None:

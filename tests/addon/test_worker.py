@@ -18,8 +18,8 @@ OPERATORS = 500  # with a context of a script's: a thread that ran Python at any
 def made() -> Generator[Callable[..., object], None, None]:
     workers = []
 
-    def make(work: Callable[[object], object]) -> object:
-        workers.append(worker_module.Worker(work))
+    def make(*how: Callable) -> object:
+        workers.append(worker_module.Worker(*how))
         return workers[-1]
 
     yield make
@@ -84,20 +84,25 @@ def test_overtaken_requests_are_never_begun(made):
     assert begun == [0, 4] and worker.idle()
 
 
-def test_an_error_ends_the_work_and_is_told(made, capfd):
+def test_an_error_ends_the_work_and_is_told(made, monkeypatch):
+    told = []
+    monkeypatch.setattr(threading, "excepthook", lambda error: told.append(error.exc_type))
+
     def work(_: object) -> None:
         raise ZeroDivisionError
 
     worker = made(work)
     worker.submit("go")
     assert not worker.alive() and worker.take() is None
-    worker.stop()
-    assert "ZeroDivisionError" in capfd.readouterr().err
+    assert told == [ZeroDivisionError]
+    worker.submit("again")
+    assert worker.idle()
 
 
-def test_a_stopped_thread_ends(made):
-    worker = made(lambda request: request)
+def test_a_stopped_thread_gives_up_and_ends(made):
+    said = []
+    worker = made(lambda request: request, lambda: said.append("give up"))
     worker.submit("go")
     threads = threading.active_count()
     worker.stop()
-    assert threading.active_count() == threads - 1
+    assert said and threading.active_count() == threads - 1

@@ -65,6 +65,16 @@ def settled(driver: window.Window) -> Steps:
     raise AssertionError("the mesh does not come to rest")
 
 
+def undone_and_redone(driver: window.Window, before: np.ndarray, after: np.ndarray) -> Steps:
+    """One undo gives the mesh from before, one redo that from after, to the last bit."""
+    driver.key('Z', ctrl=True)
+    yield 0.5
+    assert np.array_equal(shown(driver), before)
+    driver.key('Z', ctrl=True, shift=True)
+    yield 0.5
+    assert np.array_equal(shown(driver), after)
+
+
 def ended(driver: window.Window) -> Steps:
     """Waits until the operator has ended: then the status bar's text is gone and the report is there."""
     for _ in range(int(PATIENCE / 0.1)):

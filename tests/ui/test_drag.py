@@ -11,8 +11,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import window  # noqa: E402  (found through the line above)
 
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from dragging import adjust, ended, executed, panel, press, settled, shown  # noqa: E402
+import installation  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+import scenes  # noqa: E402
+from dragging import adjust, ended, executed, panel, press, settled, shown, undone_and_redone  # noqa: E402
 
 Steps = Generator[float, None, None]
 
@@ -73,12 +74,7 @@ def test_one_undo_takes_a_drag_back_and_redo_brings_it(driver: window.Window) ->
     yield from ended(driver)
     after = shown(driver)
     assert not np.array_equal(after, before)
-    driver.key('Z', ctrl=True)
-    yield 0.5
-    assert np.array_equal(shown(driver), before)
-    driver.key('Z', ctrl=True, shift=True)
-    yield 0.5
-    assert np.array_equal(shown(driver), after)
+    yield from undone_and_redone(driver, before, after)
 
 
 def test_the_redo_panel_starts_from_the_mesh_before_the_drag(driver: window.Window) -> Steps:
@@ -169,9 +165,28 @@ def test_the_panel_moves_no_more_than_the_mouse_asks(driver: window.Window) -> S
     yield 0.3
 
 
+def test_disabling_the_add_on_takes_a_drag_back(driver: window.Window) -> Steps:
+    ob = panel(driver)
+    before = scenes.fingerprint(ob)
+    yield from press(driver)
+    assert scenes.fingerprint(ob) != before
+    with driver.override():
+        bpy.ops.preferences.addon_disable(module=installation.NAME)
+    yield 0.3
+    assert scenes.fingerprint(ob) == before
+    driver.move(200, 300)  # no handler of the drag is left
+    driver.key('RET')
+    yield 0.3
+    assert scenes.fingerprint(ob) == before
+    with driver.override():
+        installation.install()
+    yield 0.3
+
+
 window.run(test_a_drag_follows_and_escape_leaves_no_bit_changed,
            test_what_is_kept_is_what_the_operator_makes_without_a_mouse, test_typed_numbers,
            test_one_undo_takes_a_drag_back_and_redo_brings_it,
            test_the_redo_panel_starts_from_the_mesh_before_the_drag,
            test_a_change_of_the_mode_by_a_script_ends_the_drag, test_escape_while_the_first_factorization_runs,
-           test_a_closed_path_ends_where_it_began, test_the_panel_moves_no_more_than_the_mouse_asks)
+           test_a_closed_path_ends_where_it_began, test_the_panel_moves_no_more_than_the_mouse_asks,
+           test_disabling_the_add_on_takes_a_drag_back)

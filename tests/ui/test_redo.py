@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import window  # noqa: E402  (found through the line above)
 
 import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from dragging import adjust, panel, shown  # noqa: E402
+from dragging import adjust, panel, shown, undone_and_redone  # noqa: E402
 
 Steps = Generator[float, None, None]
 
@@ -52,12 +52,7 @@ def test_one_undo_takes_it_back_and_redo_brings_it(driver: window.Window) -> Ste
     yield from press_smooth(driver)
     after = shown(driver)
     assert not np.array_equal(after, before)
-    driver.key('Z', ctrl=True)
-    yield 0.5
-    assert np.array_equal(shown(driver), before)
-    driver.key('Z', ctrl=True, shift=True)
-    yield 0.5
-    assert np.array_equal(shown(driver), after)
+    yield from undone_and_redone(driver, before, after)
 
 
 window.run(test_other_settings_start_from_the_mesh_before, test_one_undo_takes_it_back_and_redo_brings_it)

@@ -1,23 +1,9 @@
 // What a solve costs, in counts: the same on every machine.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-
 #include "native/shape_optimizer.h"
+#include "tests/native/allocations.h"
 #include "tests/native/sample_meshes.h"
-
-// Every heap allocation of the program passes here (AddressSanitizer brings its own malloc).
-#if !defined(__SANITIZE_ADDRESS__)
-extern "C" void* __libc_malloc(std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
-static std::atomic<long> allocations{0};
-extern "C" void* malloc(std::size_t size) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
-}
-#else
-static std::atomic<long> allocations{0};
-#endif
 
 namespace reflines {
 namespace {
