@@ -6,10 +6,10 @@ from . import cage, gather, keys
 from .gather import Panel
 
 
-def gathered(ob: bpy.types.Object, solve_for: str, result: str, local: np.ndarray | None = None) -> Panel:
-    """`solve_for` and `result` as in properties. `local`: #vertices x 3 positions, object space, to take for those that
-    the mesh has."""
+def gathered(ob: bpy.types.Object, solve_for: str, result: str, local: np.ndarray | None = None, *,
+             or_all: bool = False) -> Panel:
+    """`solve_for` and `result` as in properties; the rest as in gather.gather."""
     key = keys.NAME if result == 'SHAPE_KEY' else ""
     if solve_for == 'CAGE' and cage.is_under_subdivision(ob):
-        return cage.gather_cage(ob, local, key)
-    return gather.gather(ob, local, key)
+        return cage.gather_cage(ob, local, key, or_all=or_all)
+    return gather.gather(ob, local, key, or_all=or_all)

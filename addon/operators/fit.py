@@ -3,7 +3,8 @@ import bpy
 import numpy as np
 
 from .. import session, solving
-from ..bridge import cage, dense, gather
+from ..bridge import cage, dense, gather, panels
+from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..targets.fit import Fit, Misfit
 from ..tool import Tool
@@ -23,17 +24,23 @@ no region from a run before"""
 
     def take_settings(self, scene: bpy.types.Scene) -> None:
         """Unless told otherwise the border lies on the other mesh, too."""
+        self.solve_for = 'CAGE'
         if not self.properties.is_property_set("border"):
             self.border = 'free'
+        if not self.properties.is_property_set("result"):
+            self.result = scene.reflection_lines.result
 
     def subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         """The other mesh may be in Edit Mode, too."""
         return [gather.active(context)]
 
+    def panel_of(self, ob: bpy.types.Object) -> Panel:
+        return panels.gathered(ob, self.solve_for, self.result, self.original(ob) if self.anew else None, or_all=True)
+
     def solved(self, context: bpy.types.Context, ob: bpy.types.Object) -> solving.Solution:
         if not cage.is_under_subdivision(ob):
             raise Refusal(f"{ob.name} is no cage: its last modifier has to be a Subdivision Surface with levels")
-        panel = cage.gather_cage(ob, or_all=True)
+        panel = self.panel_of(ob)
         seen = session.view_of(context.scene, panel.center)
         fit = Fit(dense.read(context, ob), seen.view_direction, seen.line_direction)
         solution = session.solve(panel, seen, solving.Settings(self.border, self.detail(context.scene)), fit)

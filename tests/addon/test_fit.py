@@ -73,6 +73,16 @@ def test_a_clamped_border_is_kept_when_asked_for() -> None:
     assert not np.array_equal(after, before)
 
 
+def test_into_a_shape_key() -> None:
+    noisy, expected = scene()
+    before = scenes.positions(noisy)
+    fit(result='SHAPE_KEY')
+    basis, key = noisy.data.shape_keys.key_blocks
+    for shape, wanted, apart in ((basis, before, 0.0), (key, expected, 1e-4)):
+        values = np.array([point.co for point in shape.data], dtype=np.float32)
+        assert np.abs(values - wanted).max() <= apart
+
+
 def test_one_undo_step() -> None:
     noisy, _ = scene()
     bpy.ops.ed.undo_push(message="start")

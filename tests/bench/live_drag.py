@@ -6,7 +6,6 @@ the place of the 3D view, which leaves Blender little to draw. Without a GPU dra
 """
 import json
 import sys
-import threading
 import time
 from collections.abc import Generator
 from pathlib import Path
@@ -113,7 +112,7 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
     dragging.panel(driver, SIZES["100k"])
     driver.move(400, 300)
     yield 1.0
-    view = driver.area()
+    view, worker = driver.area(), sys.modules["reflection_lines"].worker
     with driver.override():
         bpy.ops.reflines.smooth('INVOKE_DEFAULT', True)
     view.type = 'IMAGE_EDITOR'
@@ -126,7 +125,7 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
         yield LOOK
         now = 1e3 * (time.perf_counter() - start)
         control = control or now * (space.show_region_ui != shown)
-        ended = ended or now * all(thread.name != "reflection lines" for thread in threading.enumerate())
+        ended = ended or now * (control > 0.0 and not bpy.app.timers.is_registered(worker.reap))
     driver.key('N')
     view.type = 'VIEW_3D'
     yield 0.5
