@@ -107,8 +107,9 @@ def closed_path(driver: window.Window) -> Generator[float, None, Times]:
     return {"hysteresis": [float(np.abs(last - first).max()) / WIDTH], "kick": kicks[:4]}
 
 
-def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple[float, float]]:
-    """Milliseconds from Escape until the next key works (N: the sidebar), and until the thread has ended; undrawn."""
+def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple[float, float, float]]:
+    """Milliseconds from Escape until the next key works (N: the sidebar), until the thread has ended, and what that key
+    takes when nothing is at work; undrawn."""
     dragging.panel(driver, SIZES["100k"])
     driver.move(400, 300)
     yield 1.0
@@ -126,10 +127,15 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
         now = 1e3 * (time.perf_counter() - start)
         control = control or now * (space.show_region_ui != shown)
         ended = ended or now * (control > 0.0 and not bpy.app.timers.is_registered(worker.reap))
+    yield 0.5
+    start = time.perf_counter()
     driver.key('N')
+    while space.show_region_ui != shown:
+        yield LOOK
+    alone = 1e3 * (time.perf_counter() - start)
     view.type = 'VIEW_3D'
     yield 0.5
-    return control, ended
+    return control, ended, alone
 
 
 def stripes_rebuilt(driver: window.Window) -> Generator[float, None, list[float]]:
@@ -173,7 +179,8 @@ def drags(driver: window.Window) -> Steps:
     escapes = []
     for after in ESCAPES:
         escapes.append((yield from escaped(driver, after)))
-    times["escape_control"], times["escape_thread"] = (list(each) for each in zip(*escapes, strict=True))
+    for what, values in zip(("control", "thread", "alone"), zip(*escapes, strict=True), strict=True):
+        times[f"escape_{what}"] = list(values)
     times |= yield from closed_path(driver)
     times["stripes_400k"] = yield from stripes_rebuilt(driver)
     out = ROOT / "build" / "bench" / "live_drag.json"

@@ -32,7 +32,7 @@ REACH = {
     "solve_1m_peak_gib": (5.0, True), "growth_100k_to_1m": (22.0, True), "adaptive_vs_linearized": (3.0, False),
     "adaptive_vs_newton": (5.0, False), "warm_step_ms_10k": (16.0, True), "warm_step_ms_100k": (150.0, True),
     "gather_apply_over_solve_100k": (0.2, True), "drag_hysteresis": (1e-6, True), "drag_kick": (1.5, True),
-    "stripes_ms_400k": (100.0, True), "escape_ms_100k": (100.0, True), "drag_processor_ms_100k": (100.0, True),
+    "stripes_ms_400k": (100.0, True), "escape_ms_100k": (100.0, True), "drag_still_ms_100k": (100.0, True),
     "cgal_fair_over_ours_10k": (20.0, False), "biharmonic_over_ours_100k": (0.5, False),
     "cage_warm_step_ms": (33.0, True),
 }
