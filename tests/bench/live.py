@@ -65,8 +65,8 @@ def drag_rows(times: Times, size: str) -> list[Row]:
 def feel_rows(times: Times) -> list[Row]:
     control, thread, kicks = times["escape_control"], times["escape_thread"], times["kick"]
     return [Row("escape_ms_100k", max(control), "ms",
-                f"until the next key has worked, which alone takes up to {max(times['escape_alone']):.0f} ms; the thread "
-                f"ends after at most {max(thread):.0f} ms; {len(control)} times while a drag prepares"),
+                f"until the next key has worked, which alone takes up to {max(times['escape_alone']):.0f} ms; the "
+                f"thread ends after at most {max(thread):.0f} ms; {len(control)} times while a drag prepares"),
             Row("drag_hysteresis", times["hysteresis"][0], "", "of the panel's size, after a closed path"),
             Row("drag_kick", max(kicks) / min(kicks), "", "largest over smallest move at equal steps of the mouse"),
             Row("stripes_ms_400k", statistics.median(times["stripes_400k"]), "ms",
