@@ -98,9 +98,10 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   }
   if (region_.free == 0) {
     throw InvalidInput(
-        "No vertex of the region is free to move (" + count_of_faces(triangle_count_) +
-        ": all vertices are held by the border, silhouettes or faces turned away); select a larger region, or "
-        "choose the border Fixed instead of Clamped.");
+        "No vertex of the region is free to move (" +
+        (options.motion.empty() ? count_of_faces(triangle_count_) + ": " : std::string()) +  // a cage has fewer faces
+        "all vertices are held by the border, silhouettes or faces turned away); select a larger region, or a border "
+        "that holds less (Fixed or Free).");
   }
   count_features(feature_length_, 0);
   tell_pieces(region_);
