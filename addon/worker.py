@@ -15,7 +15,7 @@ import bpy
 
 from . import native
 
-PATIENCE = 0.004  # seconds Blender waits for native work at most; what takes longer is looked for at the next tick
+PATIENCE = 0.012  # seconds Blender waits for native work at most; what takes longer is looked for at the next tick
 LOOK = 0.02       # seconds between looks at threads that are to end
 
 Request = TypeVar("Request")

@@ -50,6 +50,7 @@ class Drag:
         self.worker = Worker(self.pursuit.run, self.pursuit.end)
         self.worker.submit(self.wanted)
         self.keeping, self.busy_since, self.problem, self.said = False, time.monotonic(), "", ("", "")
+        self.moved = False  # the mouse, since the thread was asked
         self.timer = context.window_manager.event_timer_add(TICK, window=context.window)
         session.drags.append(self)
 
@@ -80,6 +81,7 @@ class Drag:
         self.reach = circle.around(falloff.centre, falloff.radius, self.frame) if falloff else None
 
     def ask(self, context: bpy.types.Context, *, final: bool = False) -> None:
+        self.moved = False
         try:
             self.request(context, final=final)
         except Refusal as refusal:
@@ -215,12 +217,14 @@ class DraggedTool(Tool):
         try:
             return self.tick(context) if event.type == 'TIMER' else self.pressed(context, event)
         except Refusal as refusal:
-            self.end(context)
+            self.let_go(context)
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
 
     def tick(self, context: bpy.types.Context) -> set[str]:
         drag = self.drag
+        if drag.moved and drag.worker.idle():
+            drag.ask(context)  # and not at each move: Blender draws all of its windows when a value is set
         outcome = drag.worker.take()
         if outcome is None and not drag.worker.alive():
             return self.leave(context, "The solver stopped: the mesh is as it was before")
@@ -252,7 +256,7 @@ class DraggedTool(Tool):
         if event.type in KEEP and event.value == 'PRESS':
             self.drag.ask(context, final=True)
         elif self.moved(event):
-            self.drag.ask(context)
+            self.drag.moved = True
         self.drag.say(context)
         return {'RUNNING_MODAL'}
 
@@ -286,17 +290,17 @@ class DraggedTool(Tool):
         self.drag.land(outcome.solutions)
         for ob, solution in zip(self.drag.objects(), outcome.solutions, strict=True):
             self.keep(ob, solution)
-        self.end(context)
+        self.let_go(context)
         return {'FINISHED'}
 
     def leave(self, context: bpy.types.Context, why: str = "") -> set[str]:
         self.drag.restore()
-        self.end(context)
+        self.let_go(context)
         if why:
             self.report({'ERROR'}, why)
         return {'CANCELLED'}
 
-    def end(self, context: bpy.types.Context) -> None:
+    def let_go(self, context: bpy.types.Context) -> None:
         """Blender keeps the operator for its redo panel; the drag holds factors of large matrices."""
         drag, self.drag = self.drag, None
         drag.end(context)

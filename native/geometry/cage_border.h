@@ -18,12 +18,10 @@ enum class BorderHold {
 Mask refined_border(const Subdivision& subdivision, const Mask& region);
 
 // #V: the cage vertices to hold, those of no region face among them. Worked out from the matrices, and always this:
-// * where the region ends at the surface's own border, positions need that border's ring of the cage, and tangents one
-// ring
-//   more: the vertices that share a face with it. Extraordinary vertices, n-gons and creases change nothing.
+// * where the region ends at the surface's own border, positions need that border's ring of the cage, and tangents
+//   one ring more: the vertices that share a face with it. Extraordinary vertices, n-gons and creases change nothing.
 // * where the region ends inside the surface, both need its border's ring and one ring more. All refined vertices
-// outside
-//   stay then, too, and with them the curvature across the border where the surface is regular.
+//   outside stay then, too, and with them the curvature across the border where the surface is regular.
 // None is held without need: on a sheet, positions and tangents of the border determine every held vertex.
 Mask held_by_border(const Subdivision& subdivision, const Mask& region, BorderHold hold);
 
