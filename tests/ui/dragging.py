@@ -65,15 +65,20 @@ def settled(driver: window.Window) -> Steps:
     raise AssertionError("the mesh does not come to rest")
 
 
+def comes_to(driver: window.Window, expected: np.ndarray) -> Steps:
+    """Waits until the mesh is this to the last bit."""
+    for _ in range(int(PATIENCE / 0.3)):
+        yield 0.3
+        if np.array_equal(shown(driver), expected):
+            return
+    raise AssertionError("the mesh does not come to what is expected")
+
+
 def undone_and_redone(driver: window.Window, before: np.ndarray, after: np.ndarray) -> Steps:
     """One undo gives the mesh from before, one redo that from after, to the last bit."""
     for shift, expected in ((False, before), (True, after)):
         driver.key('Z', ctrl=True, shift=shift)
-        for _ in range(int(PATIENCE / 0.5)):
-            yield 0.5
-            if np.array_equal(shown(driver), expected):
-                break
-        assert np.array_equal(shown(driver), expected)
+        yield from comes_to(driver, expected)
 
 
 def ended(driver: window.Window) -> Steps:

@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import window  # noqa: E402  (found through the line above)
 
 import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from dragging import Steps, ended, executed, panel, press, settled, shown  # noqa: E402
+from dragging import Steps, comes_to, ended, executed, panel, press, settled, shown  # noqa: E402
 
 LEVELS = 3  # from here on a drag leaves samples out
 
@@ -57,8 +57,7 @@ def test_one_undo_takes_the_drag_of_a_cage_back(driver: window.Window) -> Steps:
     after = shown(driver)
     assert not np.array_equal(after, before)
     driver.key('Z', ctrl=True)
-    yield 0.5
-    assert np.array_equal(shown(driver), before)
+    yield from comes_to(driver, before)
     assert [modifier.type for modifier in bpy.data.objects["Panel"].modifiers] == ['SUBSURF']
 
 

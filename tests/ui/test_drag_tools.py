@@ -95,8 +95,7 @@ def test_warp_by_a_typed_amount(driver: window.Window) -> Steps:
     kept = dragging.shown(driver)
     assert bpy.context.window_manager.operators[-1].properties.amount == 50.0
     driver.key('Z', ctrl=True)
-    yield 0.5
-    assert np.array_equal(dragging.shown(driver), before)
+    yield from dragging.comes_to(driver, before)
     with driver.override():
         assert bpy.ops.reflines.warp('EXEC_DEFAULT', True, amount=50.0) == {'FINISHED'}
     assert np.array_equal(dragging.shown(driver), kept)
@@ -121,7 +120,10 @@ def test_smooth_into_a_shape_key(driver: window.Window) -> Steps:
     assert np.array_equal(np.array([point.co for point in keys["Reflection Lines"].data], np.float32), expected)
     assert np.array([point.co for point in keys["Basis"].data], np.float32).tobytes() == before[0]
     driver.key('Z', ctrl=True)
-    yield 0.5
+    for _ in range(100):
+        yield 0.3
+        if bpy.data.objects["Panel"].mode == 'EDIT':
+            break
     ob = bpy.data.objects["Panel"]
     assert ob.mode == 'EDIT' and scenes.fingerprint(ob) == before
     bpy.context.scene.reflection_lines.result = 'MESH'
