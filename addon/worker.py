@@ -33,7 +33,7 @@ class Worker(Generic[Request, Outcome]):
         self._request: Request | None = None
         self._outcome: Outcome | None = None
         self._busy = self._failed = self._stopped = self._ended = False
-        self._turn = native.reflines.Turn()
+        self._turn = native.reflines.PythonTurn()
         # No thread that Python itself waits for at the end, before anything could end it: see `end_all`.
         self._thread = threading.Thread(target=self._run, name="reflection lines", daemon=True)
         self._thread.start()

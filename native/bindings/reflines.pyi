@@ -30,7 +30,7 @@ class Progress:
     def __init__(self) -> None: ...
     def cancel(self) -> None: ...
 
-class Turn:
+class PythonTurn:
     """Whose turn it is to run Python: its owner's thread or one worker's. In between the worker is in native code, where
     every call of a worker ends with waiting for its turn, or rests."""
     wanted: bool  # read only: the worker waits for its turn

@@ -7,11 +7,11 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
-thread_local Turn* own_turn = nullptr;  // of a worker thread
+thread_local PythonTurn* own_turn = nullptr;  // of a worker thread
 
 }  // namespace
 
-void Turn::lend(double seconds) {
+void PythonTurn::lend(double seconds) {
   const py::gil_scoped_release release;
   std::unique_lock<std::mutex> lock(mutex_);
   end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -31,25 +31,25 @@ void Turn::lend(double seconds) {
   lent_ = false;
 }
 
-bool Turn::wanted() const {
+bool PythonTurn::wanted() const {
   const std::scoped_lock lock(mutex_);
   return worker_ == Worker::kWaiting;
 }
 
-void Turn::give_away() {
+void PythonTurn::give_away() {
   const std::scoped_lock lock(mutex_);
   given_away_ = true;
   if (worker_ == Worker::kResting) worker_ = Worker::kWaiting;
   changed_.notify_all();
 }
 
-void Turn::take() {
+void PythonTurn::take() {
   own_turn = this;
   const py::gil_scoped_release release;
   enter();
 }
 
-void Turn::rest() {
+void PythonTurn::rest() {
   const py::gil_scoped_release release;
   std::unique_lock<std::mutex> lock(mutex_);
   worker_ = given_away_ ? Worker::kWaiting : Worker::kResting;
@@ -57,20 +57,20 @@ void Turn::rest() {
   wait_for_turn(lock);
 }
 
-void Turn::leave(Worker to) {
+void PythonTurn::leave(Worker to) {
   const std::scoped_lock lock(mutex_);
   worker_ = to;
   changed_.notify_all();
 }
 
-void Turn::enter() {
+void PythonTurn::enter() {
   std::unique_lock<std::mutex> lock(mutex_);
   worker_ = Worker::kWaiting;
   changed_.notify_all();
   wait_for_turn(lock);
 }
 
-void Turn::wait_for_turn(std::unique_lock<std::mutex>& lock) {
+void PythonTurn::wait_for_turn(std::unique_lock<std::mutex>& lock) {
   changed_.wait(lock, [this] { return worker_ == Worker::kWaiting && may_enter(); });
   worker_ = Worker::kPython;
   entered_ = true;
@@ -78,7 +78,7 @@ void Turn::wait_for_turn(std::unique_lock<std::mutex>& lock) {
 }
 
 ReleaseGil::ReleaseGil() : state_(PyEval_SaveThread()) {
-  if (own_turn != nullptr) own_turn->leave(Turn::Worker::kNative);
+  if (own_turn != nullptr) own_turn->leave(PythonTurn::Worker::kNative);
 }
 
 ReleaseGil::~ReleaseGil() {
@@ -87,13 +87,13 @@ ReleaseGil::~ReleaseGil() {
 }
 
 void bind_turn(py::module_& module) {
-  py::class_<Turn>(module, "Turn", py::module_local())
+  py::class_<PythonTurn>(module, "PythonTurn", py::module_local())
       .def(py::init<>())
-      .def("lend", &Turn::lend, py::arg("seconds"))
-      .def_property_readonly("wanted", &Turn::wanted)
-      .def("give_away", &Turn::give_away)
-      .def("take", &Turn::take)
-      .def("rest", &Turn::rest);
+      .def("lend", &PythonTurn::lend, py::arg("seconds"))
+      .def_property_readonly("wanted", &PythonTurn::wanted)
+      .def("give_away", &PythonTurn::give_away)
+      .def("take", &PythonTurn::take)
+      .def("rest", &PythonTurn::rest);
 }
 
 }  // namespace reflines

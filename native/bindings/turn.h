@@ -16,7 +16,7 @@
 namespace reflines {
 
 // Of one worker thread. `lend`, `take` and `rest` wait; they are called with Python's lock and let go of it meanwhile.
-class Turn {
+class PythonTurn {
  public:
   // The owner: the worker may run Python until it rests, or until it comes to native code when `seconds` are over.
   void lend(double seconds);

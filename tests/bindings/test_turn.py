@@ -12,9 +12,9 @@ PATIENCE = 30.0  # seconds
 
 
 @contextmanager
-def worker(work: Callable[[], None]) -> Generator[reflines.Turn, None, None]:
+def worker(work: Callable[[], None]) -> Generator[reflines.PythonTurn, None, None]:
     """Does `work` in the turns that it gets; is joined at the end."""
-    turn = reflines.Turn()
+    turn = reflines.PythonTurn()
     thread = threading.Thread(target=lambda: (turn.take(), work(), turn.rest()))
     thread.start()
     try:
