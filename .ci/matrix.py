@@ -5,7 +5,7 @@ without the libraries that the solver is made of. There the package is installed
 against what was installed; the add-on's source is not there at all. A suite whose archive cannot be had counts as
 skipped. Needs root.
 
-    .ci/matrix.py [--no-windows] [SUITE...]
+    .ci/matrix.py [SUITE...]
 """
 import argparse
 import hashlib
@@ -24,8 +24,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 from lanes import CRASHED, Counts, run_reporting  # noqa: E402  (found through the line above)
 
 NAME = "reflection_lines"
-LANES = ("bindings", "addon")
-WINDOWS = ("ui",)  # a quarter of an hour for all
+LANES = ("bindings", "addon", "ui")
 USER = "/root/blender_user"
 APT = ["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-q", "-y", "-oAcquire::Check-Valid-Until=false"]
 # What Blender's own Python scripts need in sid although the package does not ask for it.
@@ -115,12 +114,12 @@ def install(root: Path, package: Path) -> Installation:
     return installed
 
 
-def run_lanes(root: Path, installed: Installation, lanes: tuple[str, ...]) -> Counts:
+def run_lanes(root: Path, installed: Installation) -> Counts:
     env = {"REFLINES_ADDON": installed.module, "REFLINES_FOLDER": installed.folder, "BLENDER_USER_RESOURCES": USER}
-    return run_reporting(inside(root, "/usr/bin/python3", "/src/tests/lanes.py", *lanes, env=env), os.environ, 1800)
+    return run_reporting(inside(root, "/usr/bin/python3", "/src/tests/lanes.py", *LANES, env=env), os.environ, 1800)
 
 
-def test_suite(suite: str, package: Path, lanes: tuple[str, ...]) -> Counts:
+def test_suite(suite: str, package: Path) -> Counts:
     start = time.monotonic()
     try:
         root = ready_root(suite)
@@ -130,7 +129,7 @@ def test_suite(suite: str, package: Path, lanes: tuple[str, ...]) -> Counts:
     prepared = time.monotonic()
     copy_tests(root)
     try:
-        counts = run_lanes(root, install(root, package), lanes)
+        counts = run_lanes(root, install(root, package))
     except (RuntimeError, Unavailable) as error:
         print(f"{suite}: {error}")
         counts = CRASHED
@@ -140,7 +139,6 @@ def test_suite(suite: str, package: Path, lanes: tuple[str, ...]) -> Counts:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--no-windows", action="store_true", help="only what needs no window")
     parser.add_argument("suites", nargs="*", default=["bookworm", "trixie", "sid"])
     arguments = parser.parse_args()
     package = max((ROOT / "build/package").glob(f"{NAME}-*.zip"), key=lambda path: path.stat().st_mtime, default=None)
@@ -148,7 +146,7 @@ def main() -> int:
         sys.exit("no package in build/package: ./run package")
     total = Counts()
     for suite in arguments.suites:
-        total += test_suite(suite, package, LANES if arguments.no_windows else LANES + WINDOWS)
+        total += test_suite(suite, package)
     print(total)
     return 0 if total.failed == 0 else 1
 

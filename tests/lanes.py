@@ -17,6 +17,7 @@ import threading
 import time
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -93,25 +94,26 @@ def native_lane() -> Counts:
     return total
 
 
-def blender_environment() -> dict[str, str]:
+def blender_environment(user: str = "blender_user") -> dict[str, str]:
     """A Blender that sees no user's settings; they start empty each time, those with an installed package apart."""
     if INSTALLED:
         return os.environ | {"LIBGL_ALWAYS_SOFTWARE": "1"}
-    user = OUT / "blender_user"
+    user = OUT / user
     shutil.rmtree(user, ignore_errors=True)
     user.mkdir(parents=True)
     return os.environ | {"BLENDER_USER_RESOURCES": str(user), "LIBGL_ALWAYS_SOFTWARE": "1"}
 
 
-def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int) -> Counts:
-    """Runs tests that print the line of counts themselves, as those inside Blender do; shows what they print."""
+def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int, mark: str = "") -> Counts:
+    """Runs tests that print the line of counts themselves, as those inside Blender do; shows what they print, each line
+    with a mark where others run beside them."""
     process = subprocess.Popen(command, cwd=ROOT, env=env, text=True, errors="replace", stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, start_new_session=True)
     watch = threading.Timer(timeout, os.killpg, (process.pid, signal.SIGKILL))
     watch.start()
     counts = None
     for line in process.stdout:
-        print(line, end="", flush=True)
+        print(mark + line, end="", flush=True)
         found = COUNTS_LINE.fullmatch(line)
         counts = Counts(*map(int, found.groups())) if found else counts
     code = process.wait()
@@ -128,21 +130,27 @@ def addon_lane() -> Counts:
     return run_reporting(command, blender_environment(), 1500)
 
 
-def window_command() -> list[str]:
-    return ["xvfb-run", "-a", "-s", "-screen 0 1280x900x24", BLENDER, "--factory-startup", "--enable-event-simulate",
-            "--window-geometry", "0", "0", "1280", "900"]
+def window_command(width: int = 1280, height: int = 900, display: int = 99) -> list[str]:
+    """On a virtual screen: the first one that is free from `display` on."""
+    return ["xvfb-run", "-n", str(display), "-a", "-s", f"-screen 0 {width}x{height}x24", BLENDER, "--factory-startup",
+            "--enable-event-simulate", "--window-geometry", "0", "0", str(width), str(height)]
+
+
+def window_counts(index: int, path: Path) -> Counts:
+    command = [*window_command(800, 600, 100 + 20 * index), "--python-exit-code", "1",
+               "--python", str(path.relative_to(ROOT))]
+    return run_reporting(command, blender_environment(f"blender_user_{path.stem}"), 600, f"{path.stem}: ")
 
 
 def ui_lane() -> Counts:
-    """Every file in a Blender of its own, in a window of a virtual screen, with simulated mouse and keys."""
-    total = Counts()
-    for path in sorted((ROOT / "tests/ui").glob("test_*.py")):
-        command = [*window_command(), "--python-exit-code", "1", "--python", str(path.relative_to(ROOT))]
-        total += run_reporting(command, blender_environment(), 600)
-    return total
+    """Every file in a Blender of its own, in a window of a virtual screen, with simulated mouse and keys; as many at
+    once as there are cores, for a Blender with simulated events waits by turning in a loop."""
+    files = sorted((ROOT / "tests/ui").glob("test_*.py"))
+    with ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
+        return sum(pool.map(window_counts, range(len(files)), files), Counts())
 
 
-def matrix_lane(*options: str) -> Counts:
+def matrix_lane() -> Counts:
     """Packs the add-on and tests the package in other Debians, which takes root."""
     packed = subprocess.run(["./run", "package"], cwd=ROOT).returncode
     if packed == NO_ARCHIVE:
@@ -152,7 +160,7 @@ def matrix_lane(*options: str) -> Counts:
         return CRASHED
     cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     become_root = [] if os.geteuid() == 0 else ["sudo", f"XDG_CACHE_HOME={cache}"]
-    return run_reporting([*become_root, PYTHON, ".ci/matrix.py", *options], os.environ, 4500)
+    return run_reporting([*become_root, PYTHON, ".ci/matrix.py"], os.environ, 4500)
 
 
 @dataclass(frozen=True)
@@ -170,7 +178,6 @@ LANES = {
     "bindings": Lane(lambda: pytest_lane("bindings"), True, ("native/", "tests/bindings/", *SHARED)),
     "addon": Lane(addon_lane, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
     "ui": Lane(ui_lane, True, ("addon/", "tests/ui/", *SHARED)),
-    "installed": Lane(lambda: matrix_lane("--no-windows"), False, (), asked=True),
     "matrix": Lane(matrix_lane, False, (), asked=True),
 }
 
@@ -193,7 +200,7 @@ def chosen_lanes(arguments: argparse.Namespace) -> list[str]:
     if arguments.changed:
         files = changed_files()
         return [name for name in present if any(file.startswith(LANES[name].rooms) for file in files)]
-    return arguments.lanes or [name for name in present if not LANES[name].asked or arguments.all and name == "matrix"]
+    return arguments.lanes or [name for name in present if not LANES[name].asked or arguments.all]
 
 
 def succeeds(*command: str) -> bool:

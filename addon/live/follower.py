@@ -93,7 +93,11 @@ class Follower:
             self.look(scene)
         if self.followed and time.monotonic() - self.asked_at > REST:
             self.ask(scene, final=True)
-        return self.again or self.followed or self.is_busy() or self.worker.has_outcome()
+        return self.has_more()
+
+    def has_more(self) -> bool:
+        """Whether something is still to be asked, solved or shown."""
+        return self.again or self.followed or self.is_busy() or self.worker is not None and self.worker.has_outcome()
 
     def is_busy(self) -> bool:
         return self.worker is not None and self.worker.alive() and not self.worker.idle()

@@ -5,6 +5,7 @@ enabled.
 """
 import os
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import addon_utils
@@ -27,7 +28,7 @@ def scripts_folder(where: Path) -> Path:
 
 def link_checkout() -> None:
     link = scripts_folder(ROOT / "build" / "blender" / "scripts") / NAME
-    if not link.is_symlink():
+    with suppress(FileExistsError):  # from before, or of a Blender that runs beside this one
         link.symlink_to(FOLDER, target_is_directory=True)
     addon_utils.modules_refresh()
 

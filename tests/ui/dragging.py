@@ -1,4 +1,5 @@
 """What tests of drags share: a panel to drag, the press of the button, and waiting until solves are done."""
+import sys
 from collections.abc import Generator
 
 import bpy
@@ -52,23 +53,29 @@ def press(driver: window.Window, operator: str = "smooth") -> Steps:
     yield from settled(driver)
 
 
+def at_rest() -> bool:
+    """Whether no drag and no live warp is solving, or has something to show."""
+    session = sys.modules["reflection_lines"].session
+    return (not any(drag.moved or drag.keeping or not drag.worker.idle() or drag.worker.has_outcome()
+                    for drag in session.drags)
+            and not any(follower.has_more() for follower in session.live_warps.values()))
+
+
 def settled(driver: window.Window) -> Steps:
     """Waits until the mesh no longer changes."""
-    last, same = None, 0
-    for _ in range(int(PATIENCE / 0.3)):
-        now = shown(driver)
-        same = same + 1 if last is not None and np.array_equal(now, last) else 0
-        if same == 6:  # on a busy machine a solve of these panels can take a second
+    rests = 0
+    for _ in range(int(PATIENCE / 0.05)):
+        yield 0.05
+        rests = rests + 1 if at_rest() else 0
+        if rests == 3:  # Blender draws between two looks, and has done what its events ask for
             return
-        last = now
-        yield 0.3
     raise AssertionError("the mesh does not come to rest")
 
 
 def comes_to(driver: window.Window, expected: np.ndarray) -> Steps:
     """Waits until the mesh is this to the last bit."""
-    for _ in range(int(PATIENCE / 0.3)):
-        yield 0.3
+    for _ in range(int(PATIENCE / 0.05)):
+        yield 0.05
         if np.array_equal(shown(driver), expected):
             return
     raise AssertionError("the mesh does not come to what is expected")

@@ -31,16 +31,6 @@ def says() -> str:
     return bpy.context.window_manager.reflection_lines.live
 
 
-def resting(driver: window.Window) -> Steps:
-    """Waits until the panel has come to rest with the shape that Apply would keep."""
-    last, same = None, 0
-    while same < 4:
-        yield 0.25
-        now = positions()
-        same = same + 1 if last is not None and np.array_equal(now, last) else 0
-        last = now
-
-
 def started(driver: window.Window, cells: int = 16) -> Steps:
     """In the lattice's Edit Mode with its middle point selected."""
     dragging.panel(driver, cells)
@@ -90,16 +80,16 @@ def test_the_panel_follows_while_the_lattice_is_dragged(driver: window.Window) -
     yield from started(driver)
     before = positions()
     yield from grab(driver, 40)
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     held = positions()
     assert np.abs(held - before).max() > 1e-4
     yield from picture("live.png")
     driver.key('ESC')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert np.array_equal(positions(), before)
     yield from grab(driver, 40)
     driver.key('RET')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert np.array_equal(positions(), held)
     assert np.array_equal(warped(driver), held)
 
@@ -109,18 +99,18 @@ def test_what_follows_after_a_rest_is_near_what_is_kept(driver: window.Window) -
     yield from started(driver)
     before = positions()
     yield from grab(driver, 30)
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     rest = positions()
     driver.move(450, 400)
     while np.array_equal(positions(), rest):
         yield 0.02
     first = positions()
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     move = np.abs(positions() - before).max()
     assert np.abs(positions() - rest).max() > 0.2 * move
     assert np.abs(positions() - first).max() < 0.05 * move
     driver.key('ESC')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
 
 
 def test_undo_and_redo_of_the_lattice_take_the_panel_along(driver: window.Window) -> Steps:
@@ -129,15 +119,15 @@ def test_undo_and_redo_of_the_lattice_take_the_panel_along(driver: window.Window
     for way in (40, -25):
         yield from grab(driver, way)
         driver.key('RET')
-        yield from resting(driver)
+        yield from dragging.settled(driver)
         shapes.append(positions())
     assert not np.array_equal(shapes[0], shapes[1]) and not np.array_equal(shapes[1], shapes[2])
     for expected in (shapes[1], shapes[0]):
         driver.key('Z', ctrl=True)
-        yield from resting(driver)
+        yield from dragging.settled(driver)
         assert np.array_equal(positions(), expected)
     driver.key('Z', ctrl=True, shift=True)
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert np.array_equal(positions(), shapes[1])
 
 
@@ -146,36 +136,36 @@ def test_proportional_editing_scaling_and_object_transforms(driver: window.Windo
     bpy.context.scene.tool_settings.use_proportional_edit = True
     yield from grab(driver, 30)
     driver.key('RET')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     bpy.context.scene.tool_settings.use_proportional_edit = False
     shapes = [positions()]
     with driver.override():
         bpy.ops.lattice.select_all(action='SELECT')
         bpy.ops.transform.resize('EXEC_DEFAULT', True, value=(1.05, 1.05, 1.0))
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     shapes.append(positions())
     driver.key('TAB')
     yield 0.3
     yield from grab(driver, 20)
     driver.key('RET')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     shapes.append(positions())
     assert len({shape.tobytes() for shape in shapes}) == 3
     driver.key('Z', ctrl=True)
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert np.array_equal(positions(), shapes[1])
 
 
 def test_a_fold_over_is_told_and_the_panel_waits(driver: window.Window) -> Steps:
     yield from started(driver)
     yield from grab(driver, 300)
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert says().startswith("Panel: The lattice folds over itself"), says()
     waits = positions()
     yield 0.5
     assert np.array_equal(positions(), waits)
     driver.key('ESC')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert says() == ""
 
 
@@ -184,7 +174,7 @@ def test_the_panel_follows_after_reload(driver: window.Window) -> Steps:
     before = positions()
     yield from grab(driver, 40)
     driver.key('RET')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     saved = positions()
     path = os.path.join(tempfile.mkdtemp(), "live.blend")
     with driver.override():
@@ -192,11 +182,11 @@ def test_the_panel_follows_after_reload(driver: window.Window) -> Steps:
         bpy.ops.wm.open_mainfile(filepath=path)
     yield 1.0
     driver = window.Window()
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert np.array_equal(positions(), saved)
     yield from grab(driver, 30)
     driver.key('RET')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert not np.array_equal(positions(), saved)
     with driver.override():
         bpy.ops.reflines.discard_live_warp('EXEC_DEFAULT', True)
@@ -207,15 +197,15 @@ def test_apply_is_one_undo_step_and_the_panel_follows_on_after_it(driver: window
     yield from started(driver)
     yield from grab(driver, 40)
     driver.key('RET')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     held = positions()
     with driver.override():
         bpy.ops.reflines.apply_live_warp('EXEC_DEFAULT', True)
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert np.array_equal(positions(), held)
     assert bpy.context.mode == 'OBJECT' and bpy.context.scene.reflection_lines.live.panel is None
     driver.key('Z', ctrl=True)
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert bpy.context.scene.reflection_lines.live.panel == bpy.data.objects["Panel"]
     assert np.array_equal(positions(), held)
     with driver.override():
@@ -234,14 +224,14 @@ def test_changes_by_hand_are_told_and_not_written_over(driver: window.Window) ->
     assert says() == "The live warp waits while Panel is in Edit Mode"
     with driver.override():
         bpy.ops.object.mode_set(mode='OBJECT')
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert says() == ""
     ob.data.vertices[140].co.z += 0.1
     ob.data.update()
     changed = positions()
     lattice().data.points[MIDDLE].co_deform.x += 0.1
     lattice().data.update_tag()
-    yield from resting(driver)
+    yield from dragging.settled(driver)
     assert "was changed by something else" in says()
     assert np.array_equal(positions(), changed)
     with driver.override():
