@@ -228,15 +228,23 @@ double PieceProblem::evaluate(const Vector& x, Vector* gradient) {
   return energy;
 }
 
-const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
+HessianAssembly& PieceProblem::assembly() {
   if (!assembly_) {
     assembly_ = std::make_unique<HessianAssembly>(energy_.stencils(), energy_.entries(), unknowns_.column(),
                                                   unknowns_.moving_count());
     if (unknowns_.modes().size() > 0) product_ = std::make_unique<GalerkinProduct>(unknowns_.modes());
   }
+  return *assembly_;
+}
+
+const SparseMatrix* PieceProblem::pattern() {
+  return unknowns_.modes().size() > 0 ? nullptr : &assembly().pattern();
+}
+
+const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
   unknowns_.heights(x, trial_z_);
   const SparseMatrix& whole =
-      assembly_->assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
+      assembly().assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
   if (!product_) return whole;
   height_rounding_ = whole.diagonal();
   return product_->project(whole);

@@ -69,6 +69,7 @@ class PieceProblem : public Problem {
   int size() const override { return unknowns_.size(); }
   double evaluate(const Vector& x, Vector* gradient) override;
   const SparseMatrix& hessian(const Vector& x, HessianModel model) override;
+  const SparseMatrix* pattern() override;
   Vector rounding_weight(const SparseMatrix& hessian) override;
   PlanePositions places() override;
   std::unique_ptr<CoarseProblem> coarse(const Vector& x, const Vector& gradient) override;
@@ -105,6 +106,7 @@ class PieceProblem : public Problem {
   bool is_changeable(int t) const;
   void find_hidden();
   KeptSmoother& kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along, int family);
+  HessianAssembly& assembly();
   Vector2 slope_at(int t, int v, const TriangleDerivatives& u) const;
 
   Piece piece_;

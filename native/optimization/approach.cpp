@@ -20,8 +20,7 @@ constexpr double kWorthwhile = 0.9;
 void Descent::approach() {
   if (!learns_from_steps() || factor_is_kept() || is_cancelled() || gradient_is_small()) return;
   const std::unique_ptr<CoarseProblem> coarse = problem_.coarse(work_.x, work_.gradient);
-  if (coarse == nullptr) return;
-  const int steps = move_along(*coarse);
+  const int steps = coarse ? move_along(*coarse) : 0;
   if (steps == 0) return;
   trial_.energy = problem_.evaluate(work_.trial, &work_.trial_gradient);
   ++report_.evaluations;

@@ -14,6 +14,8 @@ class HessianAssembly {
   // `column` (#V) names the unknown of each vertex, or -1 where it is fixed; unknowns are 0 .. unknown_count - 1.
   HessianAssembly(const Stencils& stencils, const StencilEntries& entries, std::vector<int> column, int unknown_count);
 
+  const SparseMatrix& pattern() const { return H_; }  // lower triangle, n x n; values only after `assemble`
+
   // Lower triangle, n x n; the pattern never changes. `diagonal` (#V, may be empty) is added. The reference stays valid
   // and is overwritten by the next call.
   const SparseMatrix& assemble(const Energy::ElementHessians& elements, const Vector& diagonal);

@@ -1,7 +1,9 @@
 // A far minimum is approached with a stand-in of few unknowns, and found with fewer factors.
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
+#include <thread>
 
 #include "least_squares.h"
 #include "native/optimization/minimizer.h"
@@ -47,21 +49,29 @@ class SmoothChain final : public Problem {
       }
     }
     modes_.setFromTriplets(entries.begin(), entries.end());
+    pattern_ = chain_.hessian(Vector::Zero(size), HessianModel::kGaussNewton);
   }
   Chain& chain() { return chain_; }
   void withhold_motions() { offers_ = false; }
 
+  std::thread::id pattern_thread() const { return pattern_thread_; }  // that asked for it; none: nobody did
+
   int size() const override { return chain_.size(); }
   double evaluate(const Vector& x, Vector* gradient) override { return chain_.evaluate(x, gradient); }
   const SparseMatrix& hessian(const Vector& x, HessianModel model) override { return chain_.hessian(x, model); }
+  const SparseMatrix* pattern() override {
+    pattern_thread_ = std::this_thread::get_id();
+    return &pattern_;
+  }
   std::unique_ptr<CoarseProblem> coarse(const Vector& x, const Vector&) override {
     return offers_ ? std::make_unique<CoarseChain>(chain_, modes_, x) : nullptr;
   }
 
  private:
   Chain chain_;
-  SparseMatrix modes_;
+  SparseMatrix modes_, pattern_;
   bool offers_ = true;
+  std::thread::id pattern_thread_;
 };
 
 struct ApproachTest : testing::Test {
@@ -97,6 +107,25 @@ TEST_F(ApproachTest, TheApproachIsOneEvaluation) {
   EXPECT_EQ(report.assemblies, report.factorizations);
   EXPECT_EQ(report.analyses, 1);
   EXPECT_GE(report.evaluations, report.iterations + 2);
+}
+
+// A large system is analysed meanwhile in another thread, once, and the steps are those of one thread.
+TEST_F(ApproachTest, TheAnalysisRunsBesideIt) {
+  Vector ends[2];
+  const int before = omp_get_max_threads();
+  for (const int threads : {1, 2}) {
+    omp_set_num_threads(threads);
+    SmoothChain large(3000, 0.2, 60, 90);
+    large.chain().set_minimum(large.chain().wave(1.0));
+    ends[threads - 1] = large.chain().wave(0.9);
+    const Report report = Minimizer().minimize(large, ends[threads - 1], {});
+    EXPECT_TRUE(report.converged()) << report.message;
+    EXPECT_EQ(report.analyses, 1);
+    EXPECT_EQ(large.pattern_thread() == std::thread::id(), threads == 1);
+    EXPECT_NE(large.pattern_thread(), std::this_thread::get_id());
+  }
+  omp_set_num_threads(before);
+  EXPECT_TRUE(ends[0] == ends[1]);
 }
 
 // A zigzag does not yield to smooth motions: they are given up after one step, and nothing of it remains.
