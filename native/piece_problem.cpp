@@ -237,9 +237,7 @@ HessianAssembly& PieceProblem::assembly() {
   return *assembly_;
 }
 
-const SparseMatrix* PieceProblem::pattern() {
-  return unknowns_.modes().size() > 0 ? nullptr : &assembly().pattern();
-}
+const SparseMatrix* PieceProblem::pattern() { return unknowns_.modes().size() > 0 ? nullptr : &assembly().pattern(); }
 
 const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
   unknowns_.heights(x, trial_z_);
