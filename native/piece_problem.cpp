@@ -1,6 +1,7 @@
 #include "native/piece_problem.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "native/coarse_piece.h"
 #include "native/geometry/smooth_modes.h"
@@ -19,6 +20,11 @@ constexpr double kFreeBorderProximity = 10.0;
 // Of cages, always: a vertex may move no sample that counts (weight 0, hidden lines), and then the Hessian is singular.
 // Where all samples count, its smallest eigenvalue is 3 to 200 and the pull adds 1e-7 to it.
 constexpr double kCageProximity = 1e-6;
+
+// Times the gradient of a strong bend: longer ones, and longer changes, are not believed in smoothing. Of 1, 4 and all
+// on 25 careless selections of a car body 4 moves the least and leaves the least wobble (a roof with its rails, faces
+// up to 70 degrees from the view: 131 mm with all, 9 mm with 4); dents of 2 mm in 8 cm stay well below.
+constexpr double kOutlier = 4.0;
 
 // Mean vertex distances between the knots of the coarse motions.
 constexpr double kKnotSpacing = 6.0;
@@ -202,9 +208,18 @@ PieceProblem::KeptSmoother& PieceProblem::kept(KeptSmoother& kept, const SmoothO
   enter(0.0, "finding features");
   const Mask& held = features(options.length, family);
   enter(0.1, "assembling the smoothing");
-  auto smoother = std::make_unique<FieldSmoother>(piece_.field, stencils_, options, along, held, factorize);
+  SmoothOptions own = options;
+  own.longest = longest(family);
+  auto smoother =
+      std::make_unique<FieldSmoother>(piece_.field, stencils_, own, along, visible_[family], held, factorize);
   kept = {std::move(smoother), options.length, along, family, {}, {}};
   return kept;
+}
+
+// A cage's surface has no thin triangles to read wrong: its dents bend as strongly as they look.
+double PieceProblem::longest(int family) const {
+  if (unknowns_.modes().size() > 0) return std::numeric_limits<double>::infinity();
+  return kOutlier * strong_bend(field_of(piece_.field.z, family).gradient, piece_.field.diagonal());
 }
 
 PlaneVectors PieceProblem::smoothed(const PlaneVectors& gradient, const SmoothOptions& options, int family) {

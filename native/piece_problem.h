@@ -63,6 +63,8 @@ class PieceProblem : public Problem {
   // degrees their own wobble is no detail.
   PlaneVectors smoothed(const PlaneVectors& gradient, const SmoothOptions& options, int family);
 
+  const Vector& visible(int family) const { return visible_[family]; }  // #T, 0 to 1: how far its lines are defined
+
   // #T: what smoothing at `length` leaves alone in the field the piece started with; valid until asked for another.
   const Mask& features(double length, int family);
 
@@ -103,6 +105,7 @@ class PieceProblem : public Problem {
   EnergyTerm term(const Target& target) const;
   EnergyTerm companion_term(const Target& target) const;  // of a value fit: the same wish as a gradient
   EnergyTerm crossing_term() const;
+  double longest(int family) const;  // gradient that smoothing believes
   bool is_changeable(int t) const;
   void find_hidden();
   KeptSmoother& kept(KeptSmoother& kept, const SmoothOptions& options, const PlaneVectors& along, int family);

@@ -40,7 +40,8 @@ Region describe(const HeightField& field, bool creases_held) {
         (creases_held ? "held, the lines are solved on each side." : "kept sharp, the lines are solved on each side."));
   }
   if (region.silhouettes > 0) {
-    region.messages.push_back(count_of_faces(region.silhouettes) + " seen edge on (silhouettes): left as they are.");
+    region.messages.push_back(count_of_faces(region.silhouettes) +
+                              " seen nearly edge on (less than 12 degrees): left as they are.");
   }
   return region;
 }

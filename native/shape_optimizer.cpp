@@ -176,8 +176,9 @@ Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double streng
   if (changes) count_features(options.length, family);
   for (const auto& piece : pieces_) {
     const PlaneVectors own = piece->field(family).gradient;
-    const PlaneVectors wanted =
-        changes ? PlaneVectors(own + strength * (piece->smoothed(own, options, family) - own)) : own;
+    const PlaneVectors wanted = changes && piece->size() > 0
+                                    ? PlaneVectors(own + strength * (piece->smoothed(own, options, family) - own))
+                                    : own;
     for (int t = 0; t < own.rows(); ++t) target.gradient.row(piece->piece().field.source[t]) = wanted.row(t);
   }
   return target;
@@ -186,9 +187,11 @@ Target ShapeOptimizer::smooth_target(const SmoothOptions& options, double streng
 double ShapeOptimizer::score(double length, int family) {
   double sum = 0, area = 0;
   for (const auto& piece : pieces_) {
+    if (piece->size() == 0) continue;
     const PlaneVectors own = piece->field(family).gradient;
     const Vector A = (piece->changeable() && !piece->features(length, family))
-                         .select(piece->piece().field.area.array(), Vector::Zero(own.rows()).array());
+                         .select(piece->piece().field.area.cwiseProduct(piece->visible(family)).array(),
+                                 Vector::Zero(own.rows()).array());
     sum += A.dot((own - piece->smoothed(own, {length, false}, family)).rowwise().squaredNorm());
     area += A.sum();
   }

@@ -12,13 +12,6 @@ constexpr double kStrong = 8.0;  // times the median: dents of 2 mm in 8 cm reac
 // most of a panel is flat the median is rounding, and every dent would be 8 times that.
 constexpr double kLeast = 10.0;
 
-Mask strongly_bent(const PlaneVectors& gradient, double diagonal) {
-  const Vector size = gradient.rowwise().norm();
-  std::vector<double> sorted(size.data(), size.data() + size.size());
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  return size.array() > std::max(kStrong * sorted[sorted.size() / 2], kLeast / diagonal);
-}
-
 // The triangles connected to `first` through marked ones, which are unmarked on the way.
 std::vector<int> take_component(const HeightField& field, int first, Mask& marked) {
   std::vector<int> component = {first};
@@ -47,8 +40,15 @@ double extent(const HeightField& field, const std::vector<int>& triangles) {
 
 }  // namespace
 
+double strong_bend(const PlaneVectors& gradient, double diagonal) {
+  const Vector size = gradient.rowwise().norm();
+  std::vector<double> sorted(size.data(), size.data() + size.size());
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  return std::max(kStrong * sorted[sorted.size() / 2], kLeast / diagonal);
+}
+
 Mask strong_features(const HeightField& field, const PlaneVectors& gradient, double length) {
-  Mask strong = strongly_bent(gradient, field.diagonal());
+  Mask strong = gradient.rowwise().norm().array() > strong_bend(gradient, field.diagonal());
   Mask features = Mask::Constant(field.triangle_count(), false);
   for (int t = 0; t < field.triangle_count(); ++t) {
     if (!strong(t)) continue;

@@ -12,4 +12,7 @@ namespace reflines {
 // fillet of 4 cm radius away: measured on a car's bonnet cut out with its flanks, vertices move by 36 mm.
 Mask strong_features(const HeightField& field, const PlaneVectors& gradient, double length);
 
+// The least |grad theta| of a feature in a field (#T x 2) over a piece with this diagonal.
+double strong_bend(const PlaneVectors& gradient, double diagonal);
+
 }  // namespace reflines

@@ -31,9 +31,18 @@ Vector corner_weights(const HeightField& field, const Vector& weight) {
 // it.
 constexpr double kFeatureWeight = 1e-3;
 
-Vector data_weights(const HeightField& field, const Mask& features) {
-  return (field.area.array() * features.select(Vector::Constant(field.area.size(), kFeatureWeight).array(), 1.0))
-      .matrix();
+// What is not to be trusted at all still fixes the smoothed field where nothing else does.
+constexpr double kLeastTrust = 1e-6;
+
+PlaneVectors shortened(const PlaneVectors& gradient, double longest) {
+  if (!std::isfinite(longest)) return gradient;
+  const Vector share = (longest / gradient.rowwise().norm().array().max(longest)).matrix();
+  return share.asDiagonal() * gradient;
+}
+
+Vector data_weights(const HeightField& field, const Vector& trust, const Mask& features) {
+  const Vector weight = trust.cwiseMax(kLeastTrust).cwiseProduct(field.area);
+  return (weight.array() * features.select(Vector::Constant(weight.size(), kFeatureWeight).array(), 1.0)).matrix();
 }
 
 // The region's stencils with the mean over the triangle in the place of f_x, and nothing in that of f_y.
@@ -70,8 +79,12 @@ Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& 
 }  // namespace
 
 FieldSmoother::FieldSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
-                             const PlaneVectors& along, Mask features, const SpdFactorize& factorize)
-    : field_(field), features_(std::move(features)), weight_(data_weights(field, features_)) {
+                             const PlaneVectors& along, const Vector& trust, Mask features,
+                             const SpdFactorize& factorize)
+    : field_(field),
+      longest_(options.longest),
+      features_(std::move(features)),
+      weight_(data_weights(field, trust, features_)) {
   if (!(options.length > 0) || !std::isfinite(options.length)) {
     throw InvalidInput("The smoothing length must be a positive length in scene units, not " +
                        std::to_string(options.length) + ".");
@@ -86,10 +99,11 @@ FieldSmoother::FieldSmoother(const HeightField& field, const Stencils& stencils,
 
 PlaneVectors FieldSmoother::smooth(const PlaneVectors& gradient) const {
   PlaneVectors result(field_.triangle_count(), 2);
+  const PlaneVectors data = shortened(gradient, longest_);
   for (int component = 0; component < 2; ++component) {
     Vector G = Vector::Zero(field_.vertex_count());
     for (int t = 0; t < field_.triangle_count(); ++t) {
-      for (int i = 0; i < 3; ++i) G(field_.F(t, i)) += weight_(t) / 3.0 * gradient(t, component);
+      for (int i = 0; i < 3; ++i) G(field_.F(t, i)) += weight_(t) / 3.0 * data(t, component);
     }
     solve_(G);
     for (int t = 0; t < field_.triangle_count(); ++t) {
@@ -97,7 +111,7 @@ PlaneVectors FieldSmoother::smooth(const PlaneVectors& gradient) const {
       result(t, component) = features_(t) ? gradient(t, component) : mean;
     }
   }
-  return result;
+  return gradient + shortened(result - gradient, longest_);
 }
 
 }  // namespace reflines

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "native/geometry/stencil.h"
 #include "native/types.h"
@@ -20,21 +21,24 @@ using SpdFactorize = std::function<SpdSolve(const SparseMatrix&)>;
 struct SmoothOptions {
   double length = 0.0;       // wavelength that is halved, in the mesh's unit of length; 0 changes nothing
   bool directional = false;  // only along the lines: they become straight, their spacing across stays
+  // Gradients, and changes of them, that are longer count as if they were so long: they are read off a thin triangle.
+  double longest = std::numeric_limits<double>::infinity();
 };
 
 class FieldSmoother {
  public:
   // `along` (#T x 2) gives the gradient whose level lines are the direction; read only for directional smoothing.
-  // `features`
-  // (#T, see strong_features) stay as they are and hardly count around them.
+  // `trust` (#T, 0 to 1) says how far each triangle's gradient is to be believed; `features` (#T, see strong_features)
+  // stay as they are and hardly count around them.
   FieldSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
-                const PlaneVectors& along, Mask features, const SpdFactorize& factorize);
+                const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize);
 
   // The smoothed field (#T x 2) of `gradient` (#T x 2).
   PlaneVectors smooth(const PlaneVectors& gradient) const;
 
  private:
   const HeightField& field_;
+  double longest_;
   Mask features_;
   Vector weight_;  // #T: of the data term
   SpdSolve solve_;

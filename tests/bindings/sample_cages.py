@@ -1,13 +1,9 @@
 """Cages as arrays, for tests: V (#V x 3), faces as offsets and corners, made afresh by every call."""
-import os
-from pathlib import Path
-
 import numpy as np
-import pytest
 import reflines
+from real_meshes import obj
 
 Array = np.ndarray
-MESHES = Path(os.environ.get("REFLINES_MESHES", Path(__file__).resolve().parents[3] / "shared" / "meshes"))
 VIEW = np.array([0.0, -0.5, 1.0]) / np.hypot(0.5, 1.0)
 LINE = np.array([0.0, 1.0, 0.1])
 DENT = 0.002
@@ -25,12 +21,7 @@ def hood(columns: int = 16, rows: int = 14) -> tuple[Array, Array, Array]:
 
 def roof() -> tuple[Array, Array, Array]:
     """The roof of a real car as its authors modelled it, in metres."""
-    path = MESHES / "subaru_roof_cage.obj"
-    if not path.is_file():
-        pytest.skip(f"{path.name} is not at hand: real meshes are not part of the project")
-    rows = [line.split() for line in path.read_text().splitlines() if line.strip()]
-    faces = [[int(word.split("/")[0]) - 1 for word in row[1:]] for row in rows if row[0] == "f"]
-    V = np.array([row[1:4] for row in rows if row[0] == "v"], float)
+    V, faces = obj("subaru_roof_cage.obj")
     return V, np.cumsum([0] + [len(face) for face in faces]), np.concatenate(faces)
 
 

@@ -2,7 +2,8 @@
 import numpy as np
 import pytest
 import reflines
-from sample_panels import LINE, VIEW, inside, panel, rippled, rms
+from real_meshes import triangles
+from sample_panels import LINE, VIEW, grid, inside, panel, rippled, rms
 
 AMPLITUDE, WAVELENGTH, LENGTH = 3e-4, 0.1, 0.3
 
@@ -105,3 +106,47 @@ def test_lengths_that_are_none_are_refused_in_words(length):
     positions, triangles = panel(8)
     with pytest.raises(reflines.InvalidInput, match="length"):
         reflines.smooth(optimizer(positions, triangles), length=length)
+
+
+def test_what_is_seen_at_less_than_twelve_degrees_stays():
+    """There a move along the view slides the surface more than it lifts it."""
+    plane, F = grid(40)
+    angle = np.radians(170.0) * (plane[:, 0] - 0.5)
+    V = np.stack([np.sin(angle), plane[:, 1], np.cos(angle)], 1)
+    V[:, 2] += 2e-4 * np.random.default_rng(3).normal(size=len(V))
+    solver = reflines.ShapeOptimizer(V, F, view_direction=(0.0, 0.0, 1.0), line_direction=LINE, border="fixed")
+    corners = V[F]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    steep = np.unique(F[normal[:, 2] < 0.2 * np.linalg.norm(normal, axis=1)])
+    before = solver.score(0.3)
+    assert solver.solve(reflines.smooth(solver, length=0.3)).converged
+    assert solver.score(0.3) < 0.5 * before
+    assert len(steep) > 100 and np.array_equal(solver.positions[steep], V[steep])
+    assert "seen nearly edge on" in " ".join(solver.region.messages)
+
+
+@pytest.mark.parametrize("border", ["clamped", "fixed"])
+def test_nothing_moves_where_nothing_is_asked_for(border: str):
+    clean, F = panel(20)
+    V = rippled(clean, amplitude=1e-3, wavelength=0.2)
+    for backend in ("cholmod", "umfpack"):
+        solver = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LINE, border=border,
+                                            linear_solver=backend)
+        asked = (V[F].mean(axis=1)[:, 0] > 0.0).astype(float)
+        assert solver.solve(reflines.smooth(solver, length=0.4, weight=asked)).converged
+        move = np.abs(solver.positions - V).max(axis=1)
+        assert move.max() > 1e-3
+        assert move[V[:, 0] < -0.3].max() == 0.0
+
+
+@pytest.mark.parametrize("length", [0.1, 0.15, 0.2, 0.3])
+def test_a_fillet_that_the_selection_cuts_off_bends_nothing(length: float):
+    """A car's bonnet cut out with its flanks: what its thin border triangles read is not believed. Believed, it moved
+    the bonnet by 12 mm at a length of 0.15 and left the wobble at 9.6 degrees."""
+    V, F = triangles("drivaer_hood.obj")
+    corners = V[F]
+    view = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
+    solver = reflines.ShapeOptimizer(V, F, view_direction=view / np.linalg.norm(view), line_direction=(0, 1, 0.1))
+    before = solver.score(length)
+    assert solver.solve(reflines.smooth(solver, length=length)).largest_move < 0.003
+    assert solver.score(length) < 0.65 * before

@@ -47,6 +47,39 @@ TEST_P(LinearSolverTest, AgreesWithDenseCholesky) {
   EXPECT_LT((x - expected).norm(), 1e-13 * expected.norm());
 }
 
+// Scaling unknowns by nine orders of magnitude changes the ratio of pivots, not the digits of the solution.
+TEST_P(LinearSolverTest, UnknownsOfVeryDifferentScaleAreNoSingularity) {
+  const Vector scale = Eigen::pow(10.0, Vector::LinSpaced(60, -4.5, 4.5).array());
+  const Eigen::MatrixXd dense = random_symmetric(60, 60, 1);
+  const SparseMatrix scaled = lower_of(scale.asDiagonal() * dense * scale.asDiagonal());
+  LinearSolver solver(GetParam());
+  solver.analyze(scaled);
+  solver.factorize(scaled);
+  EXPECT_EQ(solver.diagonal_shift(), 0.0);
+  Vector x = scale;
+  solver.solve(x);
+  EXPECT_LT((x.cwiseProduct(scale) - dense.llt().solve(Vector::Ones(60))).norm(), 1e-12);
+}
+
+// A height in no residual has an empty row: it stays, and the others do not notice.
+TEST_P(LinearSolverTest, UnknownsThatNothingAsksForStay) {
+  Eigen::MatrixXd dense = random_symmetric(20, 20, 3);
+  Vector expected = dense.topLeftCorner(15, 15).llt().solve(Vector::Ones(15));
+  dense.bottomRows(5).setZero();
+  dense.rightCols(5).setZero();
+  SparseMatrix lower = lower_of(dense);
+  for (int k = 15; k < 20; ++k) lower.coeffRef(k, k) = 0.0;
+  lower.makeCompressed();
+  LinearSolver solver(GetParam());
+  solver.analyze(lower);
+  solver.factorize(lower);
+  Vector x = Vector::Ones(20);
+  x.tail(5).setZero();
+  solver.solve(x);
+  EXPECT_LT((x.head(15) - expected).norm(), 1e-10 * expected.norm());
+  EXPECT_EQ(x.tail(5).norm(), 0.0);
+}
+
 TEST_P(LinearSolverTest, OneAnalysisServesAllValuesOfAPattern) {
   LinearSolver solver(GetParam());
   solver.analyze(lower_of(random_symmetric(40, 40, 1)));
@@ -93,14 +126,14 @@ TEST_P(LinearSolverTest, NearlySingularIsStillSolved) {
   EXPECT_LT((x - Vector::Ones(30)).norm(), 1e-9);
 }
 
-TEST_P(LinearSolverTest, IndefiniteOrEmptyIsAFailureInWords) {
-  for (const double diagonal : {-1.0, 0.0}) {
-    Eigen::MatrixXd dense = random_symmetric(20, 20, 3);
-    dense.row(5).setZero();
-    dense.col(5).setZero();
-    SparseMatrix lower = lower_of(dense);
-    lower.coeffRef(5, 5) = diagonal;
-    lower.makeCompressed();
+TEST_P(LinearSolverTest, IndefiniteOrZeroIsAFailureInWords) {
+  Eigen::MatrixXd indefinite = random_symmetric(20, 20, 3);
+  indefinite.row(5).setZero();
+  indefinite.col(5).setZero();
+  indefinite(5, 5) = -1.0;
+  for (const double scale : {1.0, 0.0}) {
+    SparseMatrix lower = lower_of(indefinite);
+    lower *= scale;
     LinearSolver solver(GetParam());
     solver.analyze(lower);
     EXPECT_THROW(solver.factorize(lower), SolverFailure);
