@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kChainShare = 0.25;   // of the crease angle: edges of a chain
 constexpr double kChainMedian = 25.0;  // times the median edge
-constexpr double kChainReach = 0.08;   // of the region's diagonal
+constexpr double kChainReach = 0.08;   // of the region's extent
 
 using Bends = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
@@ -57,7 +57,8 @@ int root(std::vector<int>& parent, int v) {
   return v;
 }
 
-// For every vertex the extent of the chain of marked edges it belongs to.
+// For every vertex the extent of the chain of marked edges it belongs to: twice the largest distance from its centre.
+// The diagonal of a box would depend on how the object is turned.
 Vector chain_extent(const Positions& V, const Triangles& F, const EdgeMask& marked) {
   std::vector<int> parent(V.rows());
   std::iota(parent.begin(), parent.end(), 0);
@@ -68,24 +69,27 @@ Vector chain_extent(const Positions& V, const Triangles& F, const EdgeMask& mark
       parent[std::max(a, b)] = std::min(a, b);
     }
   }
-  Positions low = V, high = V;
+  Positions centre = Positions::Zero(V.rows(), 3);
+  Vector count = Vector::Zero(V.rows()), radius = Vector::Zero(V.rows());
+  for (int v = 0; v < V.rows(); ++v) {
+    centre.row(root(parent, v)) += V.row(v);
+    count(root(parent, v)) += 1;
+  }
   for (int v = 0; v < V.rows(); ++v) {
     const int r = root(parent, v);
-    low.row(r) = low.row(r).cwiseMin(V.row(v));
-    high.row(r) = high.row(r).cwiseMax(V.row(v));
+    radius(r) = std::max(radius(r), (V.row(v) - centre.row(r) / count(r)).norm());
   }
   Vector extent(V.rows());
-  for (int v = 0; v < V.rows(); ++v) extent(v) = (high.row(root(parent, v)) - low.row(root(parent, v))).norm();
+  for (int v = 0; v < V.rows(); ++v) extent(v) = 2 * radius(root(parent, v));
   return extent;
 }
 
-double diagonal(const Positions& V, const Triangles& F) {
-  Vector3 low = V.row(F(0, 0)), high = low;
-  for (int k = 0; k < F.size(); ++k) {
-    low = low.cwiseMin(V.row(F.data()[k]).transpose());
-    high = high.cwiseMax(V.row(F.data()[k]).transpose());
-  }
-  return (high - low).norm();
+double region_extent(const Positions& V, const Triangles& F) {
+  Vector3 centre = Vector3::Zero();
+  for (int k = 0; k < F.size(); ++k) centre += V.row(F.data()[k]).transpose() / static_cast<double>(F.size());
+  double radius = 0;
+  for (int k = 0; k < F.size(); ++k) radius = std::max(radius, (V.row(F.data()[k]).transpose() - centre).norm());
+  return 2 * radius;
 }
 
 }  // namespace
@@ -96,7 +100,7 @@ EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& n
   EdgeMask result = bend > chained;
   if (!result.any()) return result;
   const Vector extent = chain_extent(V, F, result);
-  const double reach = kChainReach * diagonal(V, F);
+  const double reach = kChainReach * region_extent(V, F);
   for (int t = 0; t < F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
       result(t, i) = result(t, i) && (bend(t, i) > angle || extent(F(t, (i + 1) % 3)) > reach);

@@ -150,3 +150,19 @@ def test_a_fillet_that_the_selection_cuts_off_bends_nothing(length: float):
     before = solver.score(length)
     assert solver.solve(reflines.smooth(solver, length=length)).largest_move < 0.003
     assert solver.score(length) < 0.65 * before
+
+
+def test_turning_the_object_with_view_and_light_turns_the_result():
+    """Creases too: a chain of bends is as long as it is, however it lies in the axes of space."""
+    V, F = triangles("drivaer_hood.obj")
+    corners = V[F]
+    view = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
+    line, results = np.array([0.0, 1.0, 0.1]), []
+    for seed in range(4):
+        Q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0] if seed else np.eye(3)
+        Q *= np.linalg.det(Q)
+        solver = reflines.ShapeOptimizer(V @ Q.T, F, view_direction=Q @ view, line_direction=Q @ line)
+        solver.solve(reflines.smooth(solver, length=0.2))
+        results.append(((solver.positions - V @ Q.T) @ Q, solver.region.creases))
+    assert all(creases == results[0][1] for _, creases in results)
+    assert max(np.abs(move - results[0][0]).max() for move, _ in results) < 1e-8
