@@ -19,6 +19,7 @@ from .targets import mirrored
 CODES = {"free": 0, "fixed": 1, "clamped": 2}  # of borders, vertex by vertex
 AUTOMATIC_LENGTH = 1.0 / 6.0  # of the panel's diagonal
 FAR = 0.05  # of the panel's diagonal: who moves a panel further than this wants to be told
+TURNED = np.radians(45.0)  # of a face; who turns one further wants to be told
 BuildTarget = Callable[[object], object]  # of the optimizer; what it returns is a native Target
 
 
@@ -176,7 +177,8 @@ def solved(live: Live, build_target: BuildTarget, settings: Settings, progress: 
     return Solution(live.panel, positions, report, target, residual_of(live.panel, optimizer, target), lacking,
                     root_mean_square(optimizer, target), length, score, optimizer.score(length),
                     (*optimizer.region.messages, *mirror_remarks(live.panel, live.view),
-                     *far_move(live.panel, report.largest_move)))
+                     *far_move(live.panel, report.largest_move, live.border),
+                     *turned_over(live.panel, positions)))
 
 
 def residual_of(panel: Panel, optimizer: object, target: object) -> np.ndarray:
@@ -198,11 +200,29 @@ def mirror_remarks(panel: Panel, seen: View) -> tuple[str, ...]:
     return mirror.remarks(panel.mirror, panel.is_symmetric_for(seen.view_direction) if cage else is_alike(panel, seen))
 
 
-def far_move(panel: Panel, move: float) -> tuple[str, ...]:
+def far_move(panel: Panel, move: float, border: str) -> tuple[str, ...]:
     if move <= FAR * panel.diagonal:
         return ()
+    remedy = "less strength" if border == "clamped" else "less strength, or the border Clamped,"
     return (f"Vertices move by up to {move / panel.diagonal:.0%} of the panel's size: the lines asked for are far from "
-            "those of its shape; less strength, or the border Clamped, keeps it nearer",)
+            f"those of its shape; {remedy} keeps it nearer",)
+
+
+def turned_over(panel: Panel, positions: np.ndarray) -> tuple[str, ...]:
+    """Nobody asks for that: it is where a move along the view slides a steep face over its neighbour."""
+    before, after = unit_normals(panel.V, panel.F), unit_normals(positions, panel.F)
+    count = int(np.count_nonzero((before * after).sum(axis=1) < np.cos(TURNED)))
+    if count == 0:
+        return ()
+    return (f"{count} triangle{'s turn' if count > 1 else ' turns'} by more than {np.degrees(TURNED):.0f} degrees: "
+            "deselect the faces that the view sees at a slant, or turn the view camera towards them",)
+
+
+def unit_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """#F x 3; zero where a triangle has no area."""
+    a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
+    normals = np.cross(b - a, c - a)
+    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
 
 
 def root_mean_square(optimizer: object, target: object) -> float:
