@@ -119,6 +119,7 @@ def refuse_unusable(ob: bpy.types.Object, key: str) -> None:
                       "or choose the result Shape Key")
     if key and keys is not None and not keys.use_relative:
         raise Refusal(f"{ob.name} has absolute shape keys, which cannot be mixed: choose the result Mesh in Edit Mode")
+    refuse_mixed(ob, key)
     others = mesh.users - mesh.use_fake_user - 1
     if ob.mode != 'EDIT' and others > 0:
         raise Refusal(f"{ob.name} shares its mesh with {others} other objects: "
@@ -129,6 +130,14 @@ def refuse_unusable(ob: bpy.types.Object, key: str) -> None:
     scale = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
     if not np.isfinite(scale).all() or np.linalg.matrix_rank(scale) < 3:
         raise Refusal(f"{ob.name} is scaled to nothing in one direction: give it a scale other than zero")
+
+
+def refuse_mixed(ob: bpy.types.Object, key: str) -> None:
+    """A key holds whole shapes: the region of one put into another tears the panel at the region's border."""
+    edited = ob.active_shape_key if ob.mode == 'EDIT' else None
+    if key and edited is not None and edited.name != key and key in ob.data.shape_keys.key_blocks:
+        raise Refusal(f"{ob.name} is edited in the shape key {edited.name}, but the result would go into {key}, which "
+                      f"is there already: edit {key} to go on with it, or rename it to begin another")
 
 
 def refuse_broken(name: str, vertices: np.ndarray, local: np.ndarray) -> None:

@@ -149,6 +149,51 @@ def test_absolute_keys_are_refused(panel) -> None:
         into_key()
 
 
+def edits_the_basis(ob: bpy.types.Object) -> None:
+    ob.active_shape_key_index = 0
+    scenes.edit_inner(ob, margin=5)
+
+
+def test_another_key_is_never_mixed_into_the_results(panel) -> None:
+    into_key()
+    edits_the_basis(panel)
+    before = scenes.fingerprint(panel)
+    with pytest.raises(RuntimeError, match="Basis, but the result would go into Reflection Lines"):
+        into_key(length=0.8)
+    assert scenes.fingerprint(panel) == before
+    assert panel.mode == 'EDIT' and panel.active_shape_key.name == "Basis"
+
+
+def test_a_renamed_result_lets_another_begin(panel) -> None:
+    into_key()
+    panel.data.shape_keys.key_blocks[KEY].name = "First"
+    kept = shape(panel, "First").tobytes()
+    edits_the_basis(panel)
+    into_key(length=0.8)
+    assert [key.name for key in panel.data.shape_keys.key_blocks] == ["Basis", "First", KEY]
+    assert shape(panel, "First").tobytes() == kept
+
+
+def test_a_live_warp_does_not_mix_keys_either(panel) -> None:
+    into_key()
+    edits_the_basis(panel)
+    bpy.ops.reflines.add_warp_lattice()
+    bpy.context.scene.reflection_lines.result = 'SHAPE_KEY'
+    before = scenes.fingerprint(panel)
+    with pytest.raises(RuntimeError, match="edit Reflection Lines to go on with it"):
+        bpy.ops.reflines.start_live_warp('EXEC_DEFAULT', True)
+    assert scenes.fingerprint(panel) == before and panel.mode == 'EDIT'
+
+
+def test_resolve_goes_on_where_another_key_is_edited(panel) -> None:
+    """It begins with the shape that the key is relative to, whichever key is edited."""
+    into_key(length=0.5)
+    first = shape(panel, KEY)
+    edits_the_basis(panel)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert np.array_equal(shape(panel, KEY), first)
+
+
 def turn_light() -> None:
     bpy.context.scene.reflection_lines.light.rotation_euler.y -= 0.3
     bpy.context.view_layer.update()
