@@ -2,6 +2,7 @@
 
 Nothing here is saved, and nothing here knows Blender's mesh data.
 """
+from collections.abc import Collection
 from dataclasses import replace
 
 import bpy
@@ -14,7 +15,9 @@ from .bridge.gather import Panel
 from .bridge.refusal import Refusal
 from .bridge.view import View
 
-_live: dict[str, solving.Live] = {}
+FEW = 2  # optimizers kept between operations, that of the panel at work and another; each holds a matrix's factors
+
+_live: dict[str, solving.Live] = {}  # of each object, the one used last at the end
 _solutions: dict[str, solving.Last] = {}  # of each object
 live_warps: dict[str, object] = {}    # the live/follower of each scene with a live warp
 drags: list[object] = []              # the drag/modal.Drag that runs, if one does
@@ -36,7 +39,22 @@ def lend(panel: Panel, seen: View, border: str) -> solving.Live | None:
 
 
 def take_back(live: solving.Live) -> None:
+    _live.pop(live.panel.name, None)
     _live[live.panel.name] = live
+
+
+def keep_few(names: Collection[str]) -> None:
+    """At the end of an operation, with the names of its panels: the redo panel may repeat it over all of them."""
+    for gone in [name for name in _live if bpy.data.objects.get(name) is None]:
+        del _live[gone]
+    others = [name for name in _live if name not in names]
+    for name in others[:max(len(_live) - max(FEW, len(names)), 0)]:
+        del _live[name]
+
+
+def kept() -> tuple[str, ...]:
+    """Names of the panels whose optimizers are kept."""
+    return tuple(_live)
 
 
 def remember(last: solving.Last) -> None:

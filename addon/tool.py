@@ -52,11 +52,15 @@ class Tool:
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()  # transforms set by a script a moment ago
         self.take_settings(context.scene)
+        subjects = []
         try:
-            solutions = [self.solved(context, ob) for ob in self.subjects(context)]
+            subjects = self.subjects(context)
+            solutions = [self.solved(context, ob) for ob in subjects]
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
+        finally:
+            session.keep_few({ob.name for ob in subjects})
         for solution in solutions:  # a result in a shape key ends Edit Mode, for all
             apply.keep_region(bpy.data.objects[solution.panel.name], solution.panel)
         for solution in solutions:

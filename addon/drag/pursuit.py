@@ -109,3 +109,4 @@ class Pursuit:
         for start in self.starts:
             if start is not None:
                 session.take_back(start)
+        session.keep_few({panel.name for panel in self.panels})

@@ -123,7 +123,9 @@ class REFLINES_OT_apply_live_warp(LiveEnd, bpy.types.Operator):
             return follower.solution
         wish, ground = about.wanted(scene), about.ground(scene, ob)
         handlers.end(scene)
-        return session.solve(ground.panel, ground.view, about.solve_settings(scene), about.build(wish))
+        solution = session.solve(ground.panel, ground.view, about.solve_settings(scene), about.build(wish))
+        session.keep_few({ob.name})
+        return solution
 
 
 class REFLINES_OT_discard_live_warp(LiveEnd, bpy.types.Operator):

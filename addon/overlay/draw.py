@@ -1,4 +1,5 @@
 """Draws the stripes over meshes. A batch is rebuilt when its surface changes, never when a setting does."""
+import time
 from dataclasses import dataclass, field
 
 import bpy
@@ -11,6 +12,8 @@ from . import last_solve, limit, seen, shader, stripes
 from .normals import Fits
 
 POLL = 0.05  # seconds between two looks at the fit in a thread
+UNSEEN = 60.0   # seconds after which what no viewport draws is dropped: of two, each leaves the other its own
+TEXTURES = 4    # environment images kept; one of 2,048 x 1,024 pixels takes 16 MB
 NOTHING = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32), np.zeros((0, 3)))
 BEFORE = "before "  # the fit of an object's shape before its last solve goes by this and its name
 
@@ -23,6 +26,7 @@ class Shown:
     topology: object = None
     uploaded: tuple = ()          # the arrays of the batch
     batch: object = None
+    drawn: float = field(default_factory=time.monotonic)  # last
 
 
 @dataclass
@@ -45,6 +49,17 @@ def batch_builds() -> int:
     return _cache.builds
 
 
+def kept() -> set[str]:
+    """Names of the objects of which anything is kept."""
+    fits, limits = _cache.fits, _cache.limits
+    every = (*_cache.shown, *_cache.uniforms, *fits.done, *fits.wanted, *fits.started, *limits.kept)
+    return {name.removeprefix(BEFORE) for name in every}
+
+
+def kept_textures() -> int:
+    return len(_cache.textures)
+
+
 def is_waiting() -> bool:
     """Whether a fit of normals is on its way."""
     return _cache.fits.is_waiting()
@@ -54,19 +69,35 @@ def draw() -> None:
     """In a viewport's POST_VIEW."""
     context = bpy.context
     settings = context.scene.reflection_lines.stripes
-    if not settings.show:
-        return
-    objects = seen.shown_objects(context, settings)
-    for ob in objects:
+    if settings.show:
+        draw_objects(context, settings)
+    drop_unseen()
+    if is_waiting() and not bpy.app.timers.is_registered(poll_fits):
+        bpy.app.timers.register(poll_fits, first_interval=POLL)
+
+
+def draw_objects(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+    for ob in seen.shown_objects(context, settings):
         values = seen.uniforms(context, ob)
         if values is None:
             continue
         shown = _cache.shown.setdefault(ob.name, Shown())
+        shown.drawn = time.monotonic()
         refresh(shown, ob, settings, context.evaluated_depsgraph_get())
         if shown.batch is not None:
             paint(ob.name, shown.batch, values, texture_of(settings))
-    if is_waiting() and not bpy.app.timers.is_registered(poll_fits):
-        bpy.app.timers.register(poll_fits, first_interval=POLL)
+
+
+def drop_unseen() -> None:
+    """Of objects that are gone, or that no viewport has drawn for long. After drawing: a view may rest for longer."""
+    late = time.monotonic() - UNSEEN
+    for name in [name for name, shown in _cache.shown.items()
+                 if shown.drawn < late or bpy.data.objects.get(name) is None]:
+        del _cache.shown[name]
+        _cache.uniforms.pop(name, None)
+        _cache.limits.drop(name)
+        for fit in (name, BEFORE + name):
+            _cache.fits.drop(fit)
 
 
 def refresh(shown: Shown, ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
@@ -142,6 +173,9 @@ def texture_of(settings: bpy.types.PropertyGroup) -> gpu.types.GPUTexture:
     if key not in _cache.textures:
         pixels = environment.read(wanted) if wanted is not None else None
         _cache.textures[key] = make_texture(np.full((1, 1, 4), 0.2, np.float32) if pixels is None else pixels)
+    _cache.textures[key] = _cache.textures.pop(key)  # the one used last at the end
+    for old in list(_cache.textures)[:-TEXTURES]:
+        del _cache.textures[old]
     return _cache.textures[key]
 
 
@@ -174,8 +208,8 @@ def paint(name: str, batch: gpu.types.GPUBatch, values: np.ndarray, texture: gpu
 def poll_fits() -> float | None:
     """A timer, so on Blender's own thread: draws again what has better normals now."""
     name = _cache.fits.finished()
-    if name is not None:
-        _cache.shown.setdefault(name.removeprefix(BEFORE), Shown()).stale = True
+    if name is not None and name.removeprefix(BEFORE) in _cache.shown:
+        _cache.shown[name.removeprefix(BEFORE)].stale = True
         for window in bpy.context.window_manager.windows:
             for area in window.screen.areas:
                 if area.type == 'VIEW_3D':

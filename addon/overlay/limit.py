@@ -37,6 +37,9 @@ class Limits:
         return Surface(limit.subdivision.positions(cage.V), limit.topology, selected[limit.topology.faces],
                        limit.subdivision.normals(cage.V))
 
+    def drop(self, name: str) -> None:
+        self.kept.pop(name, None)
+
     def forget(self) -> None:
         self.kept.clear()
 

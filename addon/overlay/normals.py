@@ -100,6 +100,11 @@ class Fits:
     def is_waiting(self) -> bool:
         return bool(self.job or self.wanted)
 
+    def drop(self, name: str) -> None:
+        self.obsolete |= self.is_at(name)
+        for kept in (self.done, self.wanted, self.started):
+            kept.pop(name, None)
+
     def forget(self) -> None:
         """Nobody asks for what a thread that still runs brings."""
         if self.worker is not None:

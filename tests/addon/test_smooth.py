@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 import pytest
-from reflection_lines import native
+from reflection_lines import native, session
 
 import scenes
 
@@ -165,3 +165,40 @@ def test_a_perspective_camera_is_taken_at_the_panels_centre(panel) -> None:
     longest = moves[np.argmax(np.linalg.norm(moves, axis=1))]
     along = abs(longest @ towards) / np.linalg.norm(longest) / np.linalg.norm(towards)
     assert along == pytest.approx(1.0, abs=1e-6)
+
+
+def smooth_another(name: str, *others: bpy.types.Object) -> bpy.types.Object:
+    scenes.object_mode()
+    for ob in bpy.context.selected_objects:
+        ob.select_set(False)
+    ob = scenes.panel(name, cells=CELLS)
+    scenes.edit(ob, *others)
+    for each in (ob, *others):
+        scenes.select_faces(each, scenes.inner(CELLS))
+    scenes.smooth()
+    return ob
+
+
+def test_few_optimizers_are_kept(panel) -> None:
+    """Each holds the factors of a matrix: 75 MB for 20,000 vertices."""
+    scenes.smooth()
+    for number in range(4):
+        smooth_another(f"Panel {number}")
+        assert len(session.kept()) == 2 and session.kept()[-1] == f"Panel {number}"
+
+
+def test_the_optimizer_of_a_deleted_panel_goes(panel) -> None:
+    scenes.smooth()
+    scenes.object_mode()
+    bpy.data.objects.remove(panel)
+    scenes.edit_inner(scenes.panel("Other", cells=CELLS), CELLS)
+    scenes.smooth()
+    assert session.kept() == ("Other",)
+
+
+def test_an_operation_over_several_panels_keeps_theirs(panel) -> None:
+    """Repeated with other settings it factors nothing again."""
+    scenes.smooth()
+    others = [smooth_another(f"Panel {number}") for number in range(3)]
+    smooth_another("Last", *others)
+    assert set(session.kept()) == {"Last", *(ob.name for ob in others)}

@@ -178,8 +178,43 @@ def test_stripes_follow_undo_in_both_modes(driver: window.Window) -> Steps:
         ob = bpy.data.objects["Undone"]
 
 
+def test_what_is_gone_or_long_unseen_is_dropped(driver: window.Window) -> Steps:
+    draw = sys.modules["reflection_lines"].draw
+    ob = fresh_panel(driver, "First")
+    prepare(driver, ob)
+    yield from captured(driver)
+    assert draw.kept() == {"First"}  # and none of the tests before
+    with driver.override():
+        scenes.panel("Second", cells=CELLS)
+    yield from captured(driver)
+    assert draw.kept() == {"First", "Second"}
+    draw.UNSEEN, patience = 0.2, draw.UNSEEN
+    yield from captured(driver)
+    picture = yield from captured(driver)
+    assert draw.kept() == {"Second"}
+    assert np.ptp(picture) > 0.5
+    with driver.override():
+        scenes.activate(ob)
+    again = yield from captured(driver)
+    draw.UNSEEN = patience
+    assert same_picture(again, picture)  # both panels are alike
+
+
+def test_few_environment_images_are_kept(driver: window.Window) -> Steps:
+    draw, stripes = sys.modules["reflection_lines"].draw, bpy.context.scene.reflection_lines.stripes
+    prepare(driver, fresh_panel(driver, "Surroundings"))
+    stripes.mode = 'IMAGE'
+    for number in range(draw.TEXTURES + 2):
+        stripes.image = bpy.data.images.new(f"Surroundings {number}", 8, 4)
+        driver.redraw()
+        yield 0.2
+    assert draw.kept_textures() == draw.TEXTURES
+    stripes.mode, stripes.image = 'REFLECTION', None
+
+
 window.run(test_pixels_in_object_mode, test_pixels_of_a_turned_scaled_and_mirrored_object,
            test_pixels_in_edit_mode_while_the_mesh_changes, test_pixels_over_the_edit_cage,
            test_settings_view_and_light_rebuild_no_batch, test_a_moved_vertex_rebuilds_one_batch,
            test_stripes_follow_a_drag_and_its_escape, test_a_panel_that_is_hidden_wholly,
-           test_stripes_follow_undo_in_both_modes)
+           test_stripes_follow_undo_in_both_modes, test_what_is_gone_or_long_unseen_is_dropped,
+           test_few_environment_images_are_kept)
