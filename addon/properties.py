@@ -4,6 +4,7 @@ import json
 import bpy
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
 
+from .bridge import units
 from .stripe_settings import ReflinesSetups, ReflinesStripes
 from .tool_settings import ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings
 
@@ -68,13 +69,12 @@ class ReflinesReport(bpy.types.PropertyGroup):
 
     def summary(self) -> str:
         return (f"{self.termination.replace('_', ' ')} after {self.iterations} iterations in {self.seconds:.2f} s, "
-                f"wobble {self.score_before:.4g} -> {self.score_after:.4g} degrees at length {self.length:.4g}, "
+                f"wobble {self.score_before:.4g} -> {self.score_after:.4g} degrees "
+                f"at length {units.length_text(self.length, bpy.context.scene)}, "
                 f"residual {self.residual_before:.4g} -> {self.residual_after:.4g}, largest move {self.moved()}")
 
     def moved(self) -> str:
-        """In the scene's units."""
-        system = bpy.context.scene.unit_settings.system
-        return bpy.utils.units.to_string(system, 'LENGTH', self.largest_move, precision=5)
+        return units.length_text(self.largest_move, bpy.context.scene, precision=5)
 
 
 def is_mesh(_: object, ob: bpy.types.Object) -> bool:

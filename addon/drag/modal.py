@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from .. import session, solving
-from ..bridge import apply, gather
+from ..bridge import apply, gather, units
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..overlay import circle
@@ -155,23 +155,18 @@ class Drag:
 
 def typed_unit(handle: Handle, scene: bpy.types.Scene) -> float:
     """What a typed 1 means to the property: degrees, and the scene's unit of length."""
-    units = scene.unit_settings
     if handle.unit == 'ANGLE':
-        return float(np.radians(1.0)) if units.system_rotation == 'DEGREES' else 1.0
-    if handle.unit == 'LENGTH' and units.system != 'NONE':
-        return bpy.utils.units.to_value(units.system, 'LENGTH', "1") / units.scale_length
-    return 1.0
+        return float(np.radians(1.0)) if scene.unit_settings.system_rotation == 'DEGREES' else 1.0
+    return units.typed_length(scene) if handle.unit == 'LENGTH' else 1.0
 
 
 def in_units(handle: Handle, value: float, scene: bpy.types.Scene) -> str:
-    units = scene.unit_settings
     if handle.unit == 'ANGLE':
-        return f"{np.degrees(value):.2f}\u00b0" if units.system_rotation == 'DEGREES' else f"{value:.4f}"
-    if handle.unit == 'LENGTH' and units.system != 'NONE':
-        return bpy.utils.units.to_string(units.system, 'LENGTH', value * units.scale_length, precision=4)
-    if handle.unit == 'PERCENT':
-        return f"{value:.1f} %"
-    return f"{value:.4g}" if handle.unit == 'LENGTH' else f"{value:.3f}"
+        degrees = scene.unit_settings.system_rotation == 'DEGREES'
+        return f"{np.degrees(value):.2f}\u00b0" if degrees else f"{value:.4f}"
+    if handle.unit == 'LENGTH':
+        return units.length_text(value, scene)
+    return f"{value:.1f} %" if handle.unit == 'PERCENT' else f"{value:.3f}"
 
 
 def radius_handle(centre: str) -> tuple[Handle, ...]:

@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 
 from .. import session, solving
-from ..bridge import cage, dense, gather, panels
+from ..bridge import cage, dense, gather, panels, units
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..targets.fit import Fit, Misfit
@@ -56,10 +56,7 @@ no region from a run before"""
 
 
 def distance(misfit: Misfit) -> str:
-    """In the scene's units."""
-    system = bpy.context.scene.unit_settings.system
-    mean, largest = (bpy.utils.units.to_string(system, 'LENGTH', value, precision=4)
-                     for value in (misfit.mean, misfit.largest))
+    mean, largest = (units.length_text(value, bpy.context.scene) for value in (misfit.mean, misfit.largest))
     return f"{mean} (at most {largest})"
 
 

@@ -61,6 +61,13 @@ def test_the_surface_of_a_cage_gives_that_cage_back_and_says_how_near() -> None:
     assert report.fit == ""
 
 
+def test_distances_are_told_in_the_scenes_unit() -> None:
+    noisy, _ = scene()
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    fit()
+    assert "\u00b5m (at most " in noisy.reflection_lines.report.fit  # of a panel of 2 cm
+
+
 def test_a_clamped_border_is_kept_when_asked_for() -> None:
     noisy, _ = scene()
     before = scenes.positions(noisy)

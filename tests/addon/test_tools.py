@@ -224,8 +224,27 @@ def written(grey: np.ndarray, path: object, depth: str, kind: str) -> bpy.types.
     return bpy.data.images.load(str(path))
 
 
+
 def test_far_moves_and_faces_turned_over_are_told_with_what_helps(panel: bpy.types.Object) -> None:
     bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=20.0, border='free')
     notes = panel.reflection_lines.report.notes
     assert "of the panel's size" in notes and "the border Clamped, keeps it nearer" in notes
     assert "triangles turn by more than 45 degrees" in notes
+
+
+@pytest.mark.parametrize(("scale", "told"), [(1.0, "m"), (0.001, "mm")])
+def test_lengths_are_told_in_the_scenes_unit(panel, capfd, scale, told) -> None:
+    """As the sidebar's fields show them, where a Blender unit may be a millimetre."""
+    bpy.context.scene.unit_settings.scale_length = scale
+    scenes.smooth(length=2.0)
+    moved = panel.reflection_lines.report.largest_move * scale
+    said = capfd.readouterr().out
+    assert f" at length 2 {told}, " in said
+    assert f"largest move {bpy.utils.units.to_string('METRIC', 'LENGTH', moved, precision=5)}" in said
+
+
+def test_lengths_without_a_unit(panel, capfd) -> None:
+    bpy.context.scene.unit_settings.system = 'NONE'
+    scenes.smooth(length=0.5)
+    said = capfd.readouterr().out
+    assert " at length 0.5, " in said and f"move {panel.reflection_lines.report.largest_move:.5g}\n" in said

@@ -12,7 +12,7 @@ MAY_IMPORT = {
     "bridge": {"targets"},
     "tool_settings": {"bridge"},
     "stripe_settings": set(),
-    "properties": {"tool_settings", "stripe_settings"},
+    "properties": {"bridge", "tool_settings", "stripe_settings"},
     "panels": {"properties"},
     "stripes_panel": {"panels", "properties"},
     "menus": {"properties"},
