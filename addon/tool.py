@@ -104,9 +104,9 @@ class Tool:
         stored.center = solution.panel.local_center
         stored.run.fill(self, ob.data, solution.panel.key)
         stored.report.fill(solution, (*solution.notes, *self.remarks(solution)))
-        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")
+        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")  # the status bar shows the last one
 
 
 def placed_falloff(settings: Tool, scene: bpy.types.Scene, ob: bpy.types.Object, panel: Panel) -> Falloff | None:

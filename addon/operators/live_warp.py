@@ -115,7 +115,9 @@ class REFLINES_OT_apply_live_warp(LiveEnd, bpy.types.Operator):
         stored.center = panel.local_center
         stored.report.fill(solution, (*solution.notes, *warp.remarks(solution.target)))
         stored.run.note("REFLINES_OT_warp", about.operator_settings(scene), ob.data, panel.key)
-        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")
+        for note in stored.report.notes.splitlines():
+            self.report({'WARNING'}, f"{ob.name}: {note}")
+        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")  # the status bar shows the last one
 
     def solution(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> solving.Solution:
         follower = session.live_warps.get(scene.name)

@@ -139,6 +139,15 @@ def test_some_faces_cannot_be_used_and_are_held(change, sentence) -> None:
     assert (scenes.positions(ob) != before).any()
 
 
+def test_the_result_is_told_last(capfd) -> None:
+    """The status bar shows the last report only."""
+    edited(one_face_flipped)
+    scenes.smooth()
+    note, result = capfd.readouterr().out.splitlines()[-2:]
+    assert note.startswith("Warning: Panel: ") and "away from the view" in note
+    assert result.startswith("Info: Panel: converged")
+
+
 def test_held_vertices_stay() -> None:
     ob = edited(one_face_flipped)
     before = scenes.positions(ob)
