@@ -55,12 +55,10 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         layout.row().prop(context.scene.reflection_lines, "border", expand=True)
         layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(context.scene.reflection_lines, "result")
-        if self.is_subdivided(context.view_layer.objects.active):
+        ob = context.view_layer.objects.active
+        if ob is not None and ob.reflection_lines.is_cage():
             layout.prop(context.scene.reflection_lines, "solve_for")
             layout.operator("reflines.fit", icon='MOD_SHRINKWRAP')
-
-    def is_subdivided(self, ob: bpy.types.Object | None) -> bool:
-        return ob is not None and len(ob.modifiers) > 0 and ob.modifiers[-1].type == 'SUBSURF'
 
     def region_text(self, ob: bpy.types.Object | None) -> str:
         if ob is not None and ob.type == 'LATTICE' and ob.reflection_lines.panel is not None:

@@ -4,7 +4,7 @@ import json
 import bpy
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
 
-from .bridge import units
+from .bridge import modifiers, units
 from .stripe_settings import ReflinesSetups, ReflinesStripes
 from .tool_settings import ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings
 
@@ -34,7 +34,7 @@ def result_property(**options: object) -> object:
 
 def solve_for_property(**options: object) -> object:
     return EnumProperty(name="Solve for", items=KINDS, default='CAGE', **options,
-                        description="What moves where the object's last modifier is Subdivision Surface")
+                        description="What moves where the object's last modifier that is shown is Subdivision Surface")
 
 
 def border_property(**options: object) -> object:
@@ -120,6 +120,10 @@ class ReflinesObject(bpy.types.PropertyGroup):
     run: PointerProperty(type=ReflinesRun)
     last: StringProperty(name="Last Solve", description="As saved with the file, see bridge/record.py",
                          options={'HIDDEN'})
+
+    def is_cage(self) -> bool:
+        """Whether the tools can solve for a cage."""
+        return modifiers.is_cage(self.id_data)
 
 
 class ReflinesLive(bpy.types.PropertyGroup):

@@ -4,7 +4,7 @@ import numpy as np
 from bpy.props import BoolProperty
 
 from . import session, solving
-from .bridge import apply, curve, gather, keys, panels, place
+from .bridge import apply, curve, gather, keys, modifiers, panels, place
 from .bridge.gather import Panel
 from .bridge.refusal import Refusal
 from .properties import border_property, result_property, solve_for_property
@@ -103,7 +103,7 @@ class Tool:
         stored = ob.reflection_lines
         stored.center = solution.panel.local_center
         stored.run.fill(self, ob.data, solution.panel.key)
-        stored.report.fill(solution, (*solution.notes, *self.remarks(solution)))
+        stored.report.fill(solution, (*solution.notes, *self.remarks(solution), *modifiers.remarks(ob, self.solve_for)))
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")
         self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")  # the status bar shows the last one

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from . import gather, versions
+from . import gather, modifiers, versions
 from .gather import Panel
 from .refusal import Refusal
 
@@ -56,17 +56,12 @@ class CagePanel(Panel):
         return self.mirror_axis >= 0 and abs(along[self.mirror_axis]) <= IN_PLANE * np.linalg.norm(along)
 
 
-def is_under_subdivision(ob: bpy.types.Object | None) -> bool:
-    shown = [modifier for modifier in ob.modifiers if modifier.show_viewport] if ob is not None else []
-    return bool(shown) and shown[-1].type == 'SUBSURF' and shown[-1].levels > 0
-
-
 def gather_cage(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
                 or_all: bool = False) -> CagePanel:
     """As gather.gather."""
     panel = gather.gather(ob, local, key, or_all=or_all)
     local = gather.coordinates(ob, key) if local is None else local
-    *below, modifier = (each for each in ob.modifiers if each.show_viewport)
+    *below, modifier = modifiers.shaping(ob)
     mirror = mirror_of(ob.name, below)
     if modifier.subdivision_type != 'CATMULL_CLARK':
         raise Refusal(f"{ob.name} is subdivided without smoothing (Simple): "

@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 
-from . import cage, gather, keys
+from . import cage, gather, keys, modifiers
 from .gather import Panel
 
 
@@ -10,6 +10,6 @@ def gathered(ob: bpy.types.Object, solve_for: str, result: str, local: np.ndarra
              or_all: bool = False) -> Panel:
     """`solve_for` and `result` as in properties; the rest as in gather.gather."""
     key = keys.NAME if result == 'SHAPE_KEY' else ""
-    if solve_for == 'CAGE' and cage.is_under_subdivision(ob):
+    if solve_for == 'CAGE' and modifiers.is_cage(ob):
         return cage.gather_cage(ob, local, key, or_all=or_all)
     return gather.gather(ob, local, key, or_all=or_all)

@@ -4,7 +4,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import cage, gather, region
+from . import cage, gather, modifiers, region
 from .cage import Cage
 from .refusal import Refusal
 
@@ -12,9 +12,9 @@ from .refusal import Refusal
 def read(ob: bpy.types.Object) -> tuple[Cage, np.ndarray] | None:
     """In object space, its region the visible faces; and which faces (#faces) are selected. None where what is shown is
     no cage's surface, or one with modifiers that are not followed."""
-    if not cage.is_under_subdivision(ob):
+    if not modifiers.is_cage(ob):
         return None
-    *below, modifier = (each for each in ob.modifiers if each.show_viewport)
+    *below, modifier = modifiers.shaping(ob)
     if modifier.subdivision_type != 'CATMULL_CLARK' or ob.mode == 'EDIT' and not modifier.show_in_editmode:
         return None
     try:

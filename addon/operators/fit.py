@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 
 from .. import session, solving
-from ..bridge import cage, dense, gather, panels, units
+from ..bridge import dense, gather, modifiers, panels, units
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..targets.fit import Fit, Misfit
@@ -38,8 +38,9 @@ no region from a run before"""
         return panels.gathered(ob, self.solve_for, self.result, self.original(ob) if self.anew else None, or_all=True)
 
     def solved(self, context: bpy.types.Context, ob: bpy.types.Object) -> solving.Solution:
-        if not cage.is_under_subdivision(ob):
-            raise Refusal(f"{ob.name} is no cage: its last modifier has to be a Subdivision Surface with levels")
+        if not modifiers.is_cage(ob):
+            raise Refusal(f"{ob.name} is no cage: the last modifier that is shown has to be a Subdivision Surface "
+                          "with levels")
         panel = self.panel_of(ob)
         seen = session.view_of(context.scene, panel.center)
         fit = Fit(dense.read(context, ob), seen.view_direction, seen.line_direction)

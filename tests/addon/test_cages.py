@@ -1,4 +1,6 @@
 """Below a Subdivision Surface modifier the tools move the cage, and the subdivided surface is what gets better."""
+from collections.abc import Callable
+
 import bpy
 import numpy as np
 import pytest
@@ -179,6 +181,66 @@ def test_what_is_not_followed_is_refused_in_words(kind: str, said: str) -> None:
     with pytest.raises(RuntimeError, match=f"{said} below its subdivision"):
         scenes.smooth()
     assert scenes.fingerprint(ob) == before
+
+
+def add_nodes(ob: bpy.types.Object, *kinds: str) -> bpy.types.Modifier:
+    """A geometry nodes modifier: these nodes one after the other."""
+    group = bpy.data.node_groups.new("Nodes", 'GeometryNodeTree')
+    for where in ('INPUT', 'OUTPUT'):
+        if bpy.app.version < (4, 0, 0):
+            getattr(group, f"{where.lower()}s").new('NodeSocketGeometry', "Geometry")
+        else:
+            group.interface.new_socket(name="Geometry", in_out=where, socket_type='NodeSocketGeometry')
+    chain = [group.nodes.new(kind) for kind in ('NodeGroupInput', *kinds, 'NodeGroupOutput')]
+    for one, next_one in zip(chain, chain[1:], strict=False):
+        group.links.new(one.outputs[0], next_one.inputs[0])
+    modifier = ob.modifiers.new("Nodes", 'NODES')
+    modifier.node_group = group
+    return modifier
+
+
+def smoothed_below(add: Callable[[bpy.types.Object], object]) -> tuple[bpy.types.Object, np.ndarray]:
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    ob = subdivided()
+    add(ob)
+    assert scenes.smooth(length=0.8) == {'FINISHED'}
+    return ob, scenes.positions(ob)
+
+
+def hidden(ob: bpy.types.Object) -> None:
+    ob.modifiers.new("Solidify", 'SOLIDIFY').show_viewport = False
+
+
+@pytest.mark.parametrize("add", [
+    lambda ob: ob.modifiers.new("Weighted Normal", 'WEIGHTED_NORMAL'), hidden,
+    lambda ob: add_nodes(ob, 'GeometryNodeSetShadeSmooth')], ids=["normals", "hidden", "smooth by angle"])
+def test_what_follows_and_moves_nothing_leaves_it_a_cage(add) -> None:
+    _, alone = smoothed_below(lambda _: None)
+    ob, result = smoothed_below(add)
+    assert np.array_equal(result, alone)
+    assert ob.reflection_lines.is_cage() and "modifier" not in ob.reflection_lines.report.notes
+
+
+@pytest.mark.parametrize("add", [
+    lambda ob: ob.modifiers.new("Solid", 'SOLIDIFY'), lambda ob: add_nodes(ob, 'GeometryNodeTransform')],
+    ids=["solidify", "nodes"])
+def test_what_follows_and_changes_the_surface_is_named(add) -> None:
+    _, mesh = smoothed_below(lambda ob: setattr(ob.modifiers[0], "show_viewport", False))
+    ob, result = smoothed_below(add)
+    assert np.array_equal(result, mesh)
+    assert not ob.reflection_lines.is_cage()
+    notes = ob.reflection_lines.report.notes
+    assert f"The modifier {ob.modifiers[1].name} follows Subdivision, so the mesh was solved" in notes
+
+
+def test_a_deforming_modifier_is_named() -> None:
+    ob = scenes.panel(cells=CELLS)
+    scenes.look_from_above()
+    ob.modifiers.new("Bend", 'SIMPLE_DEFORM')
+    ob.modifiers.new("Thickness", 'SOLIDIFY')
+    scenes.edit_inner(ob, CELLS)
+    scenes.smooth()
+    assert "without the modifier Bend, which moves what is shown" in ob.reflection_lines.report.notes
 
 
 def test_simple_subdivision_is_refused_in_words() -> None:
