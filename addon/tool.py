@@ -12,6 +12,8 @@ from .solving import BuildTarget
 from .targets import falloff
 from .targets.falloff import Falloff
 
+LOST_START = ("The run began with the mesh as it is now: the shape before the last run is not known, since the mesh "
+              "was changed, undone, renamed or duplicated after it")
 AUTOMATIC_RADIUS = 1.0 / 3.0  # of the region's diagonal
 
 
@@ -87,7 +89,13 @@ class Tool:
         return session.solve(panel, session.view_of(context.scene, panel.center), settings, build)
 
     def panel_of(self, ob: bpy.types.Object) -> Panel:
-        return panels.gathered(ob, self.solve_for, self.result, self.original(ob) if self.anew else None)
+        return panels.gathered(ob, self.solve_for, self.result, self.begins_with(ob))
+
+    def begins_with(self, ob: bpy.types.Object) -> np.ndarray | None:
+        """#vertices x 3 to begin with; None for those of the mesh."""
+        found = self.original(ob) if self.anew else None
+        self.lost_start = self.anew and found is None
+        return found
 
     def original(self, ob: bpy.types.Object) -> np.ndarray | None:
         """#vertices x 3: the shape before the last run; None where the mesh has been changed since. In Object Mode."""
@@ -103,7 +111,9 @@ class Tool:
         stored = ob.reflection_lines
         stored.center = solution.panel.local_center
         stored.run.fill(self, ob.data, solution.panel.key)
-        stored.report.fill(solution, (*solution.notes, *self.remarks(solution), *modifiers.remarks(ob, self.solve_for)))
+        lost = (LOST_START,) if self.lost_start else ()
+        shown = modifiers.remarks(ob, self.solve_for)
+        stored.report.fill(solution, (*solution.notes, *self.remarks(solution), *shown, *lost))
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")
         self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")  # the status bar shows the last one

@@ -35,7 +35,7 @@ no region from a run before"""
         return [gather.active(context)]
 
     def panel_of(self, ob: bpy.types.Object) -> Panel:
-        return panels.gathered(ob, self.solve_for, self.result, self.original(ob) if self.anew else None, or_all=True)
+        return panels.gathered(ob, self.solve_for, self.result, self.begins_with(ob), or_all=True)
 
     def solved(self, context: bpy.types.Context, ob: bpy.types.Object) -> solving.Solution:
         if not modifiers.is_cage(ob):

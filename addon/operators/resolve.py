@@ -39,8 +39,10 @@ mesh as it was; where the mesh has been changed since, with the mesh as it is"""
                 bpy.ops.object.mode_set(mode=mode)
             self.report({'ERROR'}, str(error).removeprefix("Error: ").strip())
             return {'CANCELLED'}
-        if difference:
-            self.report({'WARNING'}, f"{ob.name}: {difference}")
+        if mode != 'OBJECT' and not run.key:  # to go on there; a result in a key ends in Object Mode
+            bpy.ops.object.mode_set(mode=mode)
+        for note in filter(None, (difference, *ob.reflection_lines.report.notes.splitlines())):
+            self.report({'WARNING'}, f"{ob.name}: {note}")  # what the tool reports stays in the console
         self.report({'INFO'}, f"{ob.name}: {ob.reflection_lines.report.summary()}")
         return {'FINISHED'}
 

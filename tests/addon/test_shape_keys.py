@@ -247,10 +247,37 @@ def test_resolve_from_edit_mode_is_one_undo_step(panel) -> None:
     bpy.ops.ed.undo_push(message="turn")
     before = scenes.positions(panel)
     assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
-    assert not np.array_equal(scenes.positions(panel), before)
+    assert panel.mode == 'EDIT' and not np.array_equal(scenes.positions(panel), before)
     bpy.ops.ed.undo()
     again = bpy.data.objects["Panel"]
     assert again.mode == 'EDIT' and np.array_equal(scenes.positions(again), before)
+
+
+def changed_by_hand(ob: bpy.types.Object) -> None:
+    ob.data.vertices[140].co.z += 0.01
+
+
+def renamed(ob: bpy.types.Object) -> None:
+    ob.name = "Bonnet"
+
+
+def undone(_: bpy.types.Object) -> None:
+    bpy.ops.ed.undo_push(message="once")
+    scenes.smooth(length=0.8)
+    bpy.ops.ed.undo()
+
+
+@pytest.mark.parametrize("change", [changed_by_hand, renamed, undone])
+def test_resolve_tells_where_it_does_not_know_the_start(panel, change, capfd) -> None:
+    scenes.smooth(length=0.5)
+    scenes.object_mode()
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert "began with the mesh as it is now" not in capfd.readouterr().out
+    change(panel)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    *_, said, result = capfd.readouterr().out.splitlines()
+    assert said.startswith("Warning: ") and "The run began with the mesh as it is now: " in said
+    assert result.startswith("Info: ")
 
 
 def test_resolve_tells_of_other_faces(panel, capfd) -> None:
