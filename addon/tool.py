@@ -4,7 +4,7 @@ import numpy as np
 from bpy.props import BoolProperty
 
 from . import session, solving
-from .bridge import apply, curve, gather, keys, modifiers, panels, place
+from .bridge import apply, curve, gather, keys, modifiers, panels, place, region
 from .bridge.gather import Panel
 from .bridge.refusal import Refusal
 from .properties import border_property, result_property, solve_for_property
@@ -95,6 +95,7 @@ class Tool:
         """#vertices x 3 to begin with; None for those of the mesh."""
         found = self.original(ob) if self.anew else None
         self.lost_start = self.anew and found is None
+        self.region_stored = ob.mode != 'EDIT' and region.is_stored(ob.data)
         return found
 
     def original(self, ob: bpy.types.Object) -> np.ndarray | None:
@@ -116,7 +117,9 @@ class Tool:
         stored.report.fill(solution, (*solution.notes, *self.remarks(solution), *shown, *lost))
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")
-        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")  # the status bar shows the last one
+        faces = f" ({solution.panel.faces.sum()} faces kept as the region; in Edit Mode the selected ones are taken)"
+        # The status bar shows the last report.
+        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}{faces if self.region_stored else ''}")
 
 
 def placed_falloff(settings: Tool, scene: bpy.types.Scene, ob: bpy.types.Object, panel: Panel) -> Falloff | None:

@@ -115,6 +115,16 @@ def test_object_mode_takes_the_stored_region(panel) -> None:
     assert not np.delete(moved, index).any()
 
 
+def test_object_mode_tells_which_faces_it_takes(panel, capfd) -> None:
+    """Not those selected since."""
+    scenes.smooth(strength=0.0)
+    assert "faces kept" not in capfd.readouterr().out
+    scenes.select_faces(panel, lambda face: face < 40)
+    scenes.object_mode()
+    scenes.smooth()
+    assert f"({(CELLS - 2) ** 2} faces kept as the region; in Edit Mode the selected ones" in capfd.readouterr().out
+
+
 def test_object_mode_undo(panel) -> None:
     scenes.smooth(strength=0.0)
     scenes.object_mode()
