@@ -187,6 +187,8 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         report, run = ob.reflection_lines.report, ob.reflection_lines.run
         column = self.layout.column(align=True)
         icon = 'CHECKMARK' if report.termination in {"converged", "already_optimal"} else 'INFO'
+        if context.window_manager.reflection_lines.is_undone(ob):
+            paragraph(column, context, "The mesh is no longer as this solve left it", 'ERROR')
         column.label(text=report.termination.replace('_', ' ').capitalize(), icon=icon)
         column.label(text=f"{report.iterations} iterations, {report.seconds:.2f} s")
         column.label(text=f"Wobble {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")

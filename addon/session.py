@@ -19,6 +19,7 @@ FEW = 2  # optimizers kept between operations, that of the panel at work and ano
 
 _live: dict[str, solving.Live] = {}  # of each object, the one used last at the end
 _solutions: dict[str, solving.Last] = {}  # of each object
+undone: dict[str, float] = {}         # of each object whose last solve undo took back: its seconds, to know it by
 live_warps: dict[str, object] = {}    # the live/follower of each scene with a live warp
 drags: list[object] = []              # the drag/modal.Drag that runs, if one does
 
@@ -97,8 +98,8 @@ def forget(*_: object) -> None:
     for follower in live_warps.values():
         follower.stop()
     live_warps.clear()
-    _live.clear()
-    _solutions.clear()
+    for cache in (_live, _solutions, undone):
+        cache.clear()
 
 
 def live_says() -> str:
@@ -112,6 +113,10 @@ class ReflinesSession(bpy.types.PropertyGroup):
     problem: StringProperty(get=lambda _: native.STATE.problem)
     remedy: StringProperty(get=lambda _: native.STATE.remedy)
     live: StringProperty(get=lambda _: live_says())
+
+    def is_undone(self, ob: bpy.types.Object) -> bool:
+        """Whether undo took back what the object's report tells of."""
+        return undone.get(ob.name) == ob.reflection_lines.report.seconds
 
 
 def register() -> None:

@@ -83,6 +83,18 @@ def before(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> np.ndar
     return whole
 
 
+def is_undone(ob: bpy.types.Object, panel: Panel, positions: np.ndarray) -> bool:
+    """Whether the vertex that went furthest to `positions` is elsewhere now, in Edit Mode; the others are not compared,
+    since undo shall not take longer for it."""
+    vertices = bmesh.from_edit_mesh(ob.data).verts
+    furthest = int(np.abs(positions - panel.V).max(axis=1).argmax())
+    if panel.index[furthest] >= len(vertices):
+        return True
+    vertices.ensure_lookup_table()
+    now, left = np.array(vertices[panel.index[furthest]].co), local(panel, positions)[furthest]
+    return bool((np.abs(now - left) > 2.0 * np.spacing(np.abs(left).max())).any())
+
+
 def counts(ob: bpy.types.Object) -> tuple[int, int, int]:
     """Vertices, edges and faces of the mesh as it is edited."""
     if ob.mode == 'EDIT':

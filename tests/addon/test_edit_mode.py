@@ -56,6 +56,23 @@ def test_one_undo_step_for_all() -> None:
     assert [scenes.fingerprint(bpy.data.objects[name]) for name in ("Left", "Right")] == before
 
 
+def test_a_result_that_was_undone_is_marked() -> None:
+    """Undo in Edit Mode gives the mesh back, but not what the object's report was before."""
+    shown = bpy.context.window_manager.reflection_lines
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit_inner(ob)
+    bpy.ops.ed.undo_push(message="start")
+    for length in (0.5, 0.8):
+        scenes.smooth(length=length)
+        assert not shown.is_undone(ob)
+        bpy.ops.ed.undo()
+        ob = bpy.data.objects["Panel"]
+        assert ob.mode == 'EDIT' and ob.reflection_lines.report.termination and shown.is_undone(ob)
+    bpy.ops.ed.redo()
+    assert not shown.is_undone(bpy.data.objects["Panel"])
+
+
 def keyed_panel() -> bpy.types.Object:
     ob = scenes.panel()
     scenes.look_from_above()

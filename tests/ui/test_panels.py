@@ -53,11 +53,18 @@ def test_panels_with_view_light_and_result(driver: window.Window) -> Steps:
         ob = scenes.panel()
         scenes.look_from_above()
         scenes.edit_inner(ob)
+        bpy.ops.ed.undo_push(message="Start")
     yield from all_panels_draw(driver)
     with driver.override():
         scenes.smooth()
         assert ob.reflection_lines.report.termination
     yield from all_panels_draw(driver)
+    with driver.override():
+        bpy.ops.ed.undo()
+        assert bpy.context.window_manager.reflection_lines.is_undone(ob)
+    yield from all_panels_draw(driver)
+    with driver.override():
+        bpy.ops.ed.redo()
     with driver.override():
         scenes.object_mode()
     yield from all_panels_draw(driver)
