@@ -114,6 +114,9 @@ def refuse_unusable(ob: bpy.types.Object, key: str) -> None:
     mesh, keys = ob.data, ob.data.shape_keys
     if ob.library is not None or mesh.library is not None:
         raise Refusal(f"{ob.name} is linked from another file and cannot be changed here: make it local")
+    if mesh.override_library is not None:
+        raise Refusal(f"The mesh of {ob.name} is linked from another file and overridden here, which keeps no moved "
+                      "vertices: make it local")
     if ob.mode != 'EDIT' and keys is not None and not key:
         raise Refusal(f"{ob.name} has shape keys: enter Edit Mode on the key that is to be changed, "
                       "or choose the result Shape Key")

@@ -1,5 +1,6 @@
 """Bad input gets one clear sentence, and the mesh stays as it was, bit by bit."""
 from collections.abc import Callable
+from pathlib import Path
 
 import bmesh
 import bpy
@@ -225,7 +226,8 @@ def test_a_shared_mesh_in_object_mode() -> None:
     refused(ob, "shares its mesh with 1 other objects: make it single-user")
 
 
-def test_a_linked_object(tmp_path) -> None:
+def linked(tmp_path: Path) -> bpy.types.Object:
+    """A panel with a region, from another file, in a fresh one."""
     edited(nothing)
     scenes.smooth(strength=0.0)
     scenes.object_mode()
@@ -233,8 +235,28 @@ def test_a_linked_object(tmp_path) -> None:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
         wanted.objects = ["Panel"]
-    ob = wanted.objects[0]
-    bpy.context.collection.objects.link(ob)
+    bpy.context.collection.objects.link(wanted.objects[0])
+    return wanted.objects[0]
+
+
+def test_a_linked_object(tmp_path) -> None:
+    ob = linked(tmp_path)
+    scenes.activate(ob)
+    scenes.look_from_above()
+    refused(ob, "Panel is linked from another file")
+
+
+def test_an_overridden_mesh(tmp_path) -> None:
+    """A solve would end well, and nothing of it would be saved."""
+    ob = linked(tmp_path).override_create(remap_local_usages=True)
+    ob.data.override_create(remap_local_usages=True)
+    scenes.activate(ob)
+    scenes.look_from_above()
+    refused(ob, "The mesh of Panel is linked from another file and overridden here")
+
+
+def test_a_mesh_behind_an_overridden_object(tmp_path) -> None:
+    ob = linked(tmp_path).override_create(remap_local_usages=True)
     scenes.activate(ob)
     scenes.look_from_above()
     refused(ob, "Panel is linked from another file")

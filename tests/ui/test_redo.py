@@ -55,4 +55,20 @@ def test_one_undo_takes_it_back_and_redo_brings_it(driver: window.Window) -> Ste
     yield from undone_and_redone(driver, before, after)
 
 
-window.run(test_other_settings_start_from_the_mesh_before, test_one_undo_takes_it_back_and_redo_brings_it)
+def test_resolve_in_edit_mode_is_one_step_there(driver: window.Window) -> Steps:
+    panel(driver)
+    with driver.override():
+        scenes.smooth(length=0.5)
+        bpy.context.scene.reflection_lines.light.rotation_euler.y -= 0.3
+        bpy.context.view_layer.update()
+        bpy.ops.ed.undo_push(message="Light")
+        before = shown(driver)
+        assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.context.mode == 'EDIT_MESH'
+    after = shown(driver)
+    assert not np.array_equal(after, before)
+    yield from undone_and_redone(driver, before, after)
+
+
+window.run(test_other_settings_start_from_the_mesh_before, test_one_undo_takes_it_back_and_redo_brings_it,
+           test_resolve_in_edit_mode_is_one_step_there)
