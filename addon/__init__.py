@@ -7,7 +7,7 @@ import importlib
 from . import native, worker
 from .targets import falloff, smooth as smooth_target, direction as direction_target, untwist as untwist_target
 from .targets import mirrored, warp as warp_target, pattern as pattern_target, fit as fit_target
-from .bridge import refusal, units, versions, view, region, mirror, gather, modifiers, cage, keys, apply
+from .bridge import refusal, contents, units, versions, view, region, mirror, gather, modifiers, cage, keys, apply
 from .bridge import surface, dense, shown_cage, environment, matcap
 from .bridge import panels as bridge_panels, lattice, start, record, picture, place, curve
 from . import tool_settings, stripe_settings, properties, solving, session, saved, tool
@@ -32,12 +32,12 @@ bl_info = {
 }
 
 MODULES = (native, worker, falloff, smooth_target, direction_target, untwist_target, mirrored, warp_target,
-           pattern_target, fit_target, refusal, units, versions, view, region, mirror, gather, modifiers, cage, keys,
-           apply, surface, dense, shown_cage, environment, matcap, bridge_panels, lattice, start, record, picture,
-           place, curve, tool_settings, stripe_settings, properties, solving, session, saved, tool, circle, motion,
-           pursuit, modal, live_scene, follower, handlers, stripes, shader, normals, last_solve, limit, seen, draw,
-           add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth, fit,
-           resolve, store_result, untwist, warp, live_warp, stripes_operators, install_matcap, menus, keymaps,
+           pattern_target, fit_target, refusal, contents, units, versions, view, region, mirror, gather, modifiers,
+           cage, keys, apply, surface, dense, shown_cage, environment, matcap, bridge_panels, lattice, start, record,
+           picture, place, curve, tool_settings, stripe_settings, properties, solving, session, saved, tool, circle,
+           motion, pursuit, modal, live_scene, follower, handlers, stripes, shader, normals, last_solve, limit, seen,
+           draw, add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth,
+           fit, resolve, store_result, untwist, warp, live_warp, stripes_operators, install_matcap, menus, keymaps,
            preferences, panels, stripes_panel)
 
 if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.

@@ -2,7 +2,7 @@
 import bpy
 from mathutils import Matrix, Vector
 
-from ..bridge import view
+from ..bridge import contents, view
 
 
 class REFLINES_OT_add_light_direction(bpy.types.Operator):
@@ -28,7 +28,7 @@ Turn the arrow to turn the reflection lines; it must not point along the view"""
         arrow.empty_display_size = 0.3 * size
         place = Matrix.Translation(center + 0.3 * size * frame.col[2])
         arrow.matrix_world = place @ view.frame_towards(direction).to_4x4()
-        context.collection.objects.link(arrow)
+        contents.editable_collection(context).objects.link(arrow)
         settings.light = arrow
         return {'FINISHED'}
 

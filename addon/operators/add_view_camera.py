@@ -2,7 +2,7 @@
 import bpy
 from mathutils import Matrix, Vector
 
-from ..bridge import gather, view
+from ..bridge import contents, gather, view
 
 MARGIN = 1.1
 DISTANCE = 2.0  # of the camera from the object's centre, in diagonals of its bounding box
@@ -40,7 +40,7 @@ Reflection lines are judged, and the panel is moved, along its direction of view
         data.clip_start, data.clip_end = 0.01 * size, 2.0 * DISTANCE * size
         camera = bpy.data.objects.new("View Camera", data)
         camera.matrix_world = Matrix.Translation(center + DISTANCE * size * frame.col[2]) @ frame.to_4x4()
-        context.collection.objects.link(camera)
+        contents.editable_collection(context).objects.link(camera)
         context.scene.reflection_lines.camera = camera
         return {'FINISHED'}
 

@@ -2,7 +2,7 @@
 import bpy
 
 from .. import session, solving
-from ..bridge import apply, gather, lattice
+from ..bridge import apply, contents, gather, lattice
 from ..bridge.refusal import Refusal
 from ..tool import Tool
 from ..tool_settings import SPLINES
@@ -38,7 +38,7 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
             return {'CANCELLED'}
         apply.keep_region(ob, panel)
         added = lattice.add(panel, frame, columns=self.columns, rows=self.rows, kind=self.interpolation,
-                            collection=context.collection)
+                            collection=contents.editable_collection(context))
         settings.warp.lattice = added
         added.reflection_lines.panel = ob
         return {'FINISHED'}

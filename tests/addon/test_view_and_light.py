@@ -1,4 +1,6 @@
 """Add View Camera and Add Light Direction."""
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
@@ -84,3 +86,26 @@ def test_undo_takes_camera_and_light_away() -> None:
     bpy.ops.ed.undo()
     assert settings().camera is None
     assert not bpy.data.cameras
+
+
+def from_another_file(tmp_path: Path, what: str, name: str) -> object:
+    """A data-block of the present file, linked into a fresh one."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        setattr(wanted, what, [name])
+    return getattr(wanted, what)[0]
+
+
+def test_what_is_added_goes_to_the_scene_where_the_active_collection_is_linked(tmp_path) -> None:
+    bpy.context.scene.collection.children.link(bpy.data.collections.new("Kit"))
+    linked = from_another_file(tmp_path, "collections", "Kit")
+    bpy.context.scene.collection.children.link(linked)
+    ob = scenes.panel()
+    layer = bpy.context.view_layer
+    layer.active_layer_collection = layer.layer_collection.children["Kit"]
+    scenes.look_from_above()
+    scenes.edit_inner(ob)
+    assert bpy.ops.reflines.add_warp_lattice() == {'FINISHED'}
+    own = set(bpy.context.scene.collection.objects)
+    assert {settings().camera, settings().light, settings().warp.lattice} <= own
