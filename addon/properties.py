@@ -4,7 +4,7 @@ import json
 import bpy
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
 
-from .bridge import modifiers, units
+from .bridge import contents, modifiers, units
 from .stripe_settings import ReflinesSetups, ReflinesStripes
 from .tool_settings import ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings
 
@@ -176,7 +176,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
 
     def present(self, ob: bpy.types.Object | None) -> bool:
         """A deleted object can still be pointed at; it is no longer in the scene."""
-        return ob is not None and self.id_data.objects.get(ob.name) == ob
+        return ob is not None and contents.holds(self.id_data.objects, ob)
 
     def is_perspective(self) -> bool:
         return self.present(self.camera) and self.camera.data.type != 'ORTHO'

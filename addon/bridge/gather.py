@@ -5,7 +5,7 @@ from functools import partial
 import bpy
 import numpy as np
 
-from . import mirror, region, versions
+from . import contents, mirror, region, versions
 from .mirror import Mirror
 from .refusal import Refusal
 
@@ -67,7 +67,7 @@ def active(context: bpy.types.Context) -> bpy.types.Object | None:
     if ob is None or ob.type != 'LATTICE' or ob.mode != 'OBJECT':
         return ob
     panel = ob.reflection_lines.panel  # a deleted object can still be pointed at
-    return panel if panel is not None and context.view_layer.objects.get(panel.name) == panel else ob
+    return panel if panel is not None and contents.holds(context.view_layer.objects, panel) else ob
 
 
 def subjects(context: bpy.types.Context) -> list[bpy.types.Object]:

@@ -4,6 +4,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..targets.warp import Lattice
+from . import contents
 from .gather import Panel
 from .refusal import Refusal
 
@@ -32,7 +33,7 @@ def add(panel: Panel, frame: np.ndarray, *, columns: int, rows: int, kind: str,
 def chosen(scene: bpy.types.Scene, name: str = "") -> bpy.types.Object:
     """The one with this name, else the scene's."""
     named = scene.objects.get(name) if name else scene.reflection_lines.warp.lattice
-    if named is None or named.type != 'LATTICE' or scene.objects.get(named.name) != named:
+    if named is None or named.type != 'LATTICE' or not contents.holds(scene.objects, named):
         raise Refusal("There is no warp lattice: "
                       "press Add Warp Lattice, or pick one in the sidebar's Reflection tab")
     return named

@@ -109,3 +109,22 @@ def test_what_is_added_goes_to_the_scene_where_the_active_collection_is_linked(t
     assert bpy.ops.reflines.add_warp_lattice() == {'FINISHED'}
     own = set(bpy.context.scene.collection.objects)
     assert {settings().camera, settings().light, settings().warp.lattice} <= own
+
+
+def test_a_linked_camera_of_a_local_ones_name_counts(tmp_path) -> None:
+    scenes.panel()
+    scenes.look_from_above()
+    linked = from_another_file(tmp_path, "objects", "View Camera")
+    bpy.context.collection.objects.link(linked)
+    ob = scenes.panel()
+    scenes.look_from_above()
+    local = settings().camera
+    assert local.name == linked.name and local != linked
+    scenes.edit_inner(ob)
+    for camera in (linked, local):
+        settings().camera = camera
+        assert scenes.smooth() == {'FINISHED'}
+    bpy.data.objects.remove(local)
+    settings().camera = linked
+    bpy.context.collection.objects.unlink(linked)
+    assert "No view camera" in settings().missing()
