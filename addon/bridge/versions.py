@@ -9,6 +9,14 @@ def shape_is_locked(key: bpy.types.ShapeKey) -> bool:
     return getattr(key, "lock_shape", False)
 
 
+def reported_error(error: RuntimeError) -> str:
+    """What an operator reported, without the word that Blender writes before it in the language of the interface.
+
+    Reports have a translation of their own from Blender 4.1 on."""
+    translated = getattr(bpy.app.translations, "pgettext_rpt", bpy.app.translations.pgettext_tip)
+    return str(error).removeprefix(f"{translated('Error')}: ").removeprefix("Error: ").strip()
+
+
 def edge_creases(mesh: bpy.types.Mesh) -> np.ndarray:
     """#edges in [0, 1]. An attribute from Blender 4.0 on, absent where nothing is creased."""
     return crease_values(mesh, "crease_edge", len(mesh.edges), mesh.edges)

@@ -4,7 +4,7 @@ import json
 import bpy
 
 from .. import session
-from ..bridge import gather
+from ..bridge import gather, versions
 
 
 class REFLINES_OT_resolve(bpy.types.Operator):
@@ -37,7 +37,7 @@ mesh as it was; where the mesh has been changed since, with the mesh as it is"""
         except RuntimeError as error:  # how Blender hands on what an operator reports
             if mode != 'OBJECT':
                 bpy.ops.object.mode_set(mode=mode)
-            self.report({'ERROR'}, str(error).removeprefix("Error: ").strip())
+            self.report({'ERROR'}, versions.reported_error(error))
             return {'CANCELLED'}
         if mode != 'OBJECT' and not run.key:  # to go on there; a result in a key ends in Object Mode
             bpy.ops.object.mode_set(mode=mode)

@@ -280,6 +280,28 @@ def test_resolve_tells_where_it_does_not_know_the_start(panel, change, capfd) ->
     assert result.startswith("Info: ")
 
 
+@pytest.fixture(params=['en_US', 'de_DE'])
+def language(request) -> str:
+    """Of the interface; the word that Blender writes before an error."""
+    view = bpy.context.preferences.view
+    kept = view.language
+    view.language = request.param
+    for name in ("use_translate_tooltips", "use_translate_reports"):
+        if hasattr(view, name):
+            setattr(view, name, True)
+    yield {'en_US': "Error", 'de_DE': "Fehler"}[request.param]
+    view.language = kept
+
+
+def test_resolve_hands_on_a_refusal_as_it_is(panel, language) -> None:
+    scenes.smooth(length=0.5)
+    panel.scale.z = 0.0
+    with pytest.raises(RuntimeError) as failure:
+        bpy.ops.reflines.resolve('EXEC_DEFAULT', True)
+    assert str(failure.value).startswith(f"{language}: Panel is scaled to nothing")
+    assert panel.mode == 'EDIT'
+
+
 def test_resolve_tells_of_other_faces(panel, capfd) -> None:
     scenes.smooth(length=0.5)
     scenes.select_faces(panel, lambda face: face == 100)
