@@ -46,6 +46,13 @@ def leave_edit_mode(context: bpy.types.Context) -> None:
         bpy.ops.object.mode_set(mode='OBJECT')
 
 
+def refuse_keys(ob: bpy.types.Object, result: str) -> None:
+    """Other tools take them in Edit Mode, but a live warp runs in Object Mode."""
+    if result == 'MESH' and ob.data.shape_keys is not None:
+        raise Refusal(f"{ob.name} has shape keys, and a live warp can change none but its own: "
+                      "choose the result Shape Key")
+
+
 class REFLINES_OT_start_live_warp(bpy.types.Operator):
     """Let the panel follow its warp lattice while you edit that: in Edit Mode, by proportional editing.
 
@@ -85,9 +92,12 @@ the file is opened again"""
         ob = None
         if active.type == 'MESH' and active.mode == 'EDIT':
             ob = gather.subjects(context)[0]
+            refuse_keys(ob, settings.result)
             apply.keep_region(ob, panels.gathered(ob, settings.solve_for, settings.result))
         leave_edit_mode(context)
-        return panels.gathered(ob or gather.subjects(context)[0], settings.solve_for, settings.result)
+        ob = ob or gather.subjects(context)[0]
+        refuse_keys(ob, settings.result)
+        return panels.gathered(ob, settings.solve_for, settings.result)
 
     def begin(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> None:
         settings = context.scene.reflection_lines

@@ -111,6 +111,19 @@ def test_start_from_an_edit_mode_is_one_undo_step(panel, which) -> None:
     assert not set(bpy.data.objects["Panel"].data.keys())
 
 
+@pytest.mark.parametrize("mode", ['EDIT', 'OBJECT'])
+def test_shape_keys_ask_for_the_result_shape_key(panel, mode) -> None:
+    panel.shape_key_add(name="Basis")
+    if mode == 'EDIT':
+        scenes.edit_inner(panel)
+    before = scenes.fingerprint(panel)
+    with pytest.raises(RuntimeError, match="has shape keys, .*: choose the result Shape Key$"):
+        start()
+    assert scenes.fingerprint(panel) == before and panel.mode == mode
+    bpy.context.scene.reflection_lines.result = 'SHAPE_KEY'
+    start()
+
+
 def test_a_lattice_that_folds_over_is_not_applied(panel) -> None:
     start()
     pull(3.0)
