@@ -7,6 +7,7 @@ import numpy as np
 
 from . import gather, keys, mirror, region
 from .gather import Panel
+from .refusal import Refusal
 
 SAMPLE = 64  # positions that are compared to know a mesh again
 FEW = 0.03  # share of the vertices below which their normals are brought up to date faster one by one than all together
@@ -154,6 +155,14 @@ def keep_region(ob: bpy.types.Object, panel: Panel) -> None:
     """Remembers the faces, so that the tool can run on them again in Object Mode."""
     if ob.mode == 'EDIT':
         region.store(ob.data, panel.faces)
+
+
+def refuse_taken(ob: bpy.types.Object, name: str) -> None:
+    """Where an attribute of this name holds something else than a number for each vertex."""
+    found = ob.data.attributes.get(name)
+    if found is not None and (found.domain, found.data_type) != ('POINT', 'FLOAT'):
+        raise Refusal(f"{ob.name} has another attribute {name} ({found.domain.lower()}, {found.data_type.lower()}) "
+                      "than the result's: rename or remove it")
 
 
 def store_vertex_values(ob: bpy.types.Object, name: str, values: np.ndarray) -> None:

@@ -1,9 +1,12 @@
 """Store Result."""
+from collections.abc import Iterable
+
 import bpy
 import numpy as np
 
 from .. import session, solving
 from ..bridge import apply
+from ..bridge.refusal import Refusal
 
 
 class REFLINES_OT_store_result(bpy.types.Operator):
@@ -24,14 +27,23 @@ mesh's vertices, for shaders, modifiers and other programs"""
         if ob.mode == 'EDIT':
             ob.update_from_editmode()
         solution = session.last_solution(ob.name)
-        if apply.before(ob, solution.panel, solution.positions) is None:
-            self.report({'ERROR'}, f"{ob.name} is not as the last solve left it: run the tool again")
+        values = {f"reflines_{name}": each for name, each in solving.vertex_values(solution).items()}
+        try:
+            self.refuse_unfit(ob, solution, values)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
-        for name, values in solving.vertex_values(solution).items():
+        for name, each in values.items():
             everywhere = np.zeros(len(ob.data.vertices))
-            everywhere[solution.panel.index] = values
-            apply.store_vertex_values(ob, f"reflines_{name}", everywhere)
+            everywhere[solution.panel.index] = each
+            apply.store_vertex_values(ob, name, everywhere)
         return {'FINISHED'}
+
+    def refuse_unfit(self, ob: bpy.types.Object, solution: solving.Last, names: Iterable[str]) -> None:
+        if apply.before(ob, solution.panel, solution.positions) is None:
+            raise Refusal(f"{ob.name} is not as the last solve left it: run the tool again")
+        for name in names:
+            apply.refuse_taken(ob, name)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_store_result])

@@ -180,6 +180,21 @@ def test_the_result_is_stored_on_request(panel, in_edit_mode) -> None:
     assert (stored["residual"][moved > 0.0] > 0.0).all()
 
 
+@pytest.mark.parametrize("in_edit_mode", [True, False])
+@pytest.mark.parametrize(("kind", "domain"), [('FLOAT', 'FACE'), ('INT', 'POINT')])
+def test_an_attribute_of_another_kind_is_not_written_over(panel, in_edit_mode, kind, domain) -> None:
+    scenes.smooth()
+    scenes.object_mode()
+    panel.data.attributes.new("reflines_residual", kind, domain)
+    if in_edit_mode:
+        scenes.edit_inner(panel)
+    before = scenes.fingerprint(panel)
+    with pytest.raises(RuntimeError, match="Panel has another attribute reflines_residual .*: rename or remove it"):
+        bpy.ops.reflines.store_result()
+    assert scenes.fingerprint(panel) == before
+    assert "reflines_deviation" not in panel.data.attributes
+
+
 def test_a_changed_mesh_is_no_result(panel) -> None:
     scenes.smooth()
     bpy.ops.transform.translate(value=(0.0, 0.0, 0.1))
