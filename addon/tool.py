@@ -113,7 +113,7 @@ class Tool:
         stored.center = solution.panel.local_center
         stored.run.fill(self, ob.data, solution.panel.key)
         lost = (LOST_START,) if self.lost_start else ()
-        shown = modifiers.remarks(ob, self.solve_for)
+        shown = (*keys.remarks(ob, solution.panel.key), *modifiers.remarks(ob, self.solve_for))
         stored.report.fill(solution, (*solution.notes, *self.remarks(solution), *shown, *lost))
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")

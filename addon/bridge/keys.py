@@ -37,3 +37,13 @@ def original(ob: bpy.types.Object) -> np.ndarray | None:
     keys = ob.data.shape_keys
     key = keys.key_blocks.get(NAME) if keys is not None else None
     return None if key is None else gather.coordinates(ob, key.relative_key.name)
+
+
+def remarks(ob: bpy.types.Object, name: str) -> tuple[str, ...]:
+    """Why nothing is seen of what went into the key with this name, as a sentence; empty for the mesh itself."""
+    blocks = ob.data.shape_keys.key_blocks if ob.data.shape_keys is not None else {}
+    key = blocks.get(name)
+    if key is None or key.value != 0.0 and not key.mute:
+        return ()
+    why = "is muted: unmute it" if key.mute else "has the value 0: raise its Strength"
+    return (f"Nothing of the result is seen, since the shape key {name} {why}",)

@@ -2,7 +2,7 @@
 import bpy
 
 from .. import session, solving
-from ..bridge import apply, gather, lattice, modifiers, panels, start
+from ..bridge import apply, gather, keys, lattice, modifiers, panels, start
 from ..bridge.gather import Panel
 from ..bridge.refusal import Refusal
 from ..live import handlers
@@ -123,7 +123,7 @@ class REFLINES_OT_apply_live_warp(LiveEnd, bpy.types.Operator):
         session.remember(solution.last())
         stored = ob.reflection_lines
         stored.center = panel.local_center
-        shown = modifiers.remarks(ob, scene.reflection_lines.live.solve_for)
+        shown = (*keys.remarks(ob, panel.key), *modifiers.remarks(ob, scene.reflection_lines.live.solve_for))
         stored.report.fill(solution, (*solution.notes, *warp.remarks(solution.target), *shown))
         stored.run.note("REFLINES_OT_warp", about.operator_settings(scene), ob.data, panel.key)
         for note in stored.report.notes.splitlines():

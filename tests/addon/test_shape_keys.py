@@ -149,6 +149,18 @@ def test_absolute_keys_are_refused(panel) -> None:
         into_key()
 
 
+@pytest.mark.parametrize(("name", "value", "told"), [
+    ("value", 0.0, "has the value 0: raise its Strength"), ("mute", True, "is muted")])
+def test_a_result_that_is_not_seen_says_why(panel, name, value, told) -> None:
+    into_key()
+    report = panel.reflection_lines.report
+    assert "Nothing of the result" not in report.notes
+    setattr(panel.data.shape_keys.key_blocks[KEY], name, value)
+    into_key(length=0.8)
+    assert f"Nothing of the result is seen, since the shape key {KEY} {told}" in report.notes
+    assert getattr(panel.data.shape_keys.key_blocks[KEY], name) == value
+
+
 def edits_the_basis(ob: bpy.types.Object) -> None:
     ob.active_shape_key_index = 0
     scenes.edit_inner(ob, margin=5)
