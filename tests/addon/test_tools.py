@@ -239,7 +239,6 @@ def written(grey: np.ndarray, path: object, depth: str, kind: str) -> bpy.types.
     return bpy.data.images.load(str(path))
 
 
-
 def test_far_moves_and_faces_turned_over_are_told_with_what_helps(panel: bpy.types.Object) -> None:
     bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=20.0, border='free')
     notes = panel.reflection_lines.report.notes
