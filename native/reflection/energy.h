@@ -16,7 +16,7 @@ struct EnergyTerm {
   ReflectionFunction reflection;
   PlaneVectors gradient;  // #T x 2
   Vector theta;           // #T for a value fit, else empty
-  Vector weight;          // #T: c_T A_T, and 0 where theta is not defined
+  Vector weight;          // #T: c_T A_T (of values times 1 / length^2), and 0 where theta is not defined
 };
 
 class Energy {

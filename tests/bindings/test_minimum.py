@@ -1,5 +1,6 @@
 """What is found does not depend on how: one minimum for every strategy; values of theta alone (eq. 3) find it too."""
 import numpy as np
+import pytest
 import reflines
 from sample_panels import LINE, VIEW, inside, panel, rippled
 
@@ -39,3 +40,25 @@ def test_values_of_theta_and_a_held_border_find_a_known_surface():
     assert report.converged, report.message
     assert report.energy_after < 1e-12 * report.energy_before
     assert np.abs(solver.heights - wanted.heights).max() < 1e-6 * before
+
+
+@pytest.mark.parametrize("border", ["free", "fixed"])
+@pytest.mark.parametrize("among_gradients", [False, True])
+def test_a_pattern_by_value_is_the_same_in_every_unit_of_length(border, among_gradients):
+    """Beside the proximity, the family across the lines and targets that ask for gradients, values keep their say."""
+    clean, triangles = panel(24)
+    across = (np.arange(64) - 32.0) ** 2
+    image = np.exp(-(across[:, None] + across) / 200.0)
+    moves, steps = [], []
+    for scale in (1e-3, 1.0, 1e3):
+        solver = reflines.ShapeOptimizer(clean * scale, triangles, view_direction=VIEW, border=border,
+                                         line_direction=[LINE, (0.0, 1.0, 0.1)])
+        targets = [reflines.pattern(solver, image=image, width=scale, strength=0.1, by_value=True)]
+        if among_gradients:
+            targets.append(reflines.smooth(solver, length=0.3 * scale, family=1))
+        report = solver.solve(targets)
+        assert report.converged
+        moves.append(report.largest_move / scale)
+        steps.append((report.iterations, report.factorizations))
+    assert moves[1] > 2e-3 and np.ptp(moves) < 1e-6 * moves[1]
+    assert steps[0] == steps[1] == steps[2]
