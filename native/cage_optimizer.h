@@ -14,7 +14,7 @@ namespace reflines {
 class CageOptimizer : public ShapeOptimizer {
  public:
   // V (#V x 3) of the cage. The region handed on to ShapeOptimizer is that of the subdivided surface.
-  // Throws InvalidInput: what subdivide and ShapeOptimizer refuse, masks and partners of another length than the cage.
+  // Throws InvalidInput: what make_cage_surface and ShapeOptimizer refuse.
   CageOptimizer(const Cage& cage, const Positions& V, const Vector3& view_direction,
                 const std::vector<Vector3>& line_directions, const CageOptions& options = {});
 

@@ -17,7 +17,19 @@ void check_length(Eigen::Index length, Eigen::Index wanted, const std::string& w
                      std::to_string(wanted) + ".");
 }
 
-void check_lengths(const Cage& cage, const Positions& V, const CageOptions& options) {
+// What is read as an index, and both ways.
+void check_partners(const IndexVector& partner) {
+  const auto n = static_cast<int>(partner.size());
+  for (int v = 0; v < n; ++v) {
+    const int other = partner(v);
+    if (other == -1 || (other >= 0 && other < n && partner(other) == v)) continue;
+    throw InvalidInput("The mirror partner of vertex " + std::to_string(v) + " is " + std::to_string(other) +
+                       ", which is none of the cage's " + std::to_string(n) +
+                       " vertices or has another partner; use mirror_pairs, or -1 for none.");
+  }
+}
+
+void check_arrays(const Cage& cage, const Positions& V, const CageOptions& options) {
   if (V.rows() != cage.vertices) {
     throw InvalidInput("There are " + std::to_string(V.rows()) + " positions for the " + std::to_string(cage.vertices) +
                        " vertices of the cage; give one for each.");
@@ -25,6 +37,7 @@ void check_lengths(const Cage& cage, const Positions& V, const CageOptions& opti
   check_length(options.region.size(), cage.face_offsets.size() - 1, "region mask");
   check_length(options.held.size(), cage.vertices, "held mask");
   check_length(options.partner.size(), cage.vertices, "list of mirror partners");
+  check_partners(options.partner);
 }
 
 // Numbers 0 .. of the refined vertices in faces of the region, or -1; fills `refined` with the way back. In the order
@@ -101,7 +114,7 @@ void cut_faces(const Subdivision& whole, const Mask& region, const std::vector<i
 }  // namespace
 
 CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector3& view, const CageOptions& options) {
-  check_lengths(cage, V, options);
+  check_arrays(cage, V, options);
   const Subdivision whole = subdivide(cage, options.subdivision);
   const Mask region = options.region.size() > 0 ? options.region : Mask::Constant(cage.face_offsets.size() - 1, true);
   Mask held = held_by_border(whole, region, options.hold);

@@ -144,7 +144,7 @@ class CageOptimizer(ShapeOptimizer):
                  region: np.ndarray | None = None,    # #faces bool: those that may change; default all
                  border: Border = "clamped",          # of the region, on the surface: its limit position and tangents stay
                  fixed: np.ndarray | None = None,     # #V bool: held whatever the border says
-                 partner: np.ndarray | None = None,   # #V of mirror_pairs: partners rise alike
+                 partner: np.ndarray | None = None,   # #V of mirror_pairs, mutual, -1: none. Partners rise alike
                  level: int = 2, scheme: Scheme = "catmull_clark", boundary: Boundary = "all",
                  creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                  corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit: bool = True,

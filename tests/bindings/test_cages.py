@@ -52,6 +52,17 @@ def test_a_clamped_border_keeps_its_limit_position_and_normal(region: str | None
     assert np.array_equal(solver.cage_positions[~solver.cage_free], V[~solver.cage_free])
 
 
+@pytest.mark.parametrize("change", [{3: 10**6}, {3: -7}, {3: 5}, {3: 5, 5: 3}])
+def test_mirror_partners_that_are_none_are_refused(change: dict[int, int]) -> None:
+    """Of 17 in a row, 3 and 13 are a pair, and 5 and 11."""
+    cage = hood()
+    partner = reflines.mirror_pairs(cage[0], point=(0, 0, 0), normal=(1, 0, 0), tolerance=1e-9)
+    for vertex, other in change.items():
+        partner[vertex] = other
+    with pytest.raises(reflines.InvalidInput, match=r"mirror partner of vertex (3|11) is"):
+        optimizer(cage, partner=partner)
+
+
 def test_only_along_the_view() -> None:
     solver = optimizer(dented(hood(), VIEW, LINE))
     before = solver.cage_positions
