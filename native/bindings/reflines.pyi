@@ -62,7 +62,8 @@ class Region:
     messages: list[str]
 
 class Target:
-    """One wanted gradient of theta and one weight per triangle, for one family of lines."""
+    """One wanted gradient of theta and one weight per triangle, for one family of lines. Each array that is read is a copy:
+    assign the changed one to change it."""
     gradient: np.ndarray  # #F x 2, image plane, radians / length
     weight: np.ndarray    # #F, >= 0
     theta: np.ndarray     # #F wanted theta for a value fit (eq. 3), empty for a gradient fit (eq. 4). The gradient then

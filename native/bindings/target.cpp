@@ -10,6 +10,20 @@
 namespace py = pybind11;
 
 namespace reflines {
+namespace {
+
+// A copy both ways: a view of the member would dangle as soon as another array is put in its place.
+template <typename Array>
+py::cpp_function copy_of(Array Target::*member) {
+  return [member](const Target& target) { return target.*member; };
+}
+
+template <typename Array>
+py::cpp_function copy_into(Array Target::*member) {
+  return [member](Target& target, const Array& array) { target.*member = array; };
+}
+
+}  // namespace
 
 void bind_target(py::module_& module) {
   py::class_<Target>(module, "Target", py::module_local())
@@ -19,9 +33,9 @@ void bind_target(py::module_& module) {
            }),
            py::arg("gradient"), py::arg("weight") = py::none(), py::kw_only(), py::arg("theta") = py::none(),
            py::arg("family") = Target().family)
-      .def_readwrite("gradient", &Target::gradient)
-      .def_readwrite("weight", &Target::weight)
-      .def_readwrite("theta", &Target::theta)
+      .def_property("gradient", copy_of(&Target::gradient), copy_into(&Target::gradient))
+      .def_property("weight", copy_of(&Target::weight), copy_into(&Target::weight))
+      .def_property("theta", copy_of(&Target::theta), copy_into(&Target::theta))
       .def_readwrite("family", &Target::family);
 }
 

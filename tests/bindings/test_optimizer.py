@@ -205,3 +205,13 @@ def test_threads_may_solve_at_once_and_get_the_bits_of_one():
         for thread in threads:
             thread.join()
     assert len(together) == 45 and all(np.array_equal(result, alone[0]) for result in together)
+
+
+def test_arrays_of_a_target_outlive_what_takes_their_place():
+    target = reflines.Target(np.ones((5, 2)), np.arange(5.0), theta=np.zeros(5))
+    gradient, weight, theta = target.gradient, target.weight, target.theta
+    target.gradient, target.weight, target.theta = np.zeros((3, 2)), np.zeros(3), np.zeros(0)
+    gradient[:], theta[:] = 7.0, 7.0
+    weight[1:] += 1.0
+    assert np.array_equal(weight, [0.0, 2.0, 3.0, 4.0, 5.0])
+    assert not target.gradient.any() and len(target.weight) == 3 and len(target.theta) == 0
