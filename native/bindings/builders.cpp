@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "native/bindings/bind.h"
-#include "native/bindings/turn.h"
+#include "native/bindings/in_use.h"
 #include "native/reflection/dense_heights.h"
 #include "native/reflection/direction.h"
 #include "native/reflection/pattern.h"
@@ -26,24 +26,32 @@ Target weighted(Target target, const Maybe& weight) {
 
 Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family,
               const Maybe& weight) {
+  const At at(optimizer);
   return weighted(optimizer.smooth_target({length, directional}, strength, family), weight);
 }
 
 Target uniform(ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative, double density_end,
                const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
   const UniformOptions options{direction, density, relative, density_end, axis};
+  const At at(optimizer);
   return weighted(uniform_target(optimizer.region_field(family), options, influence.value_or(Vector())), weight);
 }
 
 Target turn(ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
+  const At at(optimizer);
   return weighted(turned_target(optimizer.region_field(family), angle, influence.value_or(Vector())), weight);
+}
+
+Vector falloff_at(ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
+  const At at(optimizer);
+  return falloff(optimizer.region_field(0), centre, radius, curve);
 }
 
 py::tuple warp(ShapeOptimizer& optimizer, const Vector2& low, const Vector2& high, int columns, int rows,
                const PlanePositions& position, bool by_value, int family) {
   WarpResult result;
   {
-    const ReleaseGil release;
+    const At at(optimizer);
     result = warp_target(optimizer.region_field(family), {low, high, columns, rows, position}, by_value);
   }
   return py::make_tuple(result.target, result.outside);
@@ -52,6 +60,7 @@ py::tuple warp(ShapeOptimizer& optimizer, const Vector2& low, const Vector2& hig
 Target pattern(ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double strength, double blur, double keep,
                const Vector2& centre, double width, double angle, bool by_value, const Maybe& weight, int family) {
   const PatternOptions options{strength, blur, keep, centre, width, angle, by_value};
+  const At at(optimizer);
   return weighted(pattern_target(optimizer.region_field(family), image, options), weight);
 }
 
@@ -59,7 +68,9 @@ py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int fami
   DenseHeights wanted;
   ShapeOptimizer::Lines lines;
   {
-    const ReleaseGil release;
+    const At at(optimizer);
+    std::optional<InUse> dense_too;
+    if (&dense != &optimizer) dense_too.emplace(dense, InUse::Use::kChanges);
     wanted = dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());
     lines = optimizer.lines_of(wanted.height, wanted.area, family);
   }
@@ -67,7 +78,6 @@ py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int fami
 }
 
 void bind_image_tools(py::module_& module) {
-  using Release = py::call_guard<ReleaseGil>;
   const PatternOptions pattern_defaults;
   module.def("warp", &warp, py::arg("optimizer"), py::kw_only(), py::arg("low"), py::arg("high"), py::arg("columns"),
              py::arg("rows"), py::arg("position"), py::arg("by_value") = false, py::arg("family") = 0);
@@ -75,32 +85,26 @@ void bind_image_tools(py::module_& module) {
              py::arg("strength") = pattern_defaults.strength, py::arg("blur") = pattern_defaults.blur,
              py::arg("keep") = pattern_defaults.keep, py::arg("centre") = pattern_defaults.centre,
              py::arg("width") = pattern_defaults.width, py::arg("angle") = pattern_defaults.angle,
-             py::arg("by_value") = pattern_defaults.by_value, py::arg("weight") = py::none(), py::arg("family") = 0,
-             Release());
+             py::arg("by_value") = pattern_defaults.by_value, py::arg("weight") = py::none(), py::arg("family") = 0);
   module.def("match_dense", &match_dense, py::arg("optimizer"), py::arg("dense"), py::kw_only(), py::arg("family") = 0);
 }
 
 }  // namespace
 
 void bind_builders(py::module_& module) {
-  using Release = py::call_guard<ReleaseGil>;
   const UniformOptions uniform_defaults;
   module.def("smooth", &smooth, py::arg("optimizer"), py::kw_only(), py::arg("length"), py::arg("strength") = 1.0,
              py::arg("directional") = SmoothOptions().directional, py::arg("family") = 0,
-             py::arg("weight") = py::none(), Release());
+             py::arg("weight") = py::none());
   module.def("uniform", &uniform, py::arg("optimizer"), py::kw_only(),
              py::arg("direction") = uniform_defaults.direction, py::arg("density") = uniform_defaults.density,
              py::arg("relative") = uniform_defaults.relative, py::arg("density_end") = uniform_defaults.density_end,
              py::arg("axis") = uniform_defaults.axis, py::arg("influence") = py::none(), py::arg("weight") = py::none(),
-             py::arg("family") = 0, Release());
+             py::arg("family") = 0);
   module.def("turn", &turn, py::arg("optimizer"), py::kw_only(), py::arg("angle"), py::arg("influence") = py::none(),
-             py::arg("weight") = py::none(), py::arg("family") = 0, Release());
-  module.def(
-      "falloff",
-      [](ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
-        return falloff(optimizer.region_field(0), centre, radius, curve);
-      },
-      py::arg("optimizer"), py::kw_only(), py::arg("centre"), py::arg("radius"), py::arg("curve"), Release());
+             py::arg("weight") = py::none(), py::arg("family") = 0);
+  module.def("falloff", &falloff_at, py::arg("optimizer"), py::kw_only(), py::arg("centre"), py::arg("radius"),
+             py::arg("curve"));
   bind_image_tools(module);
 }
 

@@ -7,6 +7,7 @@
 
 #include "native/bindings/bind.h"
 #include "native/bindings/cage_arrays.h"
+#include "native/bindings/in_use.h"
 #include "native/bindings/line_directions.h"
 #include "native/bindings/names.h"
 #include "native/bindings/turn.h"
@@ -52,7 +53,6 @@ std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offs
 }  // namespace
 
 void bind_cage_optimizer(py::module_& module) {
-  using Release = py::call_guard<ReleaseGil>;
   const CageOptions defaults;
   py::class_<CageOptimizer, ShapeOptimizer>(module, "CageOptimizer", py::module_local())
       .def(py::init(&make), "V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a,
@@ -62,12 +62,12 @@ void bind_cage_optimizer(py::module_& module) {
            "corner_sharpness"_a = Numbers(), "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse,
            "stencil"_a = "consistent", "linear_solver"_a = "cholmod", "crease_angle"_a = defaults.shape.crease_angle,
            "proximity"_a = defaults.shape.proximity, "progress"_a = py::none())
-      .def_property_readonly("cage_positions", &CageOptimizer::cage_positions)
+      .def_property_readonly("cage_positions", py::cpp_function(native(&CageOptimizer::cage_positions)))
       .def_property_readonly("cage_free", &CageOptimizer::cage_free)
       .def_property_readonly("triangles", &CageOptimizer::triangles)
       .def_property_readonly("parent", &CageOptimizer::parent)
       .def_property_readonly("refined", &CageOptimizer::refined)
-      .def("fit", &CageOptimizer::fit, "heights"_a, "weight"_a, Release());
+      .def("fit", native(&CageOptimizer::fit), "heights"_a, "weight"_a);
   module.def(
       "mirror_pairs",
       [](const Positions& V, const Vector3& point, const Vector3& normal, double tolerance) {

@@ -1,6 +1,7 @@
 #include <pybind11/eigen.h>
 
 #include "native/bindings/bind.h"
+#include "native/bindings/in_use.h"
 #include "native/bindings/turn.h"
 #include "native/errors.h"
 #include "native/geometry/image_plane.h"
@@ -38,6 +39,11 @@ Vector theta(const Positions& normals, const Positions& views, const Vector3& li
   return result;
 }
 
+NormalFit copy(const NormalFit& fit) {
+  const At at(fit, InUse::Use::kReads);
+  return fit;
+}
+
 }  // namespace
 
 void bind_geometry(py::module_& module) {
@@ -52,10 +58,9 @@ void bind_geometry(py::module_& module) {
   py::class_<NormalFit>(module, "NormalFit", py::module_local())
       .def(py::init<const Positions&, const Triangles&, double>(), py::arg("V"), py::arg("F"), py::kw_only(),
            py::arg("refit_angle") = 0.35, py::call_guard<ReleaseGil>())
-      .def(
-          "copy", [](const NormalFit& fit) { return NormalFit(fit); }, py::call_guard<ReleaseGil>())
-      .def("kept_normals", &NormalFit::kept_normals, py::arg("V"), py::call_guard<ReleaseGil>())
-      .def("normals", &NormalFit::normals, py::arg("V"), py::call_guard<ReleaseGil>())
+      .def("copy", &copy)
+      .def("kept_normals", native(&NormalFit::kept_normals), py::arg("V"))
+      .def("normals", native(&NormalFit::normals), py::arg("V"))
       .def_property_readonly("refit_count", &NormalFit::refit_count);
 }
 

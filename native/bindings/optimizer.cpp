@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "native/bindings/bind.h"
+#include "native/bindings/in_use.h"
 #include "native/bindings/line_directions.h"
 #include "native/bindings/names.h"
 #include "native/bindings/turn.h"
@@ -69,7 +70,7 @@ Report solve(ShapeOptimizer& optimizer, const Targets& targets, const std::strin
   options.gradient_tolerance = gradient_tolerance;
   options.max_iterations = max_iterations;
   const std::vector<Target> list = listed(targets);
-  const ReleaseGil release;
+  const At at(optimizer);
   return optimizer.solve(list, options, progress.get());
 }
 
@@ -85,6 +86,27 @@ int checked_family(const ShapeOptimizer& optimizer, int family) {
                      std::to_string(optimizer.family_count()) + ".");
 }
 
+Vector theta(const ShapeOptimizer& optimizer, int family) {
+  const At at(optimizer, InUse::Use::kReads);
+  return optimizer.theta(checked_family(optimizer, family));
+}
+
+PlaneVectors field(const ShapeOptimizer& optimizer, int family) {
+  const At at(optimizer, InUse::Use::kReads);
+  return optimizer.field(checked_family(optimizer, family));
+}
+
+double energy(ShapeOptimizer& optimizer, const Targets& targets) {
+  const std::vector<Target> list = listed(targets);
+  const At at(optimizer);
+  return optimizer.energy(list);
+}
+
+double score(ShapeOptimizer& optimizer, double length, int family) {
+  const At at(optimizer);
+  return optimizer.score(length, checked_family(optimizer, family));
+}
+
 }  // namespace
 
 void bind_optimizer(py::module_& module) {
@@ -98,35 +120,26 @@ void bind_optimizer(py::module_& module) {
            py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
            py::arg("crease_angle") = shape.crease_angle, py::arg("proximity") = shape.proximity,
            py::arg("progress") = py::none())
-      .def_property_readonly("region", &ShapeOptimizer::region)
+      .def_property_readonly("region", py::cpp_function(native(&Shape::region)))
       .def_property_readonly("frame", &frame_rows)
-      .def_property_readonly("heights", py::cpp_function(&ShapeOptimizer::heights, Release()))
-      .def_property_readonly("positions", py::cpp_function(&ShapeOptimizer::positions, Release()))
+      .def_property_readonly("heights", py::cpp_function(native(&Shape::heights)))
+      .def_property_readonly("positions", py::cpp_function(native(&Shape::positions)))
       .def_property_readonly("free", py::cpp_function(&ShapeOptimizer::free, Release()))
       .def_property_readonly("active", py::cpp_function(&ShapeOptimizer::active, Release()))
       .def_property_readonly("changeable", py::cpp_function(&ShapeOptimizer::changeable, Release()))
       .def_property_readonly("xy", py::cpp_function(&ShapeOptimizer::xy, Release()))
       .def_property_readonly("centers", py::cpp_function(&ShapeOptimizer::centers, Release()))
       .def_property_readonly("area", py::cpp_function(&ShapeOptimizer::area, Release()))
-      .def(
-          "theta", [](const Shape& o, int family) { return o.theta(checked_family(o, family)); }, py::arg("family") = 0,
-          Release())
-      .def(
-          "field", [](const Shape& o, int family) { return o.field(checked_family(o, family)); }, py::arg("family") = 0,
-          Release())
-      .def(
-          "energy", [](Shape& o, const Targets& targets) { return o.energy(listed(targets)); }, py::arg("target"),
-          Release())
-      .def("residual", &ShapeOptimizer::residual, py::arg("target"), Release())
-      .def(
-          "score",
-          [](ShapeOptimizer& o, double length, int family) { return o.score(length, checked_family(o, family)); },
-          py::arg("length"), py::arg("family") = 0, Release())
+      .def("theta", &theta, py::arg("family") = 0)
+      .def("field", &field, py::arg("family") = 0)
+      .def("energy", &energy, py::arg("target"))
+      .def("residual", native(&Shape::residual), py::arg("target"))
+      .def("score", &score, py::arg("length"), py::arg("family") = 0)
       .def("solve", &solve, py::arg("target"), py::kw_only(), py::arg("strategy") = to_string(minimizer.strategy),
            py::arg("gradient_tolerance") = minimizer.gradient_tolerance,
            py::arg("max_iterations") = minimizer.max_iterations, py::arg("progress") = py::none())
-      .def("watch", &ShapeOptimizer::watch, py::arg("progress"))
-      .def("reset", &ShapeOptimizer::reset, Release());
+      .def("watch", native(&Shape::watch), py::arg("progress"))
+      .def("reset", native(&Shape::reset));
 }
 
 }  // namespace reflines

@@ -97,7 +97,9 @@ class Report:
 class ShapeOptimizer:
     """The live optimizer of one region seen from one view. Expensive to build, cheap to step.
 
-    Raises InvalidInput for data that cannot be used; never changes the arrays handed in.
+    Raises InvalidInput for data that cannot be used; never changes the arrays handed in. Its work lets other threads run, but
+    is for one thread at a time: what another one asks of it meanwhile (a builder of targets, too) raises InvalidInput at once,
+    but for what never changes (frame, free, active, changeable, xy, centers, area). Any number may read it at once.
     """
     region: Region
     frame: np.ndarray      # 3 x 3, rows: image-plane x, y and z = view_direction, in world coordinates
@@ -201,7 +203,7 @@ class NormalFit:
     """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""
     def __init__(self, V: np.ndarray, F: np.ndarray, *, refit_angle: float = 0.35) -> None: ...
     def normals(self, V: np.ndarray) -> np.ndarray: ...           # #V x 3, unit; isolated vertices (0, 0, 1)
-    def kept_normals(self, V: np.ndarray) -> np.ndarray: ...      # the same without refits: changes nothing, thread safe
+    def kept_normals(self, V: np.ndarray) -> np.ndarray: ...      # the same without refits: changes nothing, any number of threads
     def copy(self) -> "NormalFit": ...
 
 class Subdivision:

@@ -207,6 +207,50 @@ def test_threads_may_solve_at_once_and_get_the_bits_of_one():
     assert len(together) == 45 and all(np.array_equal(result, alone[0]) for result in together)
 
 
+@pytest.mark.parametrize("ask", [
+    lambda solver: solver.heights, lambda solver: solver.positions, lambda solver: solver.region,
+    lambda solver: solver.field(), lambda solver: solver.score(0.3), lambda solver: solver.reset(),
+    lambda solver: solver.watch(None), lambda solver: solver.energy(reflines.Target(np.zeros((1, 2)))),
+    lambda solver: solver.solve(reflines.Target(np.zeros((1, 2)))), lambda solver: reflines.smooth(solver, length=0.3),
+    lambda solver: reflines.turn(solver, angle=0.1), lambda solver: reflines.match_dense(made(*ripples(4)), solver)])
+def test_what_another_thread_is_at_work_on_is_refused_at_once(ask):
+    """Two at once overwrote each other's arrays; waiting would keep a window from being drawn."""
+    solver = made(*ripples(100))
+    target, progress = reflines.smooth(solver, length=0.3), reflines.Progress()
+    expected = solver.solve(target, max_iterations=2).energy_after
+    solver.reset()
+    energies = []
+    solve = functools.partial(solver.solve, target, gradient_tolerance=0.0, progress=progress)
+    worker = threading.Thread(target=lambda: energies.append(solve().energy_after))
+    worker.start()
+    while not progress.stage:
+        time.sleep(0.001)
+    with pytest.raises(reflines.InvalidInput, match="optimizer is in use by another thread"):
+        ask(solver)
+    assert solver.xy.shape == (101**2, 2) and solver.free.any()
+    progress.cancel()
+    worker.join(30)
+    assert solver.solve(target, max_iterations=2).energy_after == expected
+
+
+def test_any_number_of_threads_may_read():
+    solver, failures = made(*ripples(60)), []
+
+    def read():
+        try:
+            for _ in range(50):
+                solver.theta(), solver.heights
+        except reflines.InvalidInput as refusal:
+            failures.append(refusal)
+
+    threads = [threading.Thread(target=read) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not failures and solver.score(0.3) > 0.0
+
+
 def test_arrays_of_a_target_outlive_what_takes_their_place():
     target = reflines.Target(np.ones((5, 2)), np.arange(5.0), theta=np.zeros(5))
     gradient, weight, theta = target.gradient, target.weight, target.theta
