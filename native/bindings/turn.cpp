@@ -7,7 +7,25 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
-thread_local PythonTurn* own_turn = nullptr;  // of a worker thread
+thread_local std::shared_ptr<PythonTurn> own_turn;  // of a worker thread
+
+// What Python holds. Once that is collected nobody can lend any more, and the worker's next call would wait for ever.
+class OwnersTurn {
+ public:
+  OwnersTurn() : turn_(std::make_shared<PythonTurn>()) {}
+  ~OwnersTurn() { turn_->give_away(); }
+  OwnersTurn(const OwnersTurn&) = delete;
+  OwnersTurn& operator=(const OwnersTurn&) = delete;
+
+  void lend(double seconds) { turn_->lend(seconds); }
+  bool wanted() const { return turn_->wanted(); }
+  void give_away() { turn_->give_away(); }
+  void take() { turn_->take(); }
+  void rest() { turn_->rest(); }
+
+ private:
+  std::shared_ptr<PythonTurn> turn_;
+};
 
 }  // namespace
 
@@ -44,7 +62,7 @@ void PythonTurn::give_away() {
 }
 
 void PythonTurn::take() {
-  own_turn = this;
+  own_turn = shared_from_this();
   const py::gil_scoped_release release;
   enter();
 }
@@ -87,13 +105,13 @@ ReleaseGil::~ReleaseGil() {
 }
 
 void bind_turn(py::module_& module) {
-  py::class_<PythonTurn>(module, "PythonTurn", py::module_local())
+  py::class_<OwnersTurn>(module, "PythonTurn", py::module_local())
       .def(py::init<>())
-      .def("lend", &PythonTurn::lend, py::arg("seconds"))
-      .def_property_readonly("wanted", &PythonTurn::wanted)
-      .def("give_away", &PythonTurn::give_away)
-      .def("take", &PythonTurn::take)
-      .def("rest", &PythonTurn::rest);
+      .def("lend", &OwnersTurn::lend, py::arg("seconds"))
+      .def_property_readonly("wanted", &OwnersTurn::wanted)
+      .def("give_away", &OwnersTurn::give_away)
+      .def("take", &OwnersTurn::take)
+      .def("rest", &OwnersTurn::rest);
 }
 
 }  // namespace reflines

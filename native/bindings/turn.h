@@ -11,12 +11,14 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 
 namespace reflines {
 
 // Of one worker thread. `lend`, `take` and `rest` wait; they are called with Python's lock and let go of it meanwhile.
-class PythonTurn {
+// The thread that has taken it keeps it alive: every native call of that thread asks it.
+class PythonTurn : public std::enable_shared_from_this<PythonTurn> {
  public:
   // The owner: the worker may run Python until it rests, or until it comes to native code when `seconds` are over.
   void lend(double seconds);

@@ -93,3 +93,28 @@ def test_given_away_it_is_the_workers_for_ever():
     with worker(work) as turn:
         turn.lend(0.0)
     assert len(steps) == 20
+
+
+@pytest.mark.parametrize("given_away", [True, False])
+def test_one_that_is_collected_gives_itself_away(given_away: bool) -> None:
+    """Else the worker's next native call asks freed memory, or waits for a turn that nobody is left to lend."""
+    optimizer, steps, turns = solver(100), [], [reflines.PythonTurn()]
+    taken, ended = threading.Event(), threading.Event()
+
+    def work() -> None:
+        turns[0].take()
+        taken.set()
+        optimizer.solve(reflines.smooth(optimizer, length=0.3))
+        for step in range(20):
+            steps.append((step, bytearray(150)))  # where freed memory would be taken again
+            optimizer.score(0.3)
+        ended.set()
+
+    threading.Thread(target=work, daemon=True).start()
+    if given_away:
+        turns[0].give_away()
+    else:
+        turns[0].lend(0.0)
+    assert taken.wait(PATIENCE)
+    turns.clear()
+    assert ended.wait(PATIENCE) and len(steps) == 20
