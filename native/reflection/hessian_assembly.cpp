@@ -36,12 +36,18 @@ HessianAssembly::HessianAssembly(const Stencils& stencils, const StencilEntries&
   int* outer = H_.outerIndexPtr();
   std::vector<std::vector<int>> rows((unknown_count + kChunkSize - 1) /
                                      kChunkSize);  // of some neighbouring columns each
-#pragma omp parallel for schedule(dynamic) if (unknown_count > kWorthThreads)
-  for (int c = 0; c < static_cast<int>(rows.size()); ++c) {
-    for (int i = c * kChunkSize; i < std::min((c + 1) * kChunkSize, unknown_count); ++i) {
-      const size_t before = rows[c].size();
-      append_rows(i, rows[c]);
-      outer[i + 1] = static_cast<int>(rows[c].size() - before);
+  position_.resize(omp_get_max_threads());
+#pragma omp parallel if (unknown_count > kWorthThreads)
+  {
+    std::vector<int>& last = position_[omp_get_thread_num()];
+    last.assign(unknown_count, -1);
+#pragma omp for schedule(dynamic)
+    for (int c = 0; c < static_cast<int>(rows.size()); ++c) {
+      for (int i = c * kChunkSize; i < std::min((c + 1) * kChunkSize, unknown_count); ++i) {
+        const size_t before = rows[c].size();
+        append_rows(i, last, rows[c]);
+        outer[i + 1] = static_cast<int>(rows[c].size() - before);
+      }
     }
   }
   for (int i = 0; i < unknown_count; ++i) outer[i + 1] += outer[i];
@@ -50,16 +56,20 @@ HessianAssembly::HessianAssembly(const Stencils& stencils, const StencilEntries&
   for (const std::vector<int>& some : rows) inner = std::copy(some.begin(), some.end(), inner);
 }
 
-// The unknowns from `unknown` on that share a stencil with it, ascending.
-void HessianAssembly::append_rows(int unknown, std::vector<int>& rows) const {
+// The unknowns from `unknown` on that share a stencil with it, ascending; `last` is where each was met last. (To look
+// for it among the rows takes the square of their number, which at the pole of a fan is the number of spokes.)
+void HessianAssembly::append_rows(int unknown, std::vector<int>& last, std::vector<int>& rows) const {
   const auto before = static_cast<std::ptrdiff_t>(rows.size());
   const Incidence& lists = entries_.entries_of_vertex;
+  last[unknown] = unknown;
   rows.push_back(unknown);  // a vertex that no stencil names has its diagonal, too
   for (int k = lists.begin(vertex_[unknown]); k < lists.end(vertex_[unknown]); ++k) {
     const int t = entries_.triangle[lists.items[k]];
     for (int e = stencils_.offset[t]; e < stencils_.offset[t + 1]; ++e) {
       const int row = column_[stencils_.vertex[e]];
-      if (row >= unknown && std::find(rows.begin() + before, rows.end(), row) == rows.end()) rows.push_back(row);
+      if (row < unknown || last[row] == unknown) continue;
+      last[row] = unknown;
+      rows.push_back(row);
     }
   }
   std::sort(rows.begin() + before, rows.end());

@@ -21,14 +21,15 @@ class HessianAssembly {
   const SparseMatrix& assemble(const Energy::ElementHessians& elements, const Vector& diagonal);
 
  private:
-  void append_rows(int unknown, std::vector<int>& rows) const;
+  void append_rows(int unknown, std::vector<int>& last, std::vector<int>& rows) const;
   void fill_column(int unknown, const Energy::ElementHessians& elements, std::vector<int>& position);
 
   const Stencils& stencils_;
   const StencilEntries& entries_;
-  std::vector<int> column_;                 // #V
-  std::vector<int> vertex_;                 // n: the vertex of each unknown
-  std::vector<std::vector<int>> position_;  // a thread's work space: where in the column being filled a row stands
+  std::vector<int> column_;  // #V
+  std::vector<int> vertex_;  // n: the vertex of each unknown
+  // A thread's work space: where in the column being filled a row stands; for the pattern the last column with the row.
+  std::vector<std::vector<int>> position_;
   SparseMatrix H_;
 };
 

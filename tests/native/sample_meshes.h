@@ -41,6 +41,23 @@ inline Mesh grid(int n, double jitter = 0.0, unsigned seed = 1) {
   return mesh;
 }
 
+// Vertex 0 with `spokes` triangles around it, and around those two more rings of twice as many, each 0.1 wide.
+inline Mesh disc(int spokes) {
+  Mesh mesh;
+  mesh.V = Positions::Zero(1 + 3 * spokes, 3);
+  mesh.F.resize(5 * spokes, 3);
+  for (int ring = 0, t = 0; ring < 3; ++ring) {
+    for (int i = 0; i < spokes; ++i) {
+      const int inner = 1 + (ring - 1) * spokes, outer = 1 + ring * spokes, next = (i + 1) % spokes;
+      const double angle = 2 * M_PI * i / spokes;
+      mesh.V.row(outer + i) << 0.1 * (ring + 1) * std::cos(angle), 0.1 * (ring + 1) * std::sin(angle), 0;
+      mesh.F.row(t++) << (ring == 0 ? 0 : inner + i), outer + i, outer + next;
+      if (ring > 0) mesh.F.row(t++) << inner + i, outer + next, inner + next;
+    }
+  }
+  return mesh;
+}
+
 // The grid with a vertex of valence three put into every `every`-th triangle.
 inline Mesh grid_with_valence_three(int n, int every) {
   Mesh mesh = grid(n, 0.1);

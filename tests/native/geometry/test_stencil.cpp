@@ -34,6 +34,20 @@ TEST(Stencil, ConsistentIsExactOnQuadraticsOnEveryMeshUpToItsBorder) {
   EXPECT_LT(largest_hessian_error(samples::grid_with_valence_three(6, 3), StencilKind::kConsistent), 10 * rounding(6));
 }
 
+TEST(Stencil, RingsAtPolesReadFewVerticesSpreadAround) {
+  for (const int spokes : {17, 18, 200}) {
+    const samples::Mesh flat = samples::disc(spokes);
+    const HeightField field = samples::height_field(samples::lifted(flat, quadratic));
+    const HessianStencil stencil = ring_hessian(field, 0);
+    EXPECT_LE(stencil.vertex.size(), 26u);  // at the pole 16, and around the two other corners their own
+    double across = 0;
+    for (const int v : stencil.vertex) across = std::min(across, field.xy.row(v).dot(field.xy.row(1)));
+    EXPECT_LT(across, -0.95 * field.xy.row(1).squaredNorm());
+    EXPECT_LT(stencil.weight.cwiseAbs().maxCoeff(), 1.0 / field.xy.row(1).squaredNorm());
+    EXPECT_LT(largest_hessian_error(flat, StencilKind::kConsistent), 1e-9 * spokes * spokes);
+  }
+}
+
 TEST(Stencil, AveragedIsExactInsideRegularMeshesAndTheirAffineImagesOnly) {
   samples::Mesh sheared = samples::grid(8);
   sheared.V.col(0) += 0.4 * sheared.V.col(1);
