@@ -12,8 +12,22 @@
 namespace reflines {
 namespace {
 
+constexpr int kMostNodes = 100'000'000;  // twice as many triangles, and three times that many corners, are still ints
+
 Vector2 rest(const WarpGrid& grid, int i, int j) {
   return grid.low + (grid.high - grid.low).cwiseProduct(Vector2(double(i) / grid.columns, double(j) / grid.rows));
+}
+
+// Before anything is made of that size.
+void check_grid(const WarpGrid& grid) {
+  const Eigen::Index nodes = (Eigen::Index(grid.columns) + 1) * (Eigen::Index(grid.rows) + 1);
+  if (grid.columns < 1 || grid.rows < 1 || grid.position.rows() != nodes || nodes > kMostNodes ||
+      !grid.position.allFinite() || !(grid.high - grid.low).allFinite() || !((grid.high - grid.low).minCoeff() > 0)) {
+    throw InvalidInput("The warp needs (columns + 1) x (rows + 1) finite positions, " + std::to_string(kMostNodes) +
+                       " at most, over a rectangle of positive size; there are " +
+                       std::to_string(grid.position.rows()) + " for " + std::to_string(grid.columns) + " columns and " +
+                       std::to_string(grid.rows) + " rows.");
+  }
 }
 
 Triangles grid_triangles(const WarpGrid& grid) {
@@ -28,25 +42,22 @@ Triangles grid_triangles(const WarpGrid& grid) {
   return F;
 }
 
-void check_grid(const WarpGrid& grid, const Triangles& F) {
-  if (grid.columns < 1 || grid.rows < 1 || grid.position.rows() != (grid.columns + 1) * (grid.rows + 1) ||
-      !grid.position.allFinite() || !((grid.high - grid.low).minCoeff() > 0)) {
-    throw InvalidInput("The warp needs (columns + 1) x (rows + 1) finite positions over a rectangle of positive size.");
-  }
+void check_folds(const WarpGrid& grid, const Triangles& F) {
   int folded = 0;
   for (int t = 0; t < F.rows(); ++t) {
     const Vector2 a = grid.position.row(F(t, 0)), b = grid.position.row(F(t, 1)), c = grid.position.row(F(t, 2));
     folded += !((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x() > 0);
   }
   if (folded == 0) return;
-  throw InvalidInput("The lattice folds over itself (" + std::to_string(100 * folded / F.rows() + 1) +
+  throw InvalidInput("The lattice folds over itself (" + std::to_string(Eigen::Index(100) * folded / F.rows() + 1) +
                      " % of its area); move its points back until they no longer cross.");
 }
 
 // w^-1(x) - x at the region's vertices (#V x 2).
 PlanePositions pulled_back(const RegionField& field, const WarpGrid& grid) {
+  check_grid(grid);
   const Triangles F = grid_triangles(grid);
-  check_grid(grid, F);
+  check_folds(grid, F);
   PlanePositions shift(grid.position.rows(), 2);
   for (int j = 0; j <= grid.rows; ++j) {
     for (int i = 0; i <= grid.columns; ++i) {

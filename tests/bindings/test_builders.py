@@ -172,6 +172,10 @@ def test_reachable_pattern_is_reached(solver):
     assert np.abs(solver.heights - other.heights).max() < 1e-5
 
 
+def warp_of(solver, nodes, low=(0, 0), **sizes):
+    return reflines.warp(solver, low=low, high=(1, 1), position=np.zeros((nodes, 2)), **sizes)
+
+
 @pytest.mark.parametrize("call, words", [
     (lambda s: reflines.uniform(s, density=-1.0), "density"),
     (lambda s: reflines.uniform(s, influence=np.full(len(s.centers), 2.0)), "influence"),
@@ -182,6 +186,12 @@ def test_reachable_pattern_is_reached(solver):
     (lambda s: reflines.pattern(s, image=np.ones((2, 2)), width=0.0), "width"),
     (lambda s: reflines.pattern(s, image=np.ones((2, 2)), blur=1e9), "blur"),
     (lambda s: reflines.smooth(s, length=0.1, family=3), "family 3"),
+    (lambda s: warp_of(s, columns=2, rows=2, nodes=8), "there are 8 for 2 columns"),
+    (lambda s: warp_of(s, columns=-3, rows=-3, nodes=4), "for -3 columns"),
+    (lambda s: warp_of(s, columns=50000, rows=50000, nodes=4), "50000 columns"),  # 120 GB of triangles
+    (lambda s: warp_of(s, columns=65535, rows=65535, nodes=0), "65535 columns"),  # 2^32 nodes
+    (lambda s: warp_of(s, columns=2**31 - 1, rows=1, nodes=0), "2147483647 columns"),
+    (lambda s: warp_of(s, columns=1, rows=1, nodes=4, low=(float("nan"), 0)), "rectangle"),
 ])
 def test_bad_settings_get_a_sentence(solver, call, words):
     with pytest.raises(reflines.InvalidInput, match=words):
