@@ -25,6 +25,21 @@ ShapeOptions shape_options(const CageSurface& surface, ShapeOptions shape) {
   return shape;
 }
 
+void check_fit(const Vector& heights, const Vector& weight, Eigen::Index vertices) {
+  if (heights.size() != vertices || weight.size() != vertices) {
+    throw InvalidInput("There are " + std::to_string(heights.size()) + " heights and " + std::to_string(weight.size()) +
+                       " weights to fit; the surface has " + std::to_string(vertices) + " vertices.");
+  }
+  Eigen::Index bad = 0;
+  for (Eigen::Index v = 0; v < vertices; ++v) {
+    const bool usable = weight(v) >= 0 && std::isfinite(weight(v)) && (weight(v) == 0 || std::isfinite(heights(v)));
+    bad += !usable;
+  }
+  if (bad == 0) return;
+  throw InvalidInput(std::to_string(bad) + " of the " + std::to_string(vertices) +
+                     " heights to fit or their weights are not finite or a weight is negative; give those weight 0.");
+}
+
 }  // namespace
 
 CageOptimizer::CageOptimizer(const Cage& cage, const Positions& V, const Vector3& view_direction,
@@ -63,11 +78,8 @@ Positions CageOptimizer::cage_positions() const {
 }
 
 void CageOptimizer::fit(const Vector& heights, const Vector& weight) {
+  check_fit(heights, weight, surface_.S.rows());
   const int n = static_cast<int>(moving().size());
-  if (heights.size() != surface_.S.rows() || weight.size() != heights.size()) {
-    throw InvalidInput("There are " + std::to_string(heights.size()) + " heights and " + std::to_string(weight.size()) +
-                       " weights to fit; the surface has " + std::to_string(surface_.S.rows()) + " vertices.");
-  }
   const SparseMatrix all = surface_.S * surface_.rise;
   SparseMatrix B(all.rows(), n);
   for (int k = 0; k < n; ++k) B.col(k) = all.col(moving()[k]);
@@ -75,9 +87,11 @@ void CageOptimizer::fit(const Vector& heights, const Vector& weight) {
   SparseMatrix identity(n, n);
   identity.setIdentity();
   const SparseMatrix normal = B.transpose() * WB;
-  const SparseMatrix lower =
-      SparseMatrix(normal + kUnseen * normal.diagonal().maxCoeff() * identity).triangularView<Eigen::Lower>();
-  Vector step = WB.transpose() * (heights - this->heights());
+  const double seen = normal.diagonal().maxCoeff();
+  if (seen == 0) return;
+  const SparseMatrix lower = SparseMatrix(normal + kUnseen * seen * identity).triangularView<Eigen::Lower>();
+  const Vector missing = (weight.array() > 0).select(heights - this->heights(), 0.0);
+  Vector step = WB.transpose() * missing;
   LinearSolver solver(LinearSolverKind::kCholmod);
   solver.analyze(lower);
   solver.factorize(lower);

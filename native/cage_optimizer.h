@@ -28,7 +28,8 @@ class CageOptimizer : public ShapeOptimizer {
   // Moves the cage so that its surface is nearest to these heights along the view (#region vertices) by least squares;
   // `weight` (#region vertices) is the area each speaks for, 0 where there is no such height. Until a reset, solves are
   // drawn to the heights: of a shape longer than four faces of the cage they decide, of a shorter one the lines.
-  // Vertices of the cage that no weighted height depends on stay.
+  // Vertices of the cage that no weighted height depends on stay; where that are all, nothing changes. Throws
+  // InvalidInput: other lengths, a weight that is negative or not finite, a weighted height that is not finite.
   void fit(const Vector& heights, const Vector& weight);
 
  private:

@@ -91,3 +91,37 @@ def test_reset_takes_a_fit_back() -> None:
     solver.reset()
     solver.solve(target)
     assert np.abs(solver.cage_positions - expected).max() < 1e-9
+
+
+def test_heights_without_weight_are_not_read() -> None:
+    solver = optimizer(noisy(hood(8, 6)), border="clamped", level=2)
+    before, start = solver.cage_positions, solver.heights
+    weight = np.ones(len(start))
+    weight[:40] = 0.0
+    heights = start + 0.01
+    solver.fit(np.where(weight == 0.0, np.nan, heights), weight)
+    assert np.isfinite(solver.cage_positions).all()
+    assert np.abs(solver.cage_positions - before).max() > 0.005
+
+
+@pytest.mark.parametrize("counted", ["none", "held"])
+def test_without_a_height_that_counts_nothing_moves(counted: str) -> None:
+    solver = optimizer(noisy(hood(12, 10)), border="clamped", level=2)
+    before, heights = solver.cage_positions, solver.heights
+    corner = np.argmin(solver.positions @ np.array([1.0, 1.0, 0.0]))
+    weight = np.zeros(len(heights))
+    weight[corner] = counted == "held"
+    solver.fit(heights + 0.01, weight)
+    assert np.array_equal(solver.cage_positions, before)
+    assert solver.solve(reflines.Target(solver.field())).termination == "already_optimal"
+
+
+@pytest.mark.parametrize(("heights", "weight"), [(np.nan, 1.0), (np.inf, 1.0), (0.0, np.nan), (0.0, -1.0), (0.0, np.inf)])
+def test_heights_and_weights_that_are_none_are_refused(heights: float, weight: float) -> None:
+    solver = optimizer(noisy(hood(8, 6)), border="free", level=2)
+    before = solver.cage_positions
+    wanted, weights = solver.heights, np.ones(len(solver.heights))
+    wanted[7], weights[7] = heights, weight
+    with pytest.raises(reflines.InvalidInput, match="^1 of the .* not finite"):
+        solver.fit(wanted, weights)
+    assert np.array_equal(solver.cage_positions, before)
