@@ -6,8 +6,6 @@
 namespace reflines {
 namespace {
 
-IndexVector index_vector(const Indices& array) { return Eigen::Map<const IndexVector>(array.data(), array.size()); }
-
 Vector number_vector(const Numbers& array) { return Eigen::Map<const Vector>(array.data(), array.size()); }
 
 }  // namespace

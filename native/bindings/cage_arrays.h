@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "native/bindings/indices.h"
 #include "native/geometry/subdivision.h"
 #include "native/types.h"
 
 namespace reflines {
 
-using Indices = pybind11::array_t<int, pybind11::array::c_style | pybind11::array::forcecast>;
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
 // What a cage and its subdivision are called in Python; empty arrays where there are no creases or corners.

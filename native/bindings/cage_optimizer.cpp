@@ -25,9 +25,9 @@ const std::map<std::string, BorderHold> kHolds = {
 std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
                                     const Vector3& view_direction, const Eigen::MatrixXd& line_direction,
                                     const std::optional<Mask>& region, const std::string& border,
-                                    const std::optional<Mask>& fixed, const std::optional<IndexVector>& partner,
-                                    int level, const std::string& scheme, const std::string& boundary,
-                                    const Indices& creases, const Numbers& crease_sharpness, const Indices& corners,
+                                    const std::optional<Mask>& fixed, const std::optional<Indices>& partner, int level,
+                                    const std::string& scheme, const std::string& boundary, const Indices& creases,
+                                    const Numbers& crease_sharpness, const Indices& corners,
                                     const Numbers& corner_sharpness, bool limit, bool sparse,
                                     const std::string& stencil, const std::string& linear_solver, double crease_angle,
                                     double proximity, std::shared_ptr<Progress> progress) {
@@ -37,7 +37,7 @@ std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offs
   if (region) options.region = *region;
   options.hold = named(kHolds, border, "border");
   if (fixed) options.held = *fixed;
-  if (partner) options.partner = *partner;
+  if (partner) options.partner = index_vector(*partner);
   options.subdivision = subdivision_options(level, scheme, boundary, limit);
   options.sparse = sparse;
   options.shape.stencil = named(kStencils, stencil, "stencil");

@@ -1,7 +1,10 @@
 #include <pybind11/eigen.h>
 
+#include <memory>
+
 #include "native/bindings/bind.h"
 #include "native/bindings/in_use.h"
+#include "native/bindings/indices.h"
 #include "native/bindings/turn.h"
 #include "native/errors.h"
 #include "native/geometry/image_plane.h"
@@ -39,6 +42,12 @@ Vector theta(const Positions& normals, const Positions& views, const Vector3& li
   return result;
 }
 
+std::unique_ptr<NormalFit> make_fit(const Positions& V, const Indices& F, double refit_angle) {
+  const Triangles triangles = triangles_of(F);
+  const ReleaseGil release;
+  return std::make_unique<NormalFit>(V, triangles, refit_angle);
+}
+
 NormalFit copy(const NormalFit& fit) {
   const At at(fit, InUse::Use::kReads);
   return fit;
@@ -56,8 +65,7 @@ void bind_geometry(py::module_& module) {
       },
       py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
   py::class_<NormalFit>(module, "NormalFit", py::module_local())
-      .def(py::init<const Positions&, const Triangles&, double>(), py::arg("V"), py::arg("F"), py::kw_only(),
-           py::arg("refit_angle") = 0.35, py::call_guard<ReleaseGil>())
+      .def(py::init(&make_fit), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("refit_angle") = 0.35)
       .def("copy", &copy)
       .def("kept_normals", native(&NormalFit::kept_normals), py::arg("V"))
       .def("normals", native(&NormalFit::normals), py::arg("V"))

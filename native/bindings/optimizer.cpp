@@ -6,6 +6,7 @@
 
 #include "native/bindings/bind.h"
 #include "native/bindings/in_use.h"
+#include "native/bindings/indices.h"
 #include "native/bindings/line_directions.h"
 #include "native/bindings/names.h"
 #include "native/bindings/turn.h"
@@ -18,7 +19,7 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
-using Codes = Eigen::VectorXi;
+using Codes = std::variant<std::string, Indices>;  // one name for all, or a code each
 using Targets = std::variant<Target, std::vector<Target>>;
 
 const std::map<std::string, Strategy> kStrategies = {{"adaptive", Strategy::kAdaptive},
@@ -26,11 +27,11 @@ const std::map<std::string, Strategy> kStrategies = {{"adaptive", Strategy::kAda
                                                      {"gauss_newton", Strategy::kGaussNewton},
                                                      {"newton", Strategy::kNewton}};
 
-std::vector<Border> border_codes(const std::variant<std::string, Codes>& border, Eigen::Index vertex_count) {
+std::vector<Border> border_codes(const Codes& border, Eigen::Index vertex_count) {
   if (std::holds_alternative<std::string>(border)) {
     return std::vector<Border>(vertex_count, named(kBorders, std::get<std::string>(border), "border"));
   }
-  const Codes& codes = std::get<Codes>(border);
+  const IndexVector codes = index_vector(std::get<Indices>(border));
   if (codes.size() > 0 && (codes.minCoeff() < 0 || codes.maxCoeff() > 2)) {
     throw InvalidInput("Border codes are 0 (free), 1 (fixed) and 2 (clamped); one is " +
                        std::to_string(codes.minCoeff() < 0 ? codes.minCoeff() : codes.maxCoeff()) + ".");
@@ -45,11 +46,11 @@ std::vector<Target> listed(const Targets& targets) {
   return std::get<std::vector<Target>>(targets);
 }
 
-std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Triangles& F, const Vector3& view_direction,
-                                     const Eigen::MatrixXd& line_direction,
-                                     const std::variant<std::string, Codes>& border, const std::optional<Mask>& fixed,
-                                     const std::string& stencil, const std::string& linear_solver, double crease_angle,
-                                     double proximity, std::shared_ptr<Progress> progress) {
+std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Indices& F, const Vector3& view_direction,
+                                     const Eigen::MatrixXd& line_direction, const Codes& border,
+                                     const std::optional<Mask>& fixed, const std::string& stencil,
+                                     const std::string& linear_solver, double crease_angle, double proximity,
+                                     std::shared_ptr<Progress> progress) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -59,8 +60,9 @@ std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Triangles& F, con
   options.proximity = proximity;
   options.progress = std::move(progress);
   const std::vector<Vector3> lines = directions(line_direction);
+  const Triangles triangles = triangles_of(F);
   const ReleaseGil release;
-  return std::make_unique<ShapeOptimizer>(V, F, view_direction, lines, options);
+  return std::make_unique<ShapeOptimizer>(V, triangles, view_direction, lines, options);
 }
 
 Report solve(ShapeOptimizer& optimizer, const Targets& targets, const std::string& strategy, double gradient_tolerance,

@@ -63,6 +63,16 @@ def test_mirror_partners_that_are_none_are_refused(change: dict[int, int]) -> No
         optimizer(cage, partner=partner)
 
 
+@pytest.mark.parametrize("wrong", [0.5, 2**32])
+@pytest.mark.parametrize("which", ["offsets", "corners", "partner"])
+def test_indices_of_a_cage_that_would_become_others_are_refused(wrong: float, which: str) -> None:
+    V, offsets, corners = hood()
+    arrays = {"offsets": offsets, "corners": corners, "partner": np.arange(len(V))}
+    arrays[which] = arrays[which] + wrong
+    with pytest.raises(reflines.InvalidInput, match=r"(array of float64|beyond the range of 32 bits)"):
+        optimizer((V, arrays["offsets"], arrays["corners"]), partner=arrays["partner"])
+
+
 def test_only_along_the_view() -> None:
     solver = optimizer(dented(hood(), VIEW, LINE))
     before = solver.cage_positions

@@ -173,11 +173,32 @@ def test_pieces_between_silhouettes_are_counted_and_solved_each():
 
 @pytest.mark.parametrize("options, words", [
     ({"border": "glued"}, "border"), ({"stencil": "magic"}, "stencil"), ({"linear_solver": "pardiso"}, "linear solver"),
-    ({"border": np.array([7])}, "codes"), ({"fixed": np.array([True])}, "one entry"),
+    ({"border": np.array([7])}, "codes"), ({"border": np.full(25, 1.0)}, "array of float64"), ({"fixed": np.array([True])}, "one entry"),
 ])
 def test_options_that_are_none_get_a_sentence(options, words):
     with pytest.raises(reflines.InvalidInput, match=words):
         made(*panel(4), **options)
+
+
+@pytest.mark.parametrize("name", [np.uint8, np.uint16, np.int32, np.uint32, np.int64, np.uint64, list])
+def test_indices_may_be_any_integers(name):
+    positions, triangles = panel(8)
+    expected = made(positions, triangles).field()
+    given = triangles.tolist() if name is list else np.asfortranarray(triangles.astype(name))
+    assert np.array_equal(made(positions, given).field(), expected)
+    assert reflines.NormalFit(positions, given).normals(positions).shape == positions.shape
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda F: F + 2**32, "Index 0 of an array of indices is 4294967296"),
+    (lambda F: F.astype(np.uint64) + np.uint64(2**63), "is 9223372036854775808"),
+    (lambda F: F - 2**32, "is -4294967296"), (lambda F: F + 0.5, "array of float64"),
+    (lambda F: F.astype(bool), "array of bool"), (lambda F: F.ravel(), "3 columns"),
+    (lambda F: np.concatenate([F, F], 1), "3 columns"), (lambda F: F[:0], "no face")])
+def test_indices_that_would_become_others_are_refused(change, words):
+    positions, triangles = panel(8)
+    with pytest.raises(reflines.InvalidInput, match=words):
+        made(positions, change(triangles.astype(np.int64)))
 
 
 def test_region_without_a_free_vertex_is_refused():
