@@ -23,7 +23,8 @@ class Minimizer {
   Minimizer& operator=(const Minimizer&) = delete;
 
   // Moves x (n, the start) to a minimum. Not converging is a value of Report::termination. x keeps its bits when the
-  // solve is cancelled, already optimal, or throws (InvalidInput: a start that is not finite or of the wrong length;
+  // solve is cancelled, already optimal, or throws (InvalidInput: a start that is not finite or of the wrong length,
+  // options out of range;
   // SolverFailure). `progress` may be null.
   Report minimize(Problem& problem, Vector& x, const MinimizerOptions& options = {}, Progress* progress = nullptr);
 

@@ -180,6 +180,19 @@ def test_options_that_are_none_get_a_sentence(options, words):
         made(*panel(4), **options)
 
 
+@pytest.mark.parametrize("options, words", [
+    ({"gradient_tolerance": float("nan")}, "tolerance is nan"), ({"gradient_tolerance": -1e-3}, "tolerance is -0.001"),
+    ({"gradient_tolerance": float("inf")}, "tolerance is inf"), ({"max_iterations": -1}, "limit of steps is -1")])
+def test_solves_that_could_not_end_are_refused(options, words):
+    positions, triangles = ripples(16)
+    solver = made(positions, triangles)
+    target = reflines.smooth(solver, length=0.3)
+    with pytest.raises(reflines.InvalidInput, match=words):
+        solver.solve(target, **options)
+    assert np.array_equal(solver.positions, positions)
+    assert solver.solve(target, max_iterations=0).termination == "iteration_limit"
+
+
 @pytest.mark.parametrize("name", [np.uint8, np.uint16, np.int32, np.uint32, np.int64, np.uint64, list])
 def test_indices_may_be_any_integers(name):
     positions, triangles = panel(8)
