@@ -1,7 +1,9 @@
 // What is asked of a piece: the terms of its energy, and what its heights lack of them.
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "native/errors.h"
 #include "native/piece_problem.h"
 #include "native/reflection/element.h"
 
@@ -72,6 +74,12 @@ EnergyTerm PieceProblem::term(const Target& target) const {
 }
 
 EnergyTerm PieceProblem::companion_term(const Target& target) const {
+  if (!target.gradient.allFinite()) {
+    const auto good = target.gradient.array().isFinite().rowwise().all().count();
+    throw InvalidInput("The gradient of the target for theta is not finite in " +
+                       std::to_string(target.gradient.rows() - good) + " of its " +
+                       std::to_string(target.gradient.rows()) + " rows; give numbers, or 0 rows for none.");
+  }
   EnergyTerm result = term({target.gradient, target.weight, {}, target.family});
   const double scale = kValueCompanion * value_scale(piece_.field);
   for (int k = 0; k < counted(); ++k) result.weight(k) *= scale * piece_.field.area(triangle(k));

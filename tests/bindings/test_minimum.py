@@ -44,6 +44,16 @@ def test_values_of_theta_and_a_held_border_find_a_known_surface():
     assert np.abs(solver.heights - wanted.heights).max() < 1e-6 * before
 
 
+def test_values_beside_gradients_that_are_no_numbers_are_refused():
+    solver = made(*panel(12))
+    before, gradient = solver.heights, solver.field()
+    gradient[[3, 5], 1] = np.nan
+    with pytest.raises(reflines.InvalidInput, match="gradient of the target for theta is not finite in 2 of its 288"):
+        solver.solve(reflines.Target(gradient, theta=solver.theta() + 0.1))
+    assert np.array_equal(solver.heights, before)
+    assert solver.solve(reflines.Target(np.zeros((0, 2)), theta=solver.theta())).converged
+
+
 def test_a_pole_of_many_spokes_finds_a_known_surface_in_no_time():
     """Read all at each of the pole's triangles, 512 spokes took 11 seconds and now take a quarter of one."""
     spokes, rings = 512, 6
