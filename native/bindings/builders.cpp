@@ -5,6 +5,7 @@
 
 #include "native/bindings/bind.h"
 #include "native/bindings/in_use.h"
+#include "native/errors.h"
 #include "native/reflection/dense_heights.h"
 #include "native/reflection/direction.h"
 #include "native/reflection/pattern.h"
@@ -64,6 +65,14 @@ Target pattern(ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double s
   return weighted(pattern_target(optimizer.region_field(family), image, options), weight);
 }
 
+// The dense panel is looked up where the region has its vertices, in the image plane of both.
+void check_same_view(const ImagePlane& one, const ImagePlane& other) {
+  constexpr double kSame = 1e-9;
+  if ((one.z() - other.z()).norm() < kSame && (one.x() - other.x()).norm() < kSame) return;
+  throw InvalidInput(
+      "The optimizer and that of the dense mesh have different views or line directions; give both the same.");
+}
+
 py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int family) {
   DenseHeights wanted;
   ShapeOptimizer::Lines lines;
@@ -71,6 +80,7 @@ py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int fami
     const At at(optimizer);
     std::optional<InUse> dense_too;
     if (&dense != &optimizer) dense_too.emplace(dense, InUse::Use::kChanges);
+    check_same_view(optimizer.frame(), dense.frame());
     wanted = dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());
     lines = optimizer.lines_of(wanted.height, wanted.area, family);
   }

@@ -125,3 +125,11 @@ def test_heights_and_weights_that_are_none_are_refused(heights: float, weight: f
     with pytest.raises(reflines.InvalidInput, match="^1 of the .* not finite"):
         solver.fit(wanted, weights)
     assert np.array_equal(solver.cage_positions, before)
+
+
+@pytest.mark.parametrize("other", [{"view_direction": (0.0, 0.01, 1.0)}, {"line_direction": (1.0, 0.3, 0.1)}])
+def test_a_dense_mesh_seen_from_elsewhere_is_refused(other: dict) -> None:
+    V, F = dense_surface(hood(8, 6), 3)
+    dense = reflines.ShapeOptimizer(V, F, **{"view_direction": VIEW, "line_direction": LINE, "border": "free"} | other)
+    with pytest.raises(reflines.InvalidInput, match="different views or line directions"):
+        reflines.match_dense(optimizer(hood(8, 6), level=2), dense)
