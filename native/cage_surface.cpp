@@ -34,6 +34,11 @@ void check_arrays(const Cage& cage, const Positions& V, const CageOptions& optio
     throw InvalidInput("There are " + std::to_string(V.rows()) + " positions for the " + std::to_string(cage.vertices) +
                        " vertices of the cage; give one for each.");
   }
+  if (!V.allFinite()) {
+    const auto good = V.array().isFinite().rowwise().all().count();
+    throw InvalidInput(std::to_string(V.rows() - good) + " of the " + std::to_string(cage.vertices) +
+                       " vertices of the cage have a coordinate that is not a finite number; delete or retype them.");
+  }
   check_length(options.region.size(), cage.face_offsets.size() - 1, "region mask");
   check_length(options.held.size(), cage.vertices, "held mask");
   check_length(options.partner.size(), cage.vertices, "list of mirror partners");

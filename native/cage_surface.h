@@ -33,7 +33,7 @@ struct CageSurface {
 };
 
 // V (#V x 3) of the cage. Throws InvalidInput: what subdivide refuses, masks and partners of another length than the
-// cage, partners that are not mutual.
+// cage, partners that are not mutual, positions that are not finite.
 CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector3& view, const CageOptions& options);
 
 }  // namespace reflines

@@ -73,6 +73,14 @@ def test_indices_of_a_cage_that_would_become_others_are_refused(wrong: float, wh
         optimizer((V, arrays["offsets"], arrays["corners"]), partner=arrays["partner"])
 
 
+def test_a_vertex_of_no_face_that_is_nowhere_is_refused() -> None:
+    """The cage's heights are counted from their mean."""
+    V, offsets, corners = hood()
+    with pytest.raises(reflines.InvalidInput, match=f"^1 of the {len(V) + 1} vertices of the cage"):
+        optimizer((np.vstack([V, [0.0, np.nan, 0.0]]), offsets, corners))
+    assert optimizer((np.vstack([V, [9.0, 9.0, 9.0]]), offsets, corners)).cage_free.any()
+
+
 def test_only_along_the_view() -> None:
     solver = optimizer(dented(hood(), VIEW, LINE))
     before = solver.cage_positions
