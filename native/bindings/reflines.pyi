@@ -124,7 +124,7 @@ class ShapeOptimizer:
     def field(self, family: int = 0) -> np.ndarray: ...           # #F x 2, the current grad theta
     def energy(self, target: Target | list[Target]) -> float: ...
     def residual(self, target: Target) -> np.ndarray: ...         # #F, |grad theta - target|
-    def score(self, length: float, family: int = 0) -> float: ... # wobble of the lines in degrees, see score.h
+    def score(self, length: float, family: int = 0) -> float: ... # wobble in degrees, see native/shape_optimizer.h
     def solve(self, target: Target | list[Target], *, strategy: Strategy = "adaptive", gradient_tolerance: float = 1e-6,
               max_iterations: int = 100, progress: Progress | None = None) -> Report: ...
     def watch(self, progress: Progress | None) -> None:
