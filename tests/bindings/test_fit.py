@@ -116,7 +116,8 @@ def test_without_a_height_that_counts_nothing_moves(counted: str) -> None:
     assert solver.solve(reflines.Target(solver.field())).termination == "already_optimal"
 
 
-@pytest.mark.parametrize(("heights", "weight"), [(np.nan, 1.0), (np.inf, 1.0), (0.0, np.nan), (0.0, -1.0), (0.0, np.inf)])
+@pytest.mark.parametrize(("heights", "weight"),
+                         [(np.nan, 1.0), (np.inf, 1.0), (0.0, np.nan), (0.0, -1.0), (0.0, np.inf)])
 def test_heights_and_weights_that_are_none_are_refused(heights: float, weight: float) -> None:
     solver = optimizer(noisy(hood(8, 6)), border="free", level=2)
     before = solver.cage_positions

@@ -173,7 +173,8 @@ def test_pieces_between_silhouettes_are_counted_and_solved_each():
 
 @pytest.mark.parametrize("options, words", [
     ({"border": "glued"}, "border"), ({"stencil": "magic"}, "stencil"), ({"linear_solver": "pardiso"}, "linear solver"),
-    ({"border": np.array([7])}, "codes"), ({"border": np.full(25, 1.0)}, "array of float64"), ({"fixed": np.array([True])}, "one entry"),
+    ({"border": np.array([7])}, "codes"), ({"border": np.ones(25)}, "float64"),
+    ({"fixed": np.array([True])}, "one entry"),
 ])
 def test_options_that_are_none_get_a_sentence(options, words):
     with pytest.raises(reflines.InvalidInput, match=words):
