@@ -1,5 +1,4 @@
 """What is found does not depend on how: one minimum for every strategy; values of theta alone (eq. 3) find it too."""
-import time
 
 import numpy as np
 import pytest
@@ -54,8 +53,8 @@ def test_values_beside_gradients_that_are_no_numbers_are_refused():
     assert solver.solve(reflines.Target(np.zeros((0, 2)), theta=solver.theta())).converged
 
 
-def test_a_pole_of_many_spokes_finds_a_known_surface_in_no_time():
-    """Read all at each of the pole's triangles, 512 spokes took 11 seconds and now take a quarter of one."""
+def test_a_pole_of_many_spokes_finds_a_known_surface():
+    """Of its spokes each of the pole's triangles reads a few, spread around it."""
     spokes, rings = 512, 6
     angle, ring = np.meshgrid(np.linspace(0, 2 * np.pi, spokes, endpoint=False), np.arange(1, rings + 1) / rings)
     x, y = (np.concatenate([[0.0], (ring * turn(angle)).ravel()]) for turn in (np.cos, np.sin))
@@ -66,10 +65,8 @@ def test_a_pole_of_many_spokes_finds_a_known_surface_in_no_time():
               for part in (np.stack([a, a + spokes, b + spokes], 1), np.stack([a, b + spokes, b], 1))]
     triangles = np.concatenate([np.stack([0 * i, a, b], 1), *strips])
     dent = 1e-3 * np.exp(-((x - 0.1) ** 2 + y**2) / 0.03) * np.clip((0.8 - np.hypot(x, y)) * 5, 0, 1)
-    began = time.process_time()
     solver = made(clean + dent[:, None] * VIEW, triangles)
     assert solver.solve(reflines.Target(made(clean, triangles).field())).converged
-    assert time.process_time() - began < 4.0
     assert np.abs(solver.positions - clean).max() < 0.01 * dent.max()
 
 
