@@ -63,7 +63,7 @@ class PieceProblem : public Problem {
   // degrees their own wobble is no detail.
   PlaneVectors smoothed(const PlaneVectors& gradient, const SmoothOptions& options, int family);
 
-  const Vector& visible(int family) const { return visible_[family]; }  // #T, 0 to 1: how far its lines are defined
+  const Vector& visible(int family) const { return visible_[family]; }  // #T: 0 to 1, how far its lines count
 
   // #T: what smoothing at `length` leaves alone in the field the piece started with; valid until asked for another.
   const Mask& features(double length, int family);

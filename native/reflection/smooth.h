@@ -1,9 +1,10 @@
 // Smoothing of a field of gradients over a surface (paper, section 4, "Smoothing"), by one implicit step.
 //
-// G (a vector at every vertex) minimises sum_T A_T (|mean of G over T - g_T|^2 + l^4 |Hessian of G|^2), l = length / 2
-// pi. A wave of wavelength w keeps 1 / (1 + (length / w)^4) of its amplitude: half at w = length, 6 % at half of it, 94
-// % at twice. The Hessian's energy knows linear fields as zero also at the border, so a field that is already fair is
-// not bent there (diffusion bends it; the squared Laplacian leaves every harmonic border wave).
+// G (a vector at every vertex) minimises sum_T A_T (c_T |mean of G over T - g_T|^2 + l^4 |Hessian of G|^2), where
+// l = length / 2 pi and c_T says how far T is believed. A wave of wavelength w keeps 1 / (1 + (length / w)^4) of its
+// amplitude: half at w = length, 6 % at half of it, 94 % at twice. The Hessian's energy knows linear fields as zero
+// also at the border, so a field that is already fair is not bent there (diffusion bends it; the squared Laplacian
+// leaves every harmonic border wave).
 #pragma once
 
 #include <functional>
@@ -21,7 +22,8 @@ using SpdFactorize = std::function<SpdSolve(const SparseMatrix&)>;
 struct SmoothOptions {
   double length = 0.0;       // wavelength that is halved, in the mesh's unit of length; 0 changes nothing
   bool directional = false;  // only along the lines: they become straight, their spacing across stays
-  // Gradients, and changes of them, that are longer count as if they were so long: they are read off a thin triangle.
+  // |grad theta|, radians a length: gradients and changes that are longer count as if they were so long, since they are
+  // read off a thin triangle.
   double longest = std::numeric_limits<double>::infinity();
 };
 

@@ -188,4 +188,4 @@ def drags(driver: window.Window) -> Steps:
     out.write_text(json.dumps(times, indent=1) + "\n")
 
 
-window.run(drags)
+window.start(window.all_steps((drags,)))  # drawn as Blender draws for a user: with smooth edges
