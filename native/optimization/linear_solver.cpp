@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "native/errors.h"
+#include "native/optimization/fresh_memory.h"
 
 namespace reflines {
 
@@ -34,8 +35,8 @@ constexpr double kSmallestPivotShare = 1e-15;
 //   100k unknowns: AMD 0.12 / 0.90 / 0.032, 15 M, 7 G;    METIS 0.91 / 0.53 / 0.028, 13 M, 4 G
 //     1M unknowns: AMD 2.5 / 17 / 0.5, 236 M, 345 G;      METIS 11 / 11 / 0.4, 173 M, 153 G
 // METIS pays where a second factor is likely or memory counts: from somewhere between these two sizes on. Where the
-// unknowns lie in a plane, straight cuts (see dissection_order) need neither: 0.10 / 0.37 / 0.030, 14 M, 5 G and
-// 1.2 / 12 / 0.4, 194 M, 163 G.
+// unknowns lie in a plane, straight cuts (see dissection_order) need neither: 0.10 / 0.29 / 0.030, 13 M, 4 G and
+// 1.5 / 10 / 0.4, 182 M, 151 G.
 constexpr Eigen::Index kNestedDissection = 300000;
 
 // OpenBLAS splits its sums by the number of its threads, so that factors made with one and two threads differ in their
@@ -86,6 +87,7 @@ class LinearSolver::Backend {
  public:
   virtual ~Backend() = default;
   virtual void analyze(const SparseMatrix& matrix, const std::vector<int>& order) = 0;
+  virtual void allocate() {}  // what a factor needs, on all cores
   virtual bool factorize(const SparseMatrix& matrix, const double* values) = 0;
   virtual void solve(Vector& x) = 0;
 };
@@ -116,6 +118,14 @@ class LinearSolver::Cholmod final : public Backend {
                                                                      : CHOLMOD_METIS;
     factor_ = cholmod_analyze_p(&view, const_cast<int*>(order.data()), nullptr, 0, &common_);
     require_memory(factor_ != nullptr, "ordering", matrix.rows());
+  }
+
+  // CHOLMOD would allocate the factor itself, and clear it on one thread.
+  void allocate() override {
+    if (factor_->xtype != CHOLMOD_PATTERN) return;
+    const int done = cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_);
+    require_memory(done != 0, "factorizing", static_cast<Eigen::Index>(factor_->n));
+    provide_pages(factor_->x, factor_->xsize * sizeof(double));
   }
 
   bool factorize(const SparseMatrix& matrix, const double* values) override {
@@ -314,8 +324,9 @@ void LinearSolver::analyze(const SparseMatrix& matrix, const std::vector<int>& o
 
 void LinearSolver::factorize(const SparseMatrix& matrix) {
   keep_blas_to_one_thread();
-  const SerialLoops serial_loops;
   has_factor_ = false;
+  backend_->allocate();
+  const SerialLoops serial_loops;
   Vector shifted;
   for (const double shift : kDiagonalShifts) {
     if (shift > 0.0) shifted = with_diagonal_shifted(matrix, shift);
