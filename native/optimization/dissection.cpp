@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "native/optimization/vertex_cover.h"
+
 namespace reflines {
 
 namespace {
@@ -17,7 +19,11 @@ struct Part {
 class Dissection {
  public:
   Dissection(const SparseMatrix& matrix, const PlanePositions& places)
-      : matrix_(matrix), places_(places), order_(matrix.rows()), side_(matrix.rows(), kOutside) {
+      : matrix_(matrix),
+        places_(places),
+        order_(matrix.rows()),
+        side_(matrix.rows(), kOutside),
+        place_(matrix.rows(), -1) {
     std::iota(order_.begin(), order_.end(), 0);
   }
 
@@ -50,24 +56,44 @@ class Dissection {
     return middle;
   }
 
-  // The unknowns of one side that touch the other one, of the side that has fewer of them.
+  // The fewest unknowns without which no entry of the matrix joins the two sides. All that touch the other side are up
+  // to a fifth more: L has 195 M entries instead of 182 M at 1M unknowns.
   void mark_separator(const Part& part) {
-    touching_[0].clear();
-    touching_[1].clear();
+    find_crossings(part);
+    number(&BipartiteEdge::second, rights_);
+    std::sort(crossings_.begin(), crossings_.end());
+    number(&BipartiteEdge::first, lefts_);
+    const VertexCover cover =
+        minimum_vertex_cover(crossings_, static_cast<int>(lefts_.size()), static_cast<int>(rights_.size()));
+    for (std::size_t k = 0; k < lefts_.size(); ++k) side_[lefts_[k]] = cover.left[k] ? kSeparator : kLeft;
+    for (std::size_t k = 0; k < rights_.size(); ++k) side_[rights_[k]] = cover.right[k] ? kSeparator : kRight;
+  }
+
+  // Pairs of unknowns, one on each side, that the matrix joins.
+  void find_crossings(const Part& part) {
+    crossings_.clear();
     for (int k = part.begin; k < part.end; ++k) {
       const int column = order_[k];
       for (int e = matrix_.outerIndexPtr()[column]; e < matrix_.outerIndexPtr()[column + 1]; ++e) {
         const int row = matrix_.innerIndexPtr()[e];
         if (side_[row] == kOutside || side_[row] == side_[column]) continue;
-        touching_[side_[row] == kRight].push_back(row);
-        touching_[side_[column] == kRight].push_back(column);
+        crossings_.push_back(side_[column] == kLeft ? BipartiteEdge(column, row) : BipartiteEdge(row, column));
       }
     }
-    for (std::vector<int>& some : touching_) {
-      std::sort(some.begin(), some.end());
-      some.erase(std::unique(some.begin(), some.end()), some.end());
+  }
+
+  // Replaces the unknowns on one side of the crossings by their places in `unknowns`, in the order of first mention.
+  void number(int BipartiteEdge::*side, std::vector<int>& unknowns) {
+    unknowns.clear();
+    for (BipartiteEdge& crossing : crossings_) {
+      int& place = place_[crossing.*side];
+      if (place < 0) {
+        place = static_cast<int>(unknowns.size());
+        unknowns.push_back(crossing.*side);
+      }
+      crossing.*side = place;
     }
-    for (const int v : touching_[touching_[1].size() < touching_[0].size()]) side_[v] = kSeparator;
+    for (const int unknown : unknowns) place_[unknown] = -1;
   }
 
   // Left and right first, the separator last: only it is filled in between them.
@@ -89,7 +115,10 @@ class Dissection {
   const PlanePositions& places_;
   std::vector<int> order_;
   std::vector<Side> side_;
-  std::vector<int> touching_[2];  // work space: unknowns of the left and of the right side that touch the other one
+  // Work space of a cut.
+  std::vector<BipartiteEdge> crossings_;
+  std::vector<int> lefts_, rights_;
+  std::vector<int> place_;  // -1, except while unknowns are numbered
 };
 
 }  // namespace
