@@ -1,7 +1,5 @@
 #include "native/optimization/descent.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,9 +16,6 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Backtracking halves at least: after 40 trials a step has vanished.
 constexpr int kMaxTrials = 40;
-
-// Unknowns from which on a thread takes less time to start than an analysis.
-constexpr int kWorthAThread = 2000;
 
 HessianModel model_of(Strategy strategy) {
   switch (strategy) {
@@ -52,7 +47,6 @@ Descent::Descent(Problem& problem, const MinimizerOptions& options, Progress* pr
 }
 
 Report Descent::run(Vector& x) {
-  analyze_beside();
   evaluate_start(x);
   approach();
   descend();
@@ -124,14 +118,13 @@ bool Descent::factor_is_outdated() const {
 }
 
 bool Descent::renew_factor() {
-  if (analyzed_.valid()) report_.analyses += analyzed_.get();
   tell("assembling");
   const SparseMatrix& hessian = problem_.hessian(work_.x, model_of(options_.strategy));
   ++report_.assemblies;
   measure_rounding(problem_.rounding_weight(hessian));
   if (gradient_is_rounding() || is_cancelled()) return false;
   if (!work_.solver.has_pattern_of(hessian)) tell("ordering");
-  report_.analyses += analyze(hessian);
+  analyze(hessian);
   if (is_cancelled()) return false;
   tell("factorizing");
   work_.solver.factorize(hessian);
@@ -144,22 +137,12 @@ bool Descent::renew_factor() {
   return !is_cancelled();
 }
 
-// The symbolic analysis needs no values, and takes about as long as the approach, which keeps one thread busy.
-void Descent::analyze_beside() {
-  const bool worth_it = problem_.size() > kWorthAThread && omp_get_max_threads() > 1;
-  if (!learns_from_steps() || factor_is_kept() || !worth_it) return;
-  analyzed_ = std::async(std::launch::async, [this] {
-    const SparseMatrix* pattern = problem_.pattern();
-    return pattern != nullptr && analyze(*pattern);
-  });
-}
-
-// Whether it was necessary. Reads no values.
-bool Descent::analyze(const SparseMatrix& matrix) {
-  if (work_.solver.has_pattern_of(matrix)) return false;
+// Reads no values.
+void Descent::analyze(const SparseMatrix& matrix) {
+  if (work_.solver.has_pattern_of(matrix)) return;
   const PlanePositions places = problem_.places();
   work_.solver.analyze(matrix, places.rows() > 0 ? dissection_order(matrix, places) : std::vector<int>());
-  return true;
+  ++report_.analyses;
 }
 
 void Descent::choose_direction() {

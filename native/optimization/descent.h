@@ -1,7 +1,6 @@
 // One run of a Minimizer: the loop, its steps, its stopping tests.
 #pragma once
 
-#include <future>
 #include <string>
 
 #include "native/optimization/line_search.h"
@@ -25,9 +24,8 @@ class Descent {
  private:
   void evaluate_start(const Vector& x);
   void approach();
-  bool analyze(const SparseMatrix& matrix);
-  void analyze_beside();
-  int move_along(CoarseProblem& coarse);
+  int move_along_coarse();
+  void analyze(const SparseMatrix& matrix);
   void measure_rounding(const Vector& weight);
   void descend();
   void finish(Vector& x);
@@ -70,7 +68,6 @@ class Descent {
   double gradient_rounding_ = 0.0;  // the change of the gradient that rounding x alone makes
   int factored_at_ = -1;            // the iteration whose point the factor belongs to; -1: made before this run
   bool factor_failed_ = false;      // a full step with it was refused
-  std::future<bool> analyzed_;  // by another thread: whether it made an analysis; waited for before the first factor
 };
 
 }  // namespace reflines

@@ -24,7 +24,6 @@ class Problem {
   virtual const SparseMatrix& hessian(const Vector& x, HessianModel model) = 0;
 
   // A matrix with the pattern of every `hessian`, its values not set, where that is known before a point is; else null.
-  // May run in a thread of its own, beside `evaluate` and `coarse`.
   virtual const SparseMatrix* pattern() { return nullptr; }
 
   // n: what rounding each unknown by one part does to the gradient, as a Euclidean norm, given that Hessian. Where
@@ -32,7 +31,7 @@ class Problem {
   virtual Vector rounding_weight(const SparseMatrix& hessian) { return hessian.diagonal(); }
 
   // Where each unknown lies in a plane (n x 2), if it does: neighbours in the Hessian near each other. Empty: unknown.
-  // May run beside others, as `pattern`.
+  // May run in a thread of its own, beside `coarse`.
   virtual PlanePositions places() { return {}; }
 
   // A stand-in near x, where the gradient is `gradient`, with which a minimum far away is first approached. Null where

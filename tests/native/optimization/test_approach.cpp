@@ -54,14 +54,15 @@ class SmoothChain final : public Problem {
   Chain& chain() { return chain_; }
   void withhold_motions() { offers_ = false; }
 
-  std::thread::id pattern_thread() const { return pattern_thread_; }  // that asked for it; none: nobody did
+  std::thread::id ordering_thread() const { return ordering_thread_; }  // that asked for places; none: nobody did
 
   int size() const override { return chain_.size(); }
   double evaluate(const Vector& x, Vector* gradient) override { return chain_.evaluate(x, gradient); }
   const SparseMatrix& hessian(const Vector& x, HessianModel model) override { return chain_.hessian(x, model); }
-  const SparseMatrix* pattern() override {
-    pattern_thread_ = std::this_thread::get_id();
-    return &pattern_;
+  const SparseMatrix* pattern() override { return &pattern_; }
+  PlanePositions places() override {
+    ordering_thread_ = std::this_thread::get_id();
+    return {};
   }
   std::unique_ptr<CoarseProblem> coarse(const Vector& x, const Vector&) override {
     return offers_ ? std::make_unique<CoarseChain>(chain_, modes_, x) : nullptr;
@@ -71,7 +72,7 @@ class SmoothChain final : public Problem {
   Chain chain_;
   SparseMatrix modes_, pattern_;
   bool offers_ = true;
-  std::thread::id pattern_thread_;
+  std::thread::id ordering_thread_;
 };
 
 struct ApproachTest : testing::Test {
@@ -121,8 +122,8 @@ TEST_F(ApproachTest, TheAnalysisRunsBesideIt) {
     const Report report = Minimizer().minimize(large, ends[threads - 1], {});
     EXPECT_TRUE(report.converged()) << report.message;
     EXPECT_EQ(report.analyses, 1);
-    EXPECT_EQ(large.pattern_thread() == std::thread::id(), threads == 1);
-    EXPECT_NE(large.pattern_thread(), std::this_thread::get_id());
+    EXPECT_NE(large.ordering_thread(), std::thread::id());
+    EXPECT_EQ(large.ordering_thread() == std::this_thread::get_id(), threads == 1);
   }
   omp_set_num_threads(before);
   EXPECT_TRUE(ends[0] == ends[1]);
