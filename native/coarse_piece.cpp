@@ -8,7 +8,7 @@ namespace reflines {
 // in their place the motions start the right way whatever the detail.
 CoarsePiece::CoarsePiece(const HeightField& field, const Energy& energy, SmoothModes modes, const Vector& z,
                          const Vector& gradient)
-    : modes_(std::move(modes)), energy_(field, energy, modes_, z), missed_(modes_.values * gradient) {
+    : modes_(std::move(modes)), energy_(field, energy, modes_, z), missed_(modes_.pull_back(gradient)) {
   Vector sampled(size());
   energy_.evaluate(Vector::Zero(size()), &sampled);
   missed_ -= sampled;

@@ -13,10 +13,10 @@ class CoarsePiece final : public CoarseProblem {
   CoarsePiece(const HeightField& field, const Energy& energy, SmoothModes modes, const Vector& z,
               const Vector& gradient);
 
-  int size() const override { return modes_.count(); }
+  int size() const override { return modes_.count; }
   double evaluate(const Vector& c, Vector* gradient) override;
   const SparseMatrix& hessian(const Vector& c, HessianModel model) override { return energy_.hessian(c, model); }
-  void move(const Vector& c, Vector& x) const override { x.noalias() += modes_.values.transpose() * c; }
+  void move(const Vector& c, Vector& x) const override { modes_.move(c, x); }
 
  private:
   SmoothModes modes_;

@@ -283,7 +283,7 @@ std::unique_ptr<CoarseProblem> PieceProblem::coarse(const Vector& x, const Vecto
   // Few unknowns: their own factor is cheap. Few triangles that count: the samples would be of samples.
   if (unknowns_.modes().size() > 0 || !sampled_.empty()) return nullptr;
   SmoothModes modes = smooth_modes(piece_.field, kKnotSpacing);
-  if (modes.count() == 0) return nullptr;
+  if (modes.count == 0) return nullptr;
   unknowns_.heights(x, trial_z_);
   return std::make_unique<CoarsePiece>(piece_.field, energy_, std::move(modes), trial_z_, gradient);
 }

@@ -13,13 +13,7 @@ constexpr double kSmallestSupport = 0.03;
 // Samples along a cell's side. Nine a cell are eighteen equations for each spline.
 constexpr int kSamplesAlong = 3;
 
-struct KnotGrid {
-  Vector2 origin;
-  double step = 0;
-  int columns = 0, rows = 0;  // of splines; cells are three fewer each way
-
-  Vector2 place(const Vector2& xy) const { return (xy - origin) / step; }
-};
+Vector2 in_cells(const KnotGrid& grid, const Vector2& xy) { return (xy - grid.origin) / grid.step; }
 
 KnotGrid grid_over(const HeightField& field, double spacing) {
   KnotGrid grid;
@@ -55,7 +49,7 @@ std::array<int, 16> splines_of_cell(const KnotGrid& grid, int i, int j) {
 }
 
 Footprint footprint(const KnotGrid& grid, const Vector2& xy) {
-  const Vector2 place = grid.place(xy);
+  const Vector2 place = in_cells(grid, xy);
   const int i = static_cast<int>(place.x()), j = static_cast<int>(place.y());
   const Splines across = cubic_splines(place.x() - i), along = cubic_splines(place.y() - j);
   Footprint result{splines_of_cell(grid, i, j), {}};
@@ -63,41 +57,30 @@ Footprint footprint(const KnotGrid& grid, const Vector2& xy) {
   return result;
 }
 
-// The row of each spline, or -1 where it is left out.
-std::vector<int> number_splines(const HeightField& field, const KnotGrid& grid, double full_support, int& count) {
-  std::vector<double> support(static_cast<size_t>(grid.columns) * grid.rows, 0.0);
+void number_splines(const HeightField& field, double full_support, SmoothModes& modes) {
+  std::vector<double> support(static_cast<size_t>(modes.grid.columns) * modes.grid.rows, 0.0);
   std::vector<bool> held(support.size(), false);
   for (int v = 0; v < field.vertex_count(); ++v) {
     if (field.role[v] == VertexRole::kUnused) continue;
-    const Footprint print = footprint(grid, field.xy.row(v));
+    const Footprint print = footprint(modes.grid, field.xy.row(v));
     for (int k = 0; k < 16; ++k) {
       support[print.spline[k]] += print.value[k];
       if (field.role[v] != VertexRole::kFree && print.value[k] > 0) held[print.spline[k]] = true;
     }
   }
-  std::vector<int> row(support.size(), -1);
-  for (size_t s = 0; s < row.size(); ++s) {
-    if (!held[s] && support[s] >= kSmallestSupport * full_support) row[s] = count++;
+  modes.mode.assign(support.size(), -1);
+  for (size_t s = 0; s < support.size(); ++s) {
+    if (!held[s] && support[s] >= kSmallestSupport * full_support) modes.mode[s] = modes.count++;
   }
-  return row;
 }
 
-SparseMatrix spline_values(const HeightField& field, const KnotGrid& grid, const std::vector<int>& row, int count) {
-  const auto free = std::count(field.role.begin(), field.role.end(), VertexRole::kFree);
-  SparseMatrix values(count, free);
-  values.reserve(16 * free);
-  int column = 0;
+PlanePositions free_places(const HeightField& field) {
+  PlanePositions places(std::count(field.role.begin(), field.role.end(), VertexRole::kFree), 2);
+  int n = 0;
   for (int v = 0; v < field.vertex_count(); ++v) {
-    if (field.role[v] != VertexRole::kFree) continue;
-    const Footprint print = footprint(grid, field.xy.row(v));
-    values.startVec(column);
-    for (int k = 0; k < 16; ++k) {
-      if (row[print.spline[k]] >= 0) values.insertBack(row[print.spline[k]], column) = print.value[k];
-    }
-    ++column;
+    if (field.role[v] == VertexRole::kFree) places.row(n++) = field.xy.row(v);
   }
-  values.finalize();
-  return values;
+  return places;
 }
 
 // Of each part of a cell the triangle nearest to its middle, standing for all; cell by cell, with room for every part.
@@ -108,7 +91,7 @@ std::vector<ModeSample> choose_samples(const HeightField& field, const KnotGrid&
   for (int t = 0; t < field.triangle_count(); ++t) {
     const Vector2 centre =
         (field.xy.row(field.F(t, 0)) + field.xy.row(field.F(t, 1)) + field.xy.row(field.F(t, 2))).transpose() / 3;
-    const Vector2 place = grid.place(centre);
+    const Vector2 place = in_cells(grid, centre);
     const Eigen::Vector2i cell = place.cast<int>();
     const Vector2 within = place - cell.cast<double>();
     const Eigen::Vector2i part = (kSamplesAlong * within).cast<int>();
@@ -124,12 +107,12 @@ std::vector<ModeSample> choose_samples(const HeightField& field, const KnotGrid&
   return samples;
 }
 
-void add_cells(const HeightField& field, const KnotGrid& grid, const std::vector<int>& row, SmoothModes& modes) {
-  const std::vector<ModeSample> samples = choose_samples(field, grid);
-  const int columns = grid.columns - 3, parts = kSamplesAlong * kSamplesAlong;
-  for (int c = 0; c < columns * (grid.rows - 3); ++c) {
-    ModeCell cell{static_cast<int>(modes.samples.size()), 0, splines_of_cell(grid, c % columns, c / columns)};
-    for (int& mode : cell.mode) mode = row[mode];
+void add_cells(const HeightField& field, SmoothModes& modes) {
+  const std::vector<ModeSample> samples = choose_samples(field, modes.grid);
+  const int columns = modes.grid.columns - 3, parts = kSamplesAlong * kSamplesAlong;
+  for (int c = 0; c < columns * (modes.grid.rows - 3); ++c) {
+    ModeCell cell{static_cast<int>(modes.samples.size()), 0, splines_of_cell(modes.grid, c % columns, c / columns)};
+    for (int& mode : cell.mode) mode = modes.mode[mode];
     if (*std::max_element(cell.mode.begin(), cell.mode.end()) < 0) continue;
     for (int k = c * parts; k < (c + 1) * parts; ++k) {
       if (samples[k].triangle < 0) continue;
@@ -144,12 +127,33 @@ void add_cells(const HeightField& field, const KnotGrid& grid, const std::vector
 }  // namespace
 
 SmoothModes smooth_modes(const HeightField& field, double spacing) {
-  const KnotGrid grid = grid_over(field, spacing);
-  int count = 0;
-  const std::vector<int> row = number_splines(field, grid, spacing * spacing, count);
-  SmoothModes modes{spline_values(field, grid, row, count), {}, {}, grid.step};
-  if (count > 0) add_cells(field, grid, row, modes);
+  SmoothModes modes;
+  modes.grid = grid_over(field, spacing);
+  number_splines(field, spacing * spacing, modes);
+  modes.places = free_places(field);
+  if (modes.count > 0) add_cells(field, modes);
   return modes;
+}
+
+void SmoothModes::move(const Vector& c, Vector& x) const {
+#pragma omp parallel for schedule(static) if (x.size() > kWorthThreads)
+  for (Eigen::Index n = 0; n < x.size(); ++n) {
+    const Footprint print = footprint(grid, places.row(n));
+    for (int k = 0; k < 16; ++k) {
+      if (mode[print.spline[k]] >= 0) x(n) += print.value[k] * c(mode[print.spline[k]]);
+    }
+  }
+}
+
+Vector SmoothModes::pull_back(const Vector& gradient) const {
+  Vector result = Vector::Zero(count);
+  for (Eigen::Index n = 0; n < gradient.size(); ++n) {
+    const Footprint print = footprint(grid, places.row(n));
+    for (int k = 0; k < 16; ++k) {
+      if (mode[print.spline[k]] >= 0) result(mode[print.spline[k]]) += print.value[k] * gradient(n);
+    }
+  }
+  return result;
 }
 
 ModeDerivatives mode_derivatives(const Vector2& place, double step) {

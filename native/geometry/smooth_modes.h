@@ -22,13 +22,25 @@ struct ModeCell {
   std::array<int, 16> mode;  // or -1 where a spline is left out
 };
 
+// Knots one cell apart; splines are numbered row by row.
+struct KnotGrid {
+  Vector2 origin;
+  double step = 0;            // width of a cell
+  int columns = 0, rows = 0;  // of splines; cells are three fewer each way
+};
+
 struct SmoothModes {
-  SparseMatrix values;  // m x n, one column for each free vertex in order: by how much the m splines move it
+  KnotGrid grid;
+  std::vector<int> mode;  // of each spline, or -1 where it is left out
+  int count = 0;          // m
+  PlanePositions places;  // n x 2: of each free vertex in order, in the image plane
   std::vector<ModeCell> cells;
   std::vector<ModeSample> samples;  // one for every ninth of a cell that holds a triangle
-  double step = 0.0;                // width of a cell
 
-  int count() const { return static_cast<int>(values.rows()); }
+  // With P, n x m, by how much each mode moves the free vertices. It is not kept: 16 entries a vertex are 200 MB at 1M
+  // vertices, and take longer to write and read than to compute.
+  void move(const Vector& c, Vector& x) const;     // x += P c
+  Vector pull_back(const Vector& gradient) const;  // P^T gradient
 };
 
 // The knots lie about `spacing` mean vertex distances apart. A spline that would move a vertex which is not free is

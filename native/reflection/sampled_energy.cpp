@@ -43,7 +43,7 @@ double SampledEnergy::evaluate(const Vector& c, Vector* gradient) const {
     Coefficients slope = Coefficients::Zero();
     for (int s = cell.begin; s < cell.end; ++s) {
       const ModeSample& sample = modes_.samples[s];
-      const ModeDerivatives D = mode_derivatives(sample.place, modes_.step);
+      const ModeDerivatives D = mode_derivatives(sample.place, modes_.grid.step);
       const Vector6 u = start_[s].u + D * own;
       Vector5 y = Vector5::Zero();
       sum += sample.share *
@@ -62,7 +62,7 @@ SampledEnergy::Block SampledEnergy::block(const ModeCell& cell, const Vector& c,
   Block result = Block::Zero();
   for (int s = cell.begin; s < cell.end; ++s) {
     const ModeSample& sample = modes_.samples[s];
-    const ModeDerivatives D = mode_derivatives(sample.place, modes_.step);
+    const ModeDerivatives D = mode_derivatives(sample.place, modes_.grid.step);
     const Vector6 u = start_[s].u + D * own;
     const Matrix5 M = sample.share * energy_.triangle_hessian(sample.triangle, u.tail<5>(), model);
     const Eigen::Matrix<double, 5, 16> MD = M * D.bottomRows<5>();
@@ -91,8 +91,8 @@ void SampledEnergy::make_pattern() {
   for (const ModeCell& cell : modes_.cells) {
     for_each_pair(cell, [&](int, int row, int column) { entries.emplace_back(row, column, 0.0); });
   }
-  for (int mode = 0; mode < modes_.count(); ++mode) entries.emplace_back(mode, mode, 0.0);
-  H_.resize(modes_.count(), modes_.count());
+  for (int mode = 0; mode < modes_.count; ++mode) entries.emplace_back(mode, mode, 0.0);
+  H_.resize(modes_.count, modes_.count);
   H_.setFromTriplets(entries.begin(), entries.end());
   positions_.resize(modes_.cells.size());
   for (size_t c = 0; c < positions_.size(); ++c) {

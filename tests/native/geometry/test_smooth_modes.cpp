@@ -26,27 +26,43 @@ HeightField flat_square(Border border) {
   return make_height_field(V, F, ImagePlane(Vector3::UnitZ(), Vector3::UnitY()), boundary);
 }
 
+// What each free vertex moves by when every mode has strength one.
+Vector moved_together(const SmoothModes& modes) {
+  Vector x = Vector::Zero(modes.places.rows());
+  modes.move(Vector::Ones(modes.count), x);
+  return x;
+}
+
 TEST(SmoothModesTest, AddUpToOneWhereNothingIsHeld) {
   const HeightField field = flat_square(Border::kClamped);
-  const SparseMatrix modes = smooth_modes(field, 4.0).values;
-  const Vector sums = modes.transpose() * Vector::Ones(modes.rows());
-  ASSERT_EQ(modes.cols(), (kSide - 3) * (kSide - 3));
-  EXPECT_GT(modes.rows(), 9);
+  const SmoothModes modes = smooth_modes(field, 4.0);
+  const Vector sums = moved_together(modes);
+  ASSERT_EQ(sums.size(), (kSide - 3) * (kSide - 3));
+  EXPECT_GT(modes.count, 9);
   EXPECT_GE(sums.minCoeff(), 0.0);
   EXPECT_LE(sums.maxCoeff(), 1.0 + 1e-12);
-  EXPECT_NEAR(sums(modes.cols() / 2), 1.0, 1e-12);
+  EXPECT_NEAR(sums(sums.size() / 2), 1.0, 1e-12);
   EXPECT_LT(sums(0), 1e-3);  // beside two clamped borders: position and tangent are theirs
 }
 
 TEST(SmoothModesTest, AFreeBorderMovesToo) {
   const HeightField field = flat_square(Border::kFree);
-  const SparseMatrix modes = smooth_modes(field, 4.0).values;
-  const Vector sums = modes.transpose() * Vector::Ones(modes.rows());
-  EXPECT_EQ(modes.cols(), (kSide + 1) * (kSide + 1));
+  const Vector sums = moved_together(smooth_modes(field, 4.0));
+  EXPECT_EQ(sums.size(), (kSide + 1) * (kSide + 1));
   EXPECT_GT(sums.minCoeff(), 0.5);
 }
 
-TEST(SmoothModesTest, ASmallRegionHasNone) { EXPECT_EQ(smooth_modes(flat_square(Border::kClamped), 20.0).count(), 0); }
+// P^T g . c = g . P c.
+TEST(SmoothModesTest, PullingBackIsTheTransposeOfMoving) {
+  const SmoothModes modes = smooth_modes(flat_square(Border::kFree), 4.0);
+  const Vector c = Vector::LinSpaced(modes.count, -1.0, 2.0);
+  const Vector g = Vector::LinSpaced(modes.places.rows(), 3.0, -1.0);
+  Vector x = Vector::Zero(g.size());
+  modes.move(c, x);
+  EXPECT_NEAR(modes.pull_back(g).dot(c), g.dot(x), 1e-10);
+}
+
+TEST(SmoothModesTest, ASmallRegionHasNone) { EXPECT_EQ(smooth_modes(flat_square(Border::kClamped), 20.0).count, 0); }
 
 // The samples are a quadrature: together they stand for the area of all cells that hold a motion, each once.
 TEST(SmoothModesTest, SamplesStandForTheWholeArea) {

@@ -27,7 +27,8 @@ struct SampledEnergyTest : testing::Test {
   }
   Vector moved(const Vector& c) const {
     Vector z = field.z;
-    const Vector moves = modes.values.transpose() * c;
+    Vector moves = Vector::Zero(modes.places.rows());
+    modes.move(c, moves);
     for (int v = 0, k = 0; v < z.size(); ++v) {
       if (field.role[v] == VertexRole::kFree) z(v) += moves(k++);
     }
@@ -42,7 +43,7 @@ struct SampledEnergyTest : testing::Test {
 
 TEST_F(SampledEnergyTest, GradientAndNewtonHessianAreItsDerivatives) {
   SampledEnergy sampled(field, energy, modes, field.z);
-  const Vector c = 0.01 * Vector::LinSpaced(modes.count(), -1.0, 1.0);
+  const Vector c = 0.01 * Vector::LinSpaced(modes.count, -1.0, 1.0);
   Vector gradient(c.size()), plus(c.size()), minus(c.size());
   sampled.evaluate(c, &gradient);
   for (int k = 0; k < c.size(); k += 5) {
@@ -60,7 +61,7 @@ TEST_F(SampledEnergyTest, GradientAndNewtonHessianAreItsDerivatives) {
 // Cells without a motion hold no sample: their energy, which no motion changes, is left out.
 TEST_F(SampledEnergyTest, ChangesAsTheEnergyDoesAlongSmoothMotions) {
   const SampledEnergy sampled(field, energy, modes, field.z);
-  const Vector c = 0.01 * Vector::LinSpaced(modes.count(), 0.0, 3.0).array().sin().matrix();
+  const Vector c = 0.01 * Vector::LinSpaced(modes.count, 0.0, 3.0).array().sin().matrix();
   const double whole = energy.evaluate(moved(c), nullptr) - energy.evaluate(field.z, nullptr);
   const double own = sampled.evaluate(c, nullptr) - sampled.evaluate(Vector::Zero(c.size()), nullptr);
   EXPECT_NEAR(own, whole, 0.1 * std::abs(whole));
