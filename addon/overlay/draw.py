@@ -131,13 +131,17 @@ def arrays_of(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: sur
         return make(solution, settings.map_range) if solution is not None else NOTHING
     if settings.before and solution is not None:
         V, F, old = last_solve.before(solution, read.V, read.F, len(ob.data.vertices))
-        return V, F, _cache.fits.normals(BEFORE + ob.name, old, F)
+        shaded = _cache.fits.shaded(BEFORE + ob.name, old, F)
+        return V[shaded.vertex], shaded.F, shaded.normals
     return part(ob.name, read) if seen.is_part_only(ob, settings) else whole(ob.name, read)
 
 
 def whole(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Positions, triangles and normals of a batch."""
-    return read.V, read.F, _cache.fits.normals(name, read.V, read.F) if read.normals is None else read.normals
+    if read.normals is not None:
+        return read.V, read.F, read.normals
+    shaded = _cache.fits.shaded(name, read.V, read.F)
+    return read.V[shaded.vertex], shaded.F, shaded.normals
 
 
 def part(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -145,8 +149,11 @@ def part(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.n
     inside = stripes.around(read.F, read.selected, len(read.V), rings=3)
     used, F = np.unique(read.F[inside], return_inverse=True)
     V, F = read.V[used], F.reshape(-1, 3).astype(np.int32)
-    normals = _cache.fits.normals(name, V, F) if read.normals is None else read.normals[used]
-    return V, F[read.selected[inside]], normals
+    chosen = read.selected[inside]
+    if read.normals is not None:
+        return V, F[chosen], read.normals[used]
+    shaded = _cache.fits.shaded(name, V, F)
+    return V[shaded.vertex], shaded.F[chosen], shaded.normals
 
 
 def make_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,

@@ -1,6 +1,7 @@
-"""Normals fitted to the surfaces that are shown; those of large surfaces in a thread, while rough ones are drawn."""
+"""Normals fitted to the surfaces that are shown, on each side of a crease by themselves: across one they would bend the lines
+beside it. Those of large surfaces are fitted in a thread, while rough ones are drawn."""
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,12 +15,21 @@ AGAIN = 0.3          # seconds between the starts of two fits of a surface that 
 FIT_RINGS = 3        # triangles further away have no part in a normal
 
 
+@dataclass(frozen=True)
+class Shaded:
+    """A surface cut open along its creases: triangles (#F x 3) of split vertices, their normals (#S x 3), and the vertex of
+    the surface that each was (#S)."""
+    F: np.ndarray
+    vertex: np.ndarray
+    normals: np.ndarray
+
+
 @dataclass
 class Fit:
-    """Normals (#V x 3) of a surface, and the native fit that made them; None where the mesh is too broken for one."""
+    """Normals of a surface, and the native fit that made them; None where the mesh is too broken for one."""
     V: np.ndarray
     F: np.ndarray
-    normals: np.ndarray
+    shaded: Shaded
     native_fit: object | None
 
 
@@ -43,26 +53,27 @@ class Fits:
         self.obsolete = False  # the job
         self.worker: Worker[Job, Fit] | None = None
 
-    def normals(self, name: str, V: np.ndarray, F: np.ndarray) -> np.ndarray:
-        """#V x 3, the best there are now; `finished` tells when better ones have come."""
+    def shaded(self, name: str, V: np.ndarray, F: np.ndarray) -> Shaded:
+        """With the best normals there are now; `finished` tells when better ones have come."""
         old = self.done.get(name)
         alike = old is not None and len(old.V) == len(V) and np.array_equal(old.F, F)
         if alike and np.array_equal(old.V, V):  # also after a way there and back: what was begun on it is not wanted
             self.wanted.pop(name, None)
             self.obsolete |= self.is_at(name)
-            return old.normals
+            return old.shaded
         if not native.STATE.usable:
-            return stripes.area_normals(V, F)
+            return smooth(V, F)
         if len(V) <= AT_ONCE and not self.is_at(name):
             self.done[name] = fitted(V, F, old if alike else None)
-            return self.done[name].normals
+            return self.done[name].shaded
         if self.is_at(name) and np.array_equal(self.job.V, V):
             self.obsolete = False
         else:
             self.wanted[name] = V, F
             self.advance()
-        follows = alike and old.native_fit is not None
-        return old.native_fit.kept_normals(V) if follows else stripes.area_normals(V, F)
+        if not alike or old.native_fit is None:
+            return smooth(V, F)
+        return replace(old.shaded, normals=old.native_fit.kept_normals(V[old.shaded.vertex]))
 
     def is_at(self, name: str) -> bool:
         return self.job is not None and self.job.name == name
@@ -117,13 +128,21 @@ class Fits:
 def fitted(V: np.ndarray, F: np.ndarray, old: Fit | None) -> Fit:
     """In a thread, too: knows nothing of Blender. A mesh too broken to be fitted is still to be seen."""
     try:
-        kept = old.native_fit if old is not None else None
-        # A copy, since the kept one goes on following in the meantime.
-        native_fit = kept.copy() if kept else native.reflines.NormalFit(V, F, refit_angle=REFIT_ANGLE)
-        return Fit(V, F, native_fit.normals(V), native_fit)
+        split, vertex = native.reflines.split_at_creases(V, F)
+        points = V[vertex]
+        if old is not None and old.native_fit is not None and np.array_equal(old.shaded.F, split):
+            native_fit = old.native_fit.copy()  # since the kept one goes on following in the meantime
+        else:
+            native_fit = native.reflines.NormalFit(points, split, refit_angle=REFIT_ANGLE)
+        return Fit(V, F, Shaded(split, vertex, native_fit.normals(points)), native_fit)
     except (native.InvalidInput, native.SolverFailure):
         return rough(V, F)
 
 
 def rough(V: np.ndarray, F: np.ndarray) -> Fit:
-    return Fit(V, F, stripes.area_normals(V, F), None)
+    return Fit(V, F, smooth(V, F), None)
+
+
+def smooth(V: np.ndarray, F: np.ndarray) -> Shaded:
+    """Without creases, and as rough as Blender's own: what takes no time."""
+    return Shaded(F, np.arange(len(V)), stripes.area_normals(V, F))

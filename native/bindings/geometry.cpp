@@ -1,12 +1,15 @@
 #include <pybind11/eigen.h>
 
 #include <memory>
+#include <utility>
 
 #include "native/bindings/bind.h"
 #include "native/bindings/in_use.h"
 #include "native/bindings/indices.h"
 #include "native/bindings/turn.h"
 #include "native/errors.h"
+#include "native/geometry/crease.h"
+#include "native/geometry/crease_split.h"
 #include "native/geometry/image_plane.h"
 #include "native/geometry/normals.h"
 #include "native/reflection/reflection_function.h"
@@ -48,6 +51,14 @@ std::unique_ptr<NormalFit> make_fit(const Positions& V, const Indices& F, double
   return std::make_unique<NormalFit>(V, triangles, refit_angle);
 }
 
+// (F, vertex): see split_at_creases.
+std::pair<Triangles, Eigen::VectorXi> split(const Positions& V, const Indices& F, double angle) {
+  const Triangles triangles = triangles_of(F);
+  const ReleaseGil release;
+  const SplitSurface result = split_at_creases(V, triangles, angle);
+  return {result.F, Eigen::Map<const Eigen::VectorXi>(result.vertex.data(), result.vertex.size())};
+}
+
 NormalFit copy(const NormalFit& fit) {
   const At at(fit, InUse::Use::kReads);
   return fit;
@@ -64,6 +75,7 @@ void bind_geometry(py::module_& module) {
         return theta(normals, view.transpose(), line);
       },
       py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
+  module.def("split_at_creases", &split, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("angle") = kCreaseAngle);
   py::class_<NormalFit>(module, "NormalFit", py::module_local())
       .def(py::init(&make_fit), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("refit_angle") = 0.35)
       .def("copy", &copy)

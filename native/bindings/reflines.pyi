@@ -199,6 +199,10 @@ def match_dense(optimizer: ShapeOptimizer, dense: ShapeOptimizer, *, family: int
     """The lines of another mesh as a target, with weight 0 where the view meets none of it; theta there (#F), its heights at
     the region's vertices (#V), and the area each speaks for: what CageOptimizer.fit takes. Both have the same view and lines."""
 
+def split_at_creases(V: np.ndarray, F: np.ndarray, *, angle: float = 0.5236) -> tuple[np.ndarray, np.ndarray]:
+    """(F, vertex): the same triangles (#F x 3) of vertices that are split where edges bend by more than `angle` (radians), and
+    the vertex that each was (#S, the first #V themselves). Normals of V[vertex] are then those of each side of a crease."""
+
 class NormalFit:
     """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""
     def __init__(self, V: np.ndarray, F: np.ndarray, *, refit_angle: float = 0.35) -> None: ...

@@ -13,8 +13,6 @@ constexpr double kChainShare = 0.25;   // of the crease angle: edges of a chain
 constexpr double kChainMedian = 25.0;  // times the median edge
 constexpr double kChainReach = 0.08;   // of the region's extent
 
-using Bends = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
 Positions unit_normals(const Positions& V, const Triangles& F) {
   Positions normals(F.rows(), 3);
 #pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
@@ -25,22 +23,7 @@ Positions unit_normals(const Positions& V, const Triangles& F) {
   return normals;
 }
 
-// Angle between the triangles on both sides of each edge, radians; 0 on borders.
-Bends bends(const Positions& V, const Triangles& F, const Triangles& neighbors) {
-  const Positions normals = unit_normals(V, F);
-  Bends result(F.rows(), 3);
-#pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
-  for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
-    const Vector3 own = normals.row(t);
-    for (int i = 0; i < 3; ++i) {
-      const Vector3 other = normals.row(neighbors(t, i) < 0 ? t : neighbors(t, i));
-      result(t, i) = std::atan2(own.cross(other).norm(), own.dot(other));
-    }
-  }
-  return result;
-}
-
-double median_bend(const Bends& bend, const Triangles& neighbors) {
+double median_bend(const EdgeBends& bend, const Triangles& neighbors) {
   std::vector<double> inner;
   for (int t = 0; t < neighbors.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -94,8 +77,22 @@ double region_extent(const Positions& V, const Triangles& F) {
 
 }  // namespace
 
+EdgeBends edge_bends(const Positions& V, const Triangles& F, const Triangles& neighbors) {
+  const Positions normals = unit_normals(V, F);
+  EdgeBends result(F.rows(), 3);
+#pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
+  for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
+    const Vector3 own = normals.row(t);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 other = normals.row(neighbors(t, i) < 0 ? t : neighbors(t, i));
+      result(t, i) = std::atan2(own.cross(other).norm(), own.dot(other));
+    }
+  }
+  return result;
+}
+
 EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& neighbors, double angle) {
-  const Bends bend = bends(V, F, neighbors);
+  const EdgeBends bend = edge_bends(V, F, neighbors);
   const double chained = std::min(angle, std::max(kChainShare * angle, kChainMedian * median_bend(bend, neighbors)));
   EdgeMask result = bend > chained;
   if (!result.any()) return result;

@@ -52,14 +52,6 @@ std::string count(int n, const std::string& one, const std::string& many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-void check_indices(const Positions& V, const Triangles& F) {
-  if (F.rows() == 0) throw InvalidInput("The region has no face; select the faces of the panel first.");
-  if (F.minCoeff() >= 0 && F.maxCoeff() < V.rows()) return;
-  const int wrong = F.minCoeff() < 0 ? F.minCoeff() : F.maxCoeff();
-  throw InvalidInput("The triangles name vertex " + std::to_string(wrong) + " but there are " +
-                     std::to_string(V.rows()) + " vertices; pass indices from 0 to #V - 1.");
-}
-
 void check_finite(const Positions& V, const Triangles& F) {
   Mask bad = Mask::Constant(V.rows(), false);
   for (int k = 0; k < F.size(); ++k) bad(F.data()[k]) = !V.row(F.data()[k]).allFinite();
@@ -114,7 +106,15 @@ void check_manifold(const std::vector<HalfEdge>& edges) {
 
 }  // namespace
 
+void check_indices(const Positions& V, const Triangles& F) {
+  if (F.size() == 0 || (F.minCoeff() >= 0 && F.maxCoeff() < V.rows())) return;
+  const int wrong = F.minCoeff() < 0 ? F.minCoeff() : F.maxCoeff();
+  throw InvalidInput("The triangles name vertex " + std::to_string(wrong) + " but there are " +
+                     std::to_string(V.rows()) + " vertices; pass indices from 0 to #V - 1.");
+}
+
 void check_surface(const Positions& V, const Triangles& F) {
+  if (F.rows() == 0) throw InvalidInput("The region has no face; select the faces of the panel first.");
   check_indices(V, F);
   check_finite(V, F);
   check_area(V, F);

@@ -17,6 +17,9 @@ struct Incidence {
   int size() const { return static_cast<int>(offset.size()) - 1; }
 };
 
+// Throws InvalidInput where a triangle names a vertex that is not one of V (#V x 3).
+void check_indices(const Positions& V, const Triangles& F);
+
 // Throws InvalidInput where V (#V x 3) and F (#F x 3) cannot be a surface: no triangle at all, an index out of range,
 // coordinates that are not finite, triangles without area in space, doubled triangles, an edge with more than two
 // triangles.

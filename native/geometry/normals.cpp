@@ -61,10 +61,7 @@ Vector3 angle_weighted_normal(const Positions& V, const Triangles& F, const Inci
 
 NormalFit::NormalFit(const Positions& V, const Triangles& F, double refit_angle)
     : F_(F), cosine_(std::cos(refit_angle)) {
-  if (F.size() > 0 && (F.minCoeff() < 0 || F.maxCoeff() >= V.rows())) {
-    throw InvalidInput("The triangles name vertices beyond the " + std::to_string(V.rows()) +
-                       " given; pass indices from 0 to #V - 1.");
-  }
+  check_indices(V, F);
   triangles_of_vertex_ = vertex_triangles(F, static_cast<int>(V.rows()));
   const Triangles neighbors = edge_neighbors(F);
   std::vector<std::vector<int>> around(V.rows());
