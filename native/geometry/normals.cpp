@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "native/errors.h"
 
@@ -13,6 +14,11 @@ namespace {
 // Singular values below this share of the largest are treated as zero: the fit is then the one of smallest
 // coefficients.
 constexpr double kRank = 1e-6;
+
+// Radians. Vertices that face so far away from the vertex of a fit hardly count in it: a bend that one row of triangles
+// makes (27 degrees at the rounded edge of a car's bonnet) is no quadratic, and tilted the normals beside it by as
+// much.
+constexpr double kSameSurface = 0.2;
 
 // A full quadratic through v has five coefficients. Corners of a border have fewer neighbours; with another ring added
 // their normals are of second order too (measured on a jittered cylinder: largest error 0.018 without, 0.002 with).
@@ -43,18 +49,27 @@ std::vector<int> fit_vertices(const Triangles& F, const Triangles& neighbors, co
   return around;
 }
 
-// Sum of the normals of the triangles around v, each by its angle at v.
-Vector3 angle_weighted_normal(const Positions& V, const Triangles& F, const Incidence& triangles_of_vertex, int v) {
-  Vector3 sum = Vector3::Zero();
-  for (int k = triangles_of_vertex.begin(v); k < triangles_of_vertex.end(v); ++k) {
-    const int t = triangles_of_vertex.items[k];
-    const int i = F(t, 0) == v ? 0 : F(t, 1) == v ? 1 : 2;
-    const Vector3 a = (V.row(F(t, (i + 1) % 3)) - V.row(v)).transpose(),
-                  b = (V.row(F(t, (i + 2) % 3)) - V.row(v)).transpose();
-    const Vector3 n = a.cross(b);
-    if (n.norm() > 0) sum += std::atan2(n.norm(), a.dot(b)) * n.normalized();
+Vector3 twice_area(const Positions& V, const Triangles& F, int t) {
+  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
+  return (b - a).cross(c - a);
+}
+
+// #V x 3: sum of the normals of the triangles around each vertex, each as long as twice its area.
+Positions area_normals(const Positions& V, const Triangles& F, const Incidence& triangles_of_vertex) {
+  Positions normals = Positions::Zero(V.rows(), 3);
+#pragma omp parallel for schedule(dynamic, 1024)
+  for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
+    for (int k = triangles_of_vertex.begin(v); k < triangles_of_vertex.end(v); ++k) {
+      normals.row(v) += twice_area(V, F, triangles_of_vertex.items[k]).transpose();
+    }
   }
-  return sum.norm() > 0 ? sum.normalized() : Vector3::UnitZ();
+  return normals;
+}
+
+// How much a vertex counts in a fit in the plane of `initial`, given its area normal.
+double weight_of(const Vector3& area_normal, const Vector3& initial) {
+  const double angle = std::atan2(initial.cross(area_normal).norm(), initial.dot(area_normal)) / kSameSurface;
+  return area_normal.norm() * std::exp(-angle * angle);
 }
 
 }  // namespace
@@ -73,13 +88,15 @@ NormalFit::NormalFit(const Positions& V, const Triangles& F, double refit_angle)
     stencil_.offset.push_back(static_cast<int>(stencil_.items.size()));
   }
   fits_.resize(V.rows());
+  const Positions directions = area_normals(V, F, triangles_of_vertex_);
 #pragma omp parallel for schedule(dynamic, 256)
-  for (int v = 0; v < static_cast<int>(V.rows()); ++v) fit(V, v);
+  for (int v = 0; v < static_cast<int>(V.rows()); ++v) fit(V, directions, v);
 }
 
-void NormalFit::fit(const Positions& V, int v) {
+void NormalFit::fit(const Positions& V, const Positions& area_normals, int v) {
   Fit& fit = fits_[v];
-  fit.initial = angle_weighted_normal(V, F_, triangles_of_vertex_, v);
+  const Vector3 own = area_normals.row(v);
+  fit.initial = own.norm() > 0 ? own.normalized() : Vector3::UnitZ();
   fit.e1 = fit.initial.unitOrthogonal();
   fit.e2 = fit.initial.cross(fit.e1);
   const int K = stencil_.end(v) - stencil_.begin(v);
@@ -87,18 +104,21 @@ void NormalFit::fit(const Positions& V, int v) {
   fit.slopes.setZero(2, K);
   if (K < 3) return;
   Eigen::Matrix<double, Eigen::Dynamic, 5> M(K - 1, 5);  // the quadratic passes through v itself
+  Vector weight(K - 1);
   double size = 0;
   for (int k = 1; k < K; ++k) size = std::max(size, (V.row(stencil_.items[stencil_.begin(v) + k]) - V.row(v)).norm());
   for (int k = 1; k < K; ++k) {
     const Vector3 d = (V.row(stencil_.items[stencil_.begin(v) + k]) - V.row(v)).transpose() / size;
     const double x = d.dot(fit.e1), y = d.dot(fit.e2);
+    weight(k - 1) = std::sqrt(weight_of(area_normals.row(stencil_.items[stencil_.begin(v) + k]), fit.initial));
     M.row(k - 1) << x, y, x * x, x * y, y * y;
   }
+  weight /= std::max(weight.maxCoeff(), std::numeric_limits<double>::min());
   // Like the paper's singular value decomposition it gives the coefficients of smallest norm.
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 5>> decomposition;
   decomposition.setThreshold(kRank);
-  decomposition.compute(M);
-  const Eigen::Matrix<double, 5, Eigen::Dynamic> coefficients = decomposition.pseudoInverse();
+  decomposition.compute(weight.asDiagonal() * M);
+  const Eigen::Matrix<double, 5, Eigen::Dynamic> coefficients = decomposition.pseudoInverse() * weight.asDiagonal();
   fit.slopes.rightCols(K - 1) = coefficients.topRows<2>() / size;
   fit.fitted = normal(V, v);
 }
@@ -129,13 +149,14 @@ Positions NormalFit::kept_normals(const Positions& V) const {
 
 Positions NormalFit::normals(const Positions& V) {
   check_count(V);
+  const Positions directions = area_normals(V, F_, triangles_of_vertex_);
   Positions N(V.rows(), 3);
   int refitted = 0;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : refitted)
   for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
     Vector3 n = normal(V, v);
     if (n.dot(fits_[v].fitted) < cosine_ && stencil_.end(v) > stencil_.begin(v)) {
-      fit(V, v);
+      fit(V, directions, v);
       n = normal(V, v);
       ++refitted;
     }

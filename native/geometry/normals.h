@@ -10,8 +10,10 @@
 namespace reflines {
 
 // Fits over the triangles around a vertex and those sharing an edge with them, in the plane of an initial normal, with
-// minimum-norm coefficients. The 2 x K coefficients of each vertex are kept: new positions give new normals by a small
-// product, and a vertex is fitted anew only when its normal has turned by more than refit_angle since its last fit.
+// minimum-norm coefficients. Vertices count as much as the area around them: where a panel is folded into a hem of thin
+// triangles, its own lines run straight to the edge. The 2 x K coefficients of each vertex are kept: new positions give
+// new normals by a small product, and a vertex is fitted anew only when its normal has turned by more than refit_angle
+// since its last fit.
 class NormalFit {
  public:
   // V (#V x 3), F (#F x 3); refit_angle in radians. Throws InvalidInput for indices out of range.
@@ -32,7 +34,7 @@ class NormalFit {
     Eigen::Matrix<double, 2, Eigen::Dynamic> slopes;  // weights of the K heights over the frame's plane
   };
   void check_count(const Positions& V) const;
-  void fit(const Positions& V, int v);
+  void fit(const Positions& V, const Positions& area_normals, int v);
   Vector3 normal(const Positions& V, int v) const;
 
   Triangles F_;
