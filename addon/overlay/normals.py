@@ -1,5 +1,8 @@
-"""Normals fitted to the surfaces that are shown, on each side of a crease by themselves: across one they would bend the lines
-beside it. Those of large surfaces are fitted in a thread, while rough ones are drawn."""
+"""Normals fitted to the surfaces that are shown, on each side of a crease by themselves.
+
+Across one they would bend the lines beside it. Those of large surfaces are fitted in a thread, while rough ones are
+drawn.
+"""
 import time
 from dataclasses import dataclass, replace
 
@@ -17,11 +20,10 @@ FIT_RINGS = 3        # triangles further away have no part in a normal
 
 @dataclass(frozen=True)
 class Shaded:
-    """A surface cut open along its creases: triangles (#F x 3) of split vertices, their normals (#S x 3), and the vertex of
-    the surface that each was (#S)."""
-    F: np.ndarray
-    vertex: np.ndarray
-    normals: np.ndarray
+    """A surface cut open along its creases."""
+    F: np.ndarray        # #F x 3: triangles of split vertices
+    vertex: np.ndarray   # #S: the vertex of the surface that each was
+    normals: np.ndarray  # #S x 3
 
 
 @dataclass
