@@ -50,15 +50,20 @@ void keep_blas_to_one_thread() {
 
 // CHOLMOD's own loops ask for four threads whatever the machine has. On two cores they take as long as one thread, and
 // each team of another size makes OpenMP end and start threads: some milliseconds in each factorization of a small
-// system. The setting is the calling thread's.
+// system. The setting is the calling thread's; before GCC 12 it was the process's, so that a thread of a team, whose
+// loops are serial anyway, leaves it alone.
 class SerialLoops {
  public:
-  SerialLoops() : active_levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-  ~SerialLoops() { omp_set_max_active_levels(active_levels_); }
+  SerialLoops() : active_levels_(omp_get_max_active_levels()) { set(0); }
+  ~SerialLoops() { set(active_levels_); }
   SerialLoops(const SerialLoops&) = delete;
   SerialLoops& operator=(const SerialLoops&) = delete;
 
  private:
+  static void set(int active_levels) {
+    if (!omp_in_parallel()) omp_set_max_active_levels(active_levels);
+  }
+
   int active_levels_;
 };
 
