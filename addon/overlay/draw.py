@@ -9,7 +9,7 @@ import numpy as np
 from .. import native, session, solving
 from ..bridge import environment, shown_cage, surface
 from . import last_solve, limit, seen, shader, stripes
-from .normals import Fits
+from .normals import FIT_RINGS, Fits
 
 POLL = 0.05  # seconds between two looks at the fit in a thread
 UNSEEN = 60.0   # seconds after which what no viewport draws is dropped: of two, each leaves the other its own
@@ -146,7 +146,7 @@ def whole(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.
 
 def part(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The selected triangles, with the normals that they have in the whole."""
-    inside = stripes.around(read.F, read.selected, len(read.V), rings=3)
+    inside = stripes.around(read.F, read.selected, len(read.V), rings=FIT_RINGS)
     used, F = np.unique(read.F[inside], return_inverse=True)
     V, F = read.V[used], F.reshape(-1, 3).astype(np.int32)
     chosen = read.selected[inside]

@@ -15,7 +15,7 @@ from . import stripes
 REFIT_ANGLE = 0.005  # radians a normal may turn before its fit is made anew: a twentieth of the usual stripes' period
 AT_ONCE = 8000       # vertices that are fitted within 100 ms on one slow core
 AGAIN = 0.3          # seconds between the starts of two fits of a surface that moves
-FIT_RINGS = 3        # triangles further away have no part in a normal
+FIT_RINGS = 5        # triangles further away have no part in a normal: 3 of its fit, 1 of its start, 1 of their areas
 
 
 @dataclass(frozen=True)

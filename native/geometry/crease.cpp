@@ -13,16 +13,6 @@ constexpr double kChainShare = 0.25;   // of the crease angle: edges of a chain
 constexpr double kChainMedian = 25.0;  // times the median edge
 constexpr double kChainReach = 0.08;   // of the region's extent
 
-Positions unit_normals(const Positions& V, const Triangles& F) {
-  Positions normals(F.rows(), 3);
-#pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
-  for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
-    const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-    normals.row(t) = (b - a).cross(c - a).normalized();
-  }
-  return normals;
-}
-
 double median_bend(const EdgeBends& bend, const Triangles& neighbors) {
   std::vector<double> inner;
   for (int t = 0; t < neighbors.rows(); ++t) {
@@ -77,11 +67,20 @@ double region_extent(const Positions& V, const Triangles& F) {
 
 }  // namespace
 
-EdgeBends edge_bends(const Positions& V, const Triangles& F, const Triangles& neighbors) {
-  const Positions normals = unit_normals(V, F);
-  EdgeBends result(F.rows(), 3);
+Positions triangle_normals(const Positions& V, const Triangles& F) {
+  Positions normals(F.rows(), 3);
 #pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
   for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
+    const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
+    normals.row(t) = (b - a).cross(c - a).normalized();
+  }
+  return normals;
+}
+
+EdgeBends edge_bends(const Positions& normals, const Triangles& neighbors) {
+  EdgeBends result(neighbors.rows(), 3);
+#pragma omp parallel for schedule(static) if (neighbors.rows() > kWorthThreads)
+  for (int t = 0; t < static_cast<int>(neighbors.rows()); ++t) {
     const Vector3 own = normals.row(t);
     for (int i = 0; i < 3; ++i) {
       const Vector3 other = normals.row(neighbors(t, i) < 0 ? t : neighbors(t, i));
@@ -92,7 +91,7 @@ EdgeBends edge_bends(const Positions& V, const Triangles& F, const Triangles& ne
 }
 
 EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& neighbors, double angle) {
-  const EdgeBends bend = edge_bends(V, F, neighbors);
+  const EdgeBends bend = edge_bends(triangle_normals(V, F), neighbors);
   const double chained = std::min(angle, std::max(kChainShare * angle, kChainMedian * median_bend(bend, neighbors)));
   EdgeMask result = bend > chained;
   if (!result.any()) return result;

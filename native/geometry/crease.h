@@ -8,9 +8,12 @@ namespace reflines {
 // Edges that bend by more than this (30 degrees) are always creases.
 constexpr double kCreaseAngle = 0.5235987755982988;
 
-// #T x 3: the angle between the triangles on both sides of the edge opposite that corner, radians; 0 on borders.
+// #T x 3, unit; 0 for triangles without area.
+Positions triangle_normals(const Positions& V, const Triangles& F);
+
+// #T x 3: the angle between the normals (#T x 3) on both sides of the edge opposite that corner, radians; 0 on borders.
 using EdgeBends = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-EdgeBends edge_bends(const Positions& V, const Triangles& F, const Triangles& neighbors);
+EdgeBends edge_bends(const Positions& normals, const Triangles& neighbors);
 
 // #T x 3, true where the edge opposite that corner is a crease: it bends by more than `angle`; or it belongs to a
 // connected chain of edges that bend by more than a quarter of `angle` and 25 times the median edge, and reach over 8 %

@@ -1,5 +1,6 @@
 #include "native/geometry/crease_split.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 
@@ -8,6 +9,34 @@
 
 namespace reflines {
 namespace {
+
+// Height over longest edge below which the normal of a triangle of rounded positions is noise (a vertex on the straight
+// side of an n-gon leaves such a triangle).
+constexpr double kThin = 1e-3;
+
+// The corner opposite the longest edge of a thin triangle; -1 for others.
+int blunt_corner(const Positions& V, const Triangles& F, int t) {
+  const Vector3 p[3] = {V.row(F(t, 0)), V.row(F(t, 1)), V.row(F(t, 2))};
+  int corner = 0;
+  double longest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double length = (p[(i + 1) % 3] - p[(i + 2) % 3]).norm();
+    if (length > longest) corner = i;
+    longest = std::max(longest, length);
+  }
+  return (p[1] - p[0]).cross(p[2] - p[0]).norm() < kThin * longest * longest ? corner : -1;
+}
+
+// Thin triangles have the normal of their neighbour across the longest edge: they bend no edge themselves.
+Positions trusted_normals(const Positions& V, const Triangles& F, const Triangles& neighbors) {
+  const Positions own = triangle_normals(V, F);
+  Positions normals = own;
+  for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
+    const int corner = blunt_corner(V, F, t);
+    if (corner >= 0 && neighbors(t, corner) >= 0) normals.row(t) = own.row(neighbors(t, corner));
+  }
+  return normals;
+}
 
 // Corner i of triangle t is 3 t + i. Those of a fan have one representative.
 class Fans {
@@ -40,7 +69,7 @@ class Fans {
 
 Fans fans_between_creases(const Positions& V, const Triangles& F, double angle) {
   const Triangles neighbors = edge_neighbors(F);
-  const EdgeBends bend = edge_bends(V, F, neighbors);
+  const EdgeBends bend = edge_bends(trusted_normals(V, F, neighbors), neighbors);
   Fans fans(F);
   for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
     for (int i = 0; i < 3; ++i) {

@@ -1,6 +1,3 @@
-#include <omp.h>
-
-#include <algorithm>
 #include <functional>
 #include <future>
 
@@ -25,7 +22,7 @@ constexpr int kWorthAThread = 2000;
 // the team's idle ones, which go on looking for work for some milliseconds (10k unknowns: 48 instead of 37 ms).
 void side_by_side(const std::function<void()>& first, const std::function<void()>& second) {
   std::packaged_task<void()> tasks[] = {std::packaged_task<void()>(first), std::packaged_task<void()>(second)};
-#pragma omp parallel for schedule(static, 1) num_threads(std::min(2, omp_get_max_threads()))
+#pragma omp parallel for schedule(static, 1)
   for (int k = 0; k < 2; ++k) tasks[k]();  // keeps what is thrown
   for (std::packaged_task<void()>& task : tasks) task.get_future().get();
 }
@@ -40,10 +37,8 @@ void Descent::approach() {
   if (!learns_from_steps() || factor_is_kept() || is_cancelled() || gradient_is_small()) return;
   const SparseMatrix* pattern = problem_.size() > kWorthAThread ? problem_.pattern() : nullptr;
   int steps = 0;
-  side_by_side([this, &steps] { steps = move_along_coarse(); },
-               [this, pattern] {
-                 if (pattern != nullptr) analyze(*pattern);
-               });
+  const auto move = [this, &steps] { steps = move_along_coarse(); };
+  pattern != nullptr ? side_by_side(move, [this, pattern] { analyze(*pattern); }) : move();
   if (steps == 0) return;
   trial_.energy = problem_.evaluate(work_.trial, &work_.trial_gradient);
   ++report_.evaluations;

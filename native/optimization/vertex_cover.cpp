@@ -7,9 +7,6 @@ namespace reflines {
 
 namespace {
 
-// Edges looked at, as a multiple of all: the cuts through surface meshes look at 2 to 10 times theirs.
-constexpr std::size_t kPatience = 200;
-
 constexpr int kNobody = -1;
 
 class Matching {
@@ -25,9 +22,9 @@ class Matching {
     for (int l = 0; l < left_count; ++l) first_edge_[l + 1] += first_edge_[l];
   }
 
-  VertexCover cover() {
+  VertexCover cover(std::size_t patience) {
     take_free_partners();
-    for (std::size_t l = 0; l < partner_.size() && looked_at_ < kPatience * edges_.size(); ++l) {
+    for (std::size_t l = 0; l < partner_.size() && looked_at_ < patience * edges_.size(); ++l) {
       if (partner_[l] == kNobody) grow_tree(static_cast<int>(l));
     }
     for (char& reached : in_tree_.left) reached = !reached;
@@ -89,8 +86,9 @@ class Matching {
 
 }  // namespace
 
-VertexCover minimum_vertex_cover(const std::vector<BipartiteEdge>& edges, int left_count, int right_count) {
-  return Matching(edges, left_count, right_count).cover();
+VertexCover minimum_vertex_cover(const std::vector<BipartiteEdge>& edges, int left_count, int right_count,
+                                 std::size_t patience) {
+  return Matching(edges, left_count, right_count).cover(patience);
 }
 
 }  // namespace reflines

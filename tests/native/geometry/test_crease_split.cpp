@@ -63,6 +63,21 @@ TEST(CreaseSplit, ACreaseThatEndsInsideLeavesItsEndWhole) {
   for (const int v : doubled) EXPECT_DOUBLE_EQ(mesh.V(v, 0), 0.5);
 }
 
+// A vertex on the straight side between two triangles of a plane, off it by rounding: the thin triangle's own normal
+// may point anywhere.
+TEST(CreaseSplit, AVertexOnAStraightSideIsNoCrease) {
+  Positions V(5, 3);
+  V << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, -1, 0, 0.5, 0, 0;
+  Triangles F(4, 3);
+  F << 0, 1, 2, 0, 4, 1, 3, 4, 0, 3, 1, 4;
+  for (const double off : {0.0, 1e-7, -1e-7}) {
+    V.row(4) << 0.5, -1e-7, off;
+    EXPECT_EQ(split_at_creases(V, F, kCreaseAngle).vertex.size(), 5u) << off;
+  }
+  V.row(3) << 0.5, -0.5, 1;  // a crease that runs through the thin triangle is one
+  EXPECT_GT(split_at_creases(V, F, kCreaseAngle).vertex.size(), 5u);
+}
+
 TEST(CreaseSplit, RefusesIndicesOutOfRange) {
   const samples::Mesh mesh = samples::grid(2);
   Triangles F = mesh.F;

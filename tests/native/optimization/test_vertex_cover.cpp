@@ -73,16 +73,24 @@ TEST(VertexCoverTest, LongChainsDoNotOverflowTheStack) {
   EXPECT_EQ(size_of(cover), kLength);
 }
 
-// A graph on which every search looks at much: the work is bounded, and the cover still touches all edges.
+// The first left vertex takes the only partner of the second: without a search, both would count.
 TEST(VertexCoverTest, CoversAlsoWhereTheMatchingIsNotCompleted) {
-  constexpr int kCount = 4000;
-  std::vector<BipartiteEdge> edges;
+  const std::vector<BipartiteEdge> edges = {{0, 0}, {0, 1}, {1, 0}, {2, 1}, {2, 2}};
+  const VertexCover hasty = minimum_vertex_cover(edges, 3, 3, 0);
+  EXPECT_TRUE(covers(hasty, edges));
+  EXPECT_EQ(size_of(minimum_vertex_cover(edges, 3, 3)), smallest_cover(edges));
   std::mt19937 random(5);
-  for (int l = 0; l < kCount; ++l) {
-    int r = static_cast<int>(random() % kCount);
-    for (int k = 0; k < 3 && r < kCount; ++k, r += 1 + static_cast<int>(random() % kCount)) edges.emplace_back(l, r);
+  std::vector<BipartiteEdge> many;
+  for (int l = 0; l < 1000; ++l) {
+    for (int r = static_cast<int>(random() % 400); r < 1000; r += 1 + static_cast<int>(random() % 600))
+      many.emplace_back(l, r);
   }
-  EXPECT_TRUE(covers(minimum_vertex_cover(edges, kCount, kCount), edges));
+  const int fewest = size_of(minimum_vertex_cover(many, 1000, 1000));
+  for (const std::size_t patience : {0, 1}) {
+    const VertexCover cover = minimum_vertex_cover(many, 1000, 1000, patience);
+    EXPECT_TRUE(covers(cover, many));
+    EXPECT_GE(size_of(cover), fewest);
+  }
 }
 
 }  // namespace
