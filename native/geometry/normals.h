@@ -10,10 +10,10 @@
 namespace reflines {
 
 // Fits over the triangles around a vertex and those sharing an edge with them, in the plane of an initial normal, with
-// minimum-norm coefficients. Vertices count as much as the area around them: where a panel is folded into a hem of thin
-// triangles, its own lines run straight to the edge. The 2 x K coefficients of each vertex are kept: new positions give
-// new normals by a small product, and a vertex is fitted anew only when its normal has turned by more than refit_angle
-// since its last fit.
+// minimum-norm coefficients. Other than in the paper vertices count by the area around them, and hardly at all where
+// they face far away from the vertex of the fit: where a panel is folded into a hem of thin triangles, its own lines
+// run straight to the edge. The 2 x K coefficients of each vertex are kept: new positions give new normals by a small
+// product, and a vertex is fitted anew only when its normal has turned by more than refit_angle since its last fit.
 class NormalFit {
  public:
   // V (#V x 3), F (#F x 3); refit_angle in radians. Throws InvalidInput for indices out of range.
