@@ -1,25 +1,5 @@
-"""Reflection Lines: shape optimization of car panels through their reflection lines (Tosun et al., SGP 2007).
-
-Modules stand in the order of their dependencies; `register` walks the list forwards, `unregister` backwards.
-"""
+"""Reflection Lines: shape optimization of car panels through their reflection lines (Tosun et al., SGP 2007)."""
 import importlib
-
-from . import native, worker
-from .targets import falloff, smooth as smooth_target, direction as direction_target, untwist as untwist_target
-from .targets import mirrored, warp as warp_target, pattern as pattern_target, fit as fit_target
-from .bridge import refusal, contents, units, versions, view, region, mirror, gather, modifiers, cage, keys, apply
-from .bridge import surface, dense, shown_cage, environment, matcap
-from .bridge import panels as bridge_panels, lattice, start, record, picture, place, curve
-from . import tool_settings, stripe_settings, properties, solving, session, saved, tool
-from .overlay import circle
-from .drag import motion, pursuit, modal
-from .live import scene as live_scene, follower, handlers
-from .overlay import stripes, shader, normals, last_solve, limit, seen, draw
-from .operators import add_light_direction, add_view_camera, add_warp_lattice
-from .operators import direction, fit, live_warp, pattern, pick_direction, resolve, smooth, store_result, untwist
-from .operators import warp
-from .operators import stripes as stripes_operators, install_matcap
-from . import keymaps, preferences, panels, stripes_panel, menus
 
 bl_info = {
     "name": "Reflection Lines",
@@ -31,14 +11,45 @@ bl_info = {
     "category": "Mesh",
 }
 
-MODULES = (native, worker, falloff, smooth_target, direction_target, untwist_target, mirrored, warp_target,
-           pattern_target, fit_target, refusal, contents, units, versions, view, region, mirror, gather, modifiers,
-           cage, keys, apply, surface, dense, shown_cage, environment, matcap, bridge_panels, lattice, start, record,
-           picture, place, curve, tool_settings, stripe_settings, properties, solving, session, saved, tool, circle,
-           motion, pursuit, modal, live_scene, follower, handlers, stripes, shader, normals, last_solve, limit, seen,
-           draw, add_light_direction, add_view_camera, add_warp_lattice, direction, pattern, pick_direction, smooth,
-           fit, resolve, store_result, untwist, warp, live_warp, stripes_operators, install_matcap, menus, keymaps,
-           preferences, panels, stripes_panel)
+# Every module once, each after those that it imports: they are imported, reloaded and registered in this order, and
+# unregistered backwards.
+NAMES = (
+    "library_copy", "native",
+    "model.edit_cage", "model.creases", "model.mirror", "model.orientation", "model.refusal", "model.patch",
+    "model.cage",
+    "model.solution", "model.surface", "model.triangulation", "model.view",
+    "targets.falloff", "targets.direction", "targets.fit", "targets.mirror_target", "targets.pattern",
+    "targets.smooth", "targets.untwist", "targets.warp",
+    "bridge.compat", "bridge.read_mesh", "bridge.region_faces", "bridge.modifiers", "bridge.read_edit_cage",
+    "bridge.viewport_surface",
+    "bridge.dense_mesh", "bridge.falloff_curve", "bridge.mesh_checks", "bridge.read_mirror", "bridge.read_creases",
+    "bridge.read_patch", "bridge.read_cage", "bridge.shape_keys", "bridge.gather", "bridge.image_pixels",
+    "bridge.write_mesh",
+    "bridge.light_angles",
+    "bridge.live_warp_start", "bridge.matcap", "bridge.read_falloff", "bridge.scene_objects", "bridge.solve_record",
+    "bridge.units", "bridge.vertex_attributes", "bridge.view_and_light", "bridge.view_region", "bridge.viewport_cage",
+    "bridge.warp_lattice", "bridge.view_camera", "bridge.facing",
+    "solver.formulation", "solver.live_optimizer", "solver.remarks", "solver.solve",
+    "solver.automatic_smooth",
+    "ui.tool_properties", "ui.stripe_properties", "ui.properties",
+    "state.last_panels", "state.optimizer_cache", "state.solve_history", "state.persistence",
+    "interactive.background_thread", "interactive.drag_handles", "interactive.solve_job",
+    "overlay.falloff_circle",
+    "interactive.drag", "interactive.live_baseline", "interactive.live_warp", "interactive.live_warp_handlers",
+    "overlay.stripes", "overlay.shown_objects", "ui.session_properties",
+    "overlay.fitted_normals", "overlay.limit_surface", "overlay.shader", "overlay.solve_maps",
+    "overlay.stripe_scene", "overlay.draw_cage", "overlay.legend",
+    "overlay.draw",
+    "operators.add_light_direction", "operators.add_view_camera", "operators.camera_from_view",
+    "operators.look_through", "operators.save_stripes_preset", "operators.solve_tool",
+    "operators.add_warp_lattice", "operators.dragged_tool", "operators.direction", "operators.fit",
+    "operators.install_matcap", "operators.live_warp", "operators.pattern", "operators.pick_direction",
+    "operators.resolve", "operators.smooth", "operators.store_result", "operators.stripes", "operators.sweep_light",
+    "operators.untwist", "operators.warp",
+    "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels", "ui.preferences", "ui.stripe_presets",
+    "ui.stripes_panel",
+)
+MODULES = [importlib.import_module(f"{__name__}.{name}") for name in NAMES]
 
 if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.
     for module in MODULES:

@@ -1,18 +1,65 @@
 """The one door to the native module `reflines`, and what to tell the user where it does not open."""
+import sys
 import sysconfig
+from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib.machinery import EXTENSION_SUFFIXES
+from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING
 
-try:
-    from . import reflines
-except ImportError as error:
-    reflines = None
-    _import_error = str(error)
-else:
-    _import_error = ""
+from . import library_copy
+
+if TYPE_CHECKING:
+    from .reflines import NormalFit as NormalFit
+    from .reflines import Progress as Progress
+    from .reflines import Report as Report
+    from .reflines import ShapeOptimizer as ShapeOptimizer
+    from .reflines import SmoothPanelReport as SmoothPanelReport
+    from .reflines import Subdivision as Subdivision
+    from .reflines import Target as Target
 
 HERE = Path(__file__).resolve().parent
+
+
+def loaded() -> ModuleType:
+    """From a copy that no installation overwrites. Each content once in a process, under a name of its own that no
+    reload of the add-on forgets."""
+    library = next((HERE / f"reflines{suffix}" for suffix in EXTENSION_SUFFIXES
+                    if (HERE / f"reflines{suffix}").is_file()), None)
+    if library is None:
+        raise ImportError("there is none for this Python")
+    digest = library_copy.digest_of(library)
+    name = f"reflines_{digest}.reflines"
+    if name in sys.modules:
+        return sys.modules[name]
+    sys.modules[name] = first_loaded(library_copy.copies(library, digest), name)
+    return sys.modules[name]
+
+
+def first_loaded(paths: Iterator[Path], name: str) -> ModuleType:
+    """No code may be run from some cache folders."""
+    failure = ImportError(name)
+    for path in paths:
+        try:
+            return loaded_from(path, name)
+        except ImportError as error:
+            failure = error
+    raise failure
+
+
+def loaded_from(path: Path, name: str) -> ModuleType:
+    spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, str(path)))
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+try:
+    reflines, _import_error = loaded(), ""
+except (ImportError, OSError) as error:
+    reflines, _import_error = None, str(error)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Smooths the bonnet through the add-on's operator and shows it: `./run demo`, or
 
-    blender -b blend_samples/hood.blend -P blend_samples/demo.py -- OUTPUT_FOLDER
+    blender -b blend_samples/hood.blend -P tests/in_blender.py -- blend_samples/demo.py OUTPUT_FOLDER
 
 Writes before.png, after.png and comparison.png (Cycles: the paint mirrors line lights) and the solved file.
 """
@@ -9,11 +9,8 @@ import sys
 
 import bpy
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-
-import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
-import pictures  # noqa: E402
+import checkout
+import pictures
 
 
 def smooth(panel: bpy.types.Object) -> None:
@@ -44,4 +41,4 @@ def main(folder: pathlib.Path) -> None:
     print(f"demo: look at {folder / 'comparison.png'}")
 
 
-main(pathlib.Path(sys.argv[sys.argv.index("--") + 1]).resolve())
+main(pathlib.Path(sys.argv[1]).resolve())

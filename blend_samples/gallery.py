@@ -1,8 +1,9 @@
 """One picture before and after for every operation, from the samples: `./run gallery`, or
 
-    blender -b --factory-startup -P blend_samples/gallery.py -- OUTPUT_FOLDER [NAME...]
+    blender -b --factory-startup -P tests/in_blender.py -- blend_samples/gallery.py OUTPUT_FOLDER [NAME...]
 
 Every operation is one press of its button with the settings that its sample is saved with, or those that stand here.
+The folder `manual` below the output's gets the small copies that the add-on's manual shows.
 """
 import pathlib
 import sys
@@ -11,11 +12,13 @@ from dataclasses import dataclass
 
 import bpy
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+import checkout
+import pictures
 
-import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
-import pictures  # noqa: E402
+HERE = pathlib.Path(__file__).resolve().parent
+WIDTH = 480  # pixels of each part of a picture of the manual
+WINDOWS = ("sidebar.jpg", "drag.jpg", "live.jpg")  # pictures of a window, taken by hand
+WINDOW_WIDTH = 760
 
 
 @dataclass(frozen=True)
@@ -31,7 +34,7 @@ OPERATIONS = (
     Operation("smooth_along", "door.blend", lambda: bpy.ops.reflines.smooth(),
               rival=lambda: bpy.ops.mesh.vertices_smooth(factor=0.5, repeat=200)),
     Operation("direction", "plate.blend", lambda: bpy.ops.reflines.direction(
-        direction='ANGLE', angle=0.35, border='free')),
+        direction='ANGLE', angle=0.35, border='free', centre='EVERYWHERE')),
     Operation("density", "plate.blend", lambda: bpy.ops.reflines.direction(
         density=1.8, centre='REGION', radius=0.4, emphasis=20.0, border='clamped')),
     Operation("untwist", "fender.blend", lambda: bpy.ops.reflines.untwist()),
@@ -60,13 +63,17 @@ def shown(operation: Operation, folder: pathlib.Path) -> None:
     print(f"gallery: {operation.name}: {panel.reflection_lines.report.summary()}")
     parts.append(folder / "after.png")
     pictures.picture(parts[-1], "after")
-    pictures.side_by_side(parts, folder / f"{operation.name}.jpg")
+    whole = folder / f"{operation.name}.jpg"
+    pictures.side_by_side(parts, whole)
+    pictures.shrink(whole, folder / "manual" / whole.name, WIDTH * len(parts))
     for part in parts:
         part.unlink()
 
 
 def main(folder: pathlib.Path, names: list[str]) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "manual").mkdir(parents=True, exist_ok=True)
+    for name in WINDOWS:
+        pictures.shrink(HERE / name, folder / "manual" / name, WINDOW_WIDTH)
     checkout.enable_add_on()
     for operation in OPERATIONS:
         if not names or operation.name in names:
@@ -74,5 +81,5 @@ def main(folder: pathlib.Path, names: list[str]) -> None:
     print(f"gallery: look at {folder}")
 
 
-given = sys.argv[sys.argv.index("--") + 1:]
+given = sys.argv[1:]
 main(pathlib.Path(given[0]).resolve(), given[1:])

@@ -1,15 +1,13 @@
-"""Makes door.blend beside this script: blender -b --factory-startup -P blend_samples/make_door.py"""
+"""Makes door.blend beside this script: ./run samples"""
 import pathlib
-import sys
 
 import bpy
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+import checkout
+import panel_shapes
+import studio
 
-import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
-import panel_shapes  # noqa: E402
-import studio  # noqa: E402
+HERE = pathlib.Path(__file__).resolve().parent
 
 SHOT = studio.Shot(view_direction=(1.0, -0.10, 0.22), line_direction=(0.0, 1.0, 0.0), centre=(-0.02, 0.0, 0.0),
                    width=1.25, lamp=(0.3, -0.3, 0.5), stripes=studio.Stripes(count=110), length=0.5,

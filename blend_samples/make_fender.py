@@ -1,16 +1,14 @@
-"""Makes fender.blend beside this script: blender -b --factory-startup -P blend_samples/make_fender.py"""
+"""Makes fender.blend beside this script: ./run samples"""
 import pathlib
-import sys
 
 import bpy
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+import checkout
+import panel_shapes
+import studio
 
-import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
-import panel_shapes  # noqa: E402
-import studio  # noqa: E402
+HERE = pathlib.Path(__file__).resolve().parent
 
 SHOT = studio.Shot(view_direction=(1.0, -0.05, 0.12), line_direction=(0.0, 1.0, 0.0), centre=(-0.03, 0.0, 0.45),
                    width=1.3, lamp=(0.3, -0.3, 1.0), stripes=studio.Stripes(count=80), length=0.3,
@@ -26,7 +24,6 @@ def main() -> None:
     settings = bpy.context.scene.reflection_lines.untwist
     settings.angle, settings.centre = 0.8 * panel_shapes.TWIST, 'CURSOR'
     settings.radius = 1.4 * panel_shapes.TWIST_RADIUS
-    bpy.context.scene.reflection_lines.border = 'free'
     studio.save(fender, str(HERE / "fender.blend"))
 
 

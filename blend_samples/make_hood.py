@@ -1,15 +1,13 @@
-"""Makes hood.blend beside this script: blender -b --factory-startup -P blend_samples/make_hood.py"""
+"""Makes hood.blend beside this script: ./run samples"""
 import pathlib
-import sys
 
 import bpy
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+import checkout
+import hood_shape
+import studio
 
-import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
-import hood_shape  # noqa: E402
-import studio  # noqa: E402
+HERE = pathlib.Path(__file__).resolve().parent
 
 COLUMNS, ROWS = 136, 110                 # 14,960 quads of about 11 mm
 VIEW_DIRECTION = (0.10, -0.70, 1.0)      # somebody who stands before the car, a step to its left

@@ -1,16 +1,14 @@
-"""Makes hood_warp.blend beside this script: blender -b --factory-startup -P blend_samples/make_hood_warp.py"""
+"""Makes hood_warp.blend beside this script: ./run samples"""
 import pathlib
-import sys
 
 import bpy
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+import checkout
+import hood_shape
+import studio
 
-import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
-import hood_shape  # noqa: E402
-import studio  # noqa: E402
+HERE = pathlib.Path(__file__).resolve().parent
 
 SHOT = studio.Shot(view_direction=(0.10, -0.70, 1.0), line_direction=(0.0, 1.0, 0.12), centre=(0.0, 0.0, -0.03),
                    width=1.70, lamp=(0.95, -0.3, 0.25), stripes=studio.Stripes(), length=0.4,

@@ -1,16 +1,14 @@
-"""Makes plate.blend beside this script: blender -b --factory-startup -P blend_samples/make_plate.py"""
+"""Makes plate.blend beside this script: ./run samples"""
 import pathlib
-import sys
 
 import bpy
 import numpy as np
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+import checkout
+import panel_shapes
+import studio
 
-import checkout  # noqa: E402  (Blender puts no script's own folder on the path)
-import panel_shapes  # noqa: E402
-import studio  # noqa: E402
+HERE = pathlib.Path(__file__).resolve().parent
 
 SHOT = studio.Shot(view_direction=(0.0, 0.0, 1.0), line_direction=(1.0, 0.0, 0.2), centre=(0.0, 0.0, 0.0),
                    width=1.35, lamp=(0.55, 0.0, 0.2), stripes=studio.Stripes(count=110), length=0.3,

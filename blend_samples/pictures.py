@@ -1,10 +1,11 @@
-"""Cycles pictures of a sample, and two or more of them side by side."""
+"""Cycles pictures of a sample, two or more of them side by side, and small copies."""
 import pathlib
 
 import bpy
 import numpy as np
 
 GUTTER = 16   # pixels between two pictures
+QUALITY = 72  # of small copies, per cent: some 45 kB each
 
 
 def picture(path: pathlib.Path, caption: str) -> None:
@@ -36,3 +37,14 @@ def side_by_side(pictures: list[pathlib.Path], path: pathlib.Path) -> None:
     image.pixels.foreach_set(joined.ravel())
     image.filepath_raw, image.file_format = str(path), 'JPEG' if path.suffix == ".jpg" else 'PNG'
     image.save()
+
+
+def shrink(path: pathlib.Path, small: pathlib.Path, width: int) -> None:
+    """Writes a JPEG `width` pixels wide. Changes the scene's output settings, so it comes after all rendering."""
+    scene = bpy.context.scene
+    scene.view_settings.view_transform = 'Standard'
+    output = scene.render.image_settings
+    output.file_format, output.color_mode, output.quality = 'JPEG', 'RGB', QUALITY
+    image = bpy.data.images.load(str(path))
+    image.scale(width, round(image.size[1] * width / image.size[0]))
+    image.save_render(str(small), scene=scene)

@@ -125,8 +125,13 @@ def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int, 
     return judged(counts, code, command[-1])
 
 
+def script_options(script: str) -> list[str]:
+    """Options that make Blender run a script of the project with the import paths of pyproject.toml."""
+    return ["--python-exit-code", "1", "--python", "tests/in_blender.py", "--", script]
+
+
 def addon_lane() -> Counts:
-    command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "--python", "tests/addon/run.py"]
+    command = [BLENDER, "-b", "--factory-startup", *script_options("tests/addon/run.py")]
     return run_reporting(command, blender_environment(), 1500)
 
 
@@ -137,8 +142,7 @@ def window_command(width: int = 1280, height: int = 900, display: int = 99) -> l
 
 
 def window_counts(index: int, path: Path) -> Counts:
-    command = [*window_command(800, 600, 100 + 20 * index), "--python-exit-code", "1",
-               "--python", str(path.relative_to(ROOT))]
+    command = [*window_command(800, 600, 100 + 20 * index), *script_options(str(path.relative_to(ROOT)))]
     return run_reporting(command, blender_environment(f"blender_user_{path.stem}"), 600, f"{path.stem}: ")
 
 
@@ -171,6 +175,10 @@ class Lane:
     asked: bool = False       # runs only when it is asked for, by its name or by --all
 
 
+def sanitizers_lane(kind: str) -> Counts:
+    return run_reporting([PYTHON, "tests/sanitizers.py", kind], os.environ, 5400)
+
+
 SHARED = ("CMakeLists.txt", "CMakePresets.json", "tests/lanes.py", "run", ".ci/")
 LANES = {
     "rules": Lane(lambda: pytest_lane("rules"), False, ("",)),
@@ -179,6 +187,9 @@ LANES = {
     "addon": Lane(addon_lane, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
     "ui": Lane(ui_lane, True, ("addon/", "tests/ui/", *SHARED)),
     "matrix": Lane(matrix_lane, False, (), asked=True),
+    "asan": Lane(lambda: sanitizers_lane("asan"), False, (), asked=True),
+    "tsan": Lane(lambda: sanitizers_lane("tsan"), False, (), asked=True),
+    "fuzz": Lane(lambda: sanitizers_lane("fuzz"), False, (), asked=True),
 }
 
 
@@ -233,7 +244,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="./run test", description=__doc__)
     parser.add_argument("lanes", nargs="*", metavar="LANE", help=", ".join(LANES))
     parser.add_argument("--changed", action="store_true", help="only the lanes that changes touch")
-    parser.add_argument("--all", action="store_true", help="with the lanes that otherwise run only by name: matrix")
+    parser.add_argument("--all", action="store_true", help="with the lanes that otherwise run only by name: matrix, "
+                                                              "asan, tsan, fuzz")
     total = run_lanes(chosen_lanes(parser.parse_args()))
     print(total)
     return 0 if total.failed == 0 and total.passed + total.skipped > 0 else 1

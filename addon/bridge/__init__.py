@@ -1,1 +1,1 @@
-"""Between Blender and numpy: the only readers and writers of mesh data."""
+"""The bridge between Blender and numpy: only modules of this package read or write mesh data."""

@@ -1,30 +1,31 @@
-"""What an object's modifiers mean for a solve: which of them make the surface that the viewport shows."""
+"""The modifiers of an object as a solve sees them: which of them shape the surface that the viewport shows."""
 import bpy
 
 # These leave every vertex where it is; Edge Split doubles some of them.
-STILL = {'WEIGHTED_NORMAL', 'NORMAL_EDIT', 'EDGE_SPLIT', 'DATA_TRANSFER', 'UV_PROJECT', 'UV_WARP',
+SHADING_ONLY = {'WEIGHTED_NORMAL', 'NORMAL_EDIT', 'EDGE_SPLIT', 'DATA_TRANSFER', 'UV_PROJECT', 'UV_WARP',
          'VERTEX_WEIGHT_EDIT', 'VERTEX_WEIGHT_MIX', 'VERTEX_WEIGHT_PROXIMITY'}
 # Geometry nodes that only say what is shaded smooth, as Blender's own Smooth by Angle does.
-STILL_NODES = {'NodeGroupInput', 'NodeReroute', 'GeometryNodeSetShadeSmooth', 'GeometryNodeSetMeshNormal'}
+SHADING_ONLY_NODES = {'NodeGroupInput', 'NodeReroute', 'GeometryNodeSetShadeSmooth', 'GeometryNodeSetMeshNormal'}
 DEFORMING = {'ARMATURE', 'CAST', 'CLOTH', 'CORRECTIVE_SMOOTH', 'CURVE', 'DISPLACE', 'HOOK', 'LAPLACIANDEFORM',
              'LAPLACIANSMOOTH', 'LATTICE', 'MESH_CACHE', 'MESH_DEFORM', 'MESH_SEQUENCE_CACHE', 'SHRINKWRAP',
              'SIMPLE_DEFORM', 'SMOOTH', 'SOFT_BODY', 'SURFACE_DEFORM', 'WARP', 'WAVE'}
 
 
-def shaping(ob: bpy.types.Object | None) -> list[bpy.types.Modifier]:
-    """Those shown in the viewport, without the ones at the end that change how the surface is shaded and no more."""
+def find_shaping_modifiers(ob: bpy.types.Object | None) -> list[bpy.types.Modifier]:
+    """Returns the modifiers shown in the viewport, without those at the end that change the shading only."""
     shown = [modifier for modifier in ob.modifiers if modifier.show_viewport] if ob is not None else []
-    while shown and is_still(shown[-1]):
+    while shown and is_shading_only(shown[-1]):
         shown.pop()
     return shown
 
 
-def is_still(modifier: bpy.types.Modifier) -> bool:
+def is_shading_only(modifier: bpy.types.Modifier) -> bool:
+    """Returns whether a modifier leaves every vertex where it is."""
     if modifier.type != 'NODES':
-        return modifier.type in STILL
+        return modifier.type in SHADING_ONLY
     nodes = modifier.node_group.nodes if modifier.node_group is not None else ()
     makers = {node.bl_idname for node in nodes if any(socket.type == 'GEOMETRY' for socket in node.outputs)}
-    return makers <= STILL_NODES
+    return makers <= SHADING_ONLY_NODES
 
 
 def is_subdivision(modifier: bpy.types.Modifier) -> bool:
@@ -32,16 +33,19 @@ def is_subdivision(modifier: bpy.types.Modifier) -> bool:
 
 
 def is_cage(ob: bpy.types.Object | None) -> bool:
-    """Whether the surface is subdivided last."""
-    makers = shaping(ob)
+    """Returns whether the last shaping modifier is a Subdivision Surface with levels."""
+    makers = find_shaping_modifiers(ob)
     return bool(makers) and is_subdivision(makers[-1])
 
 
-def remarks(ob: bpy.types.Object, solve_for: str) -> tuple[str, ...]:
-    """Where the surface that is shown is not the one that was solved, as sentences. `solve_for` as in properties."""
+def describe_unsolved_modifiers(ob: bpy.types.Object, solve_for: str) -> tuple[str, ...]:
+    """Describes, in sentences, modifiers that make the surface shown another one than the surface solved.
+
+    `solve_for` is a value of the property of this name.
+    """
     if solve_for == 'CAGE' and is_cage(ob):
         return ()
-    makers, said = shaping(ob), []
+    makers, said = find_shaping_modifiers(ob), []
     levels = [modifier.name for modifier in makers if is_subdivision(modifier)]
     if solve_for == 'CAGE' and levels:
         said.append(f"The modifier {makers[-1].name} follows {levels[-1]}, so the mesh was solved as if it were not "

@@ -1,1 +1,1 @@
-"""One verb a file. An operator gathers, asks the session to solve, applies, and reports; it calls no other operator."""
+"""The operators, one a file: they gather, solve, apply and report, and call no other operator."""

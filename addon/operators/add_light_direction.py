@@ -2,7 +2,7 @@
 import bpy
 from mathutils import Matrix, Vector
 
-from ..bridge import contents, view
+from ..bridge import scene_objects, view_and_light
 
 
 class REFLINES_OT_add_light_direction(bpy.types.Operator):
@@ -22,13 +22,13 @@ Turn the arrow to turn the reflection lines; it must not point along the view"""
         settings = context.scene.reflection_lines
         frame = self.frame(context, settings)
         direction = Vector(self.direction) if any(self.direction) else frame.col[0]
-        center, size = view.extent(context.view_layer.objects.active)
+        center, size = view_and_light.measure_extent(context.view_layer.objects.active)
         arrow = bpy.data.objects.new("Light Direction", None)
         arrow.empty_display_type = 'SINGLE_ARROW'
         arrow.empty_display_size = 0.3 * size
         place = Matrix.Translation(center + 0.3 * size * frame.col[2])
-        arrow.matrix_world = place @ view.frame_towards(direction).to_4x4()
-        contents.editable_collection(context).objects.link(arrow)
+        arrow.matrix_world = place @ view_and_light.build_frame(direction).to_4x4()
+        scene_objects.find_editable_collection(context).objects.link(arrow)
         settings.light = arrow
         return {'FINISHED'}
 
@@ -36,7 +36,7 @@ Turn the arrow to turn the reflection lines; it must not point along the view"""
         """Of the view that counts: the view camera's; without one the viewport's; in background from above."""
         if settings.present(settings.camera):
             return settings.camera.matrix_world.to_3x3().normalized()
-        return view.viewport_frame(context) or Matrix.Identity(3)
+        return view_and_light.read_viewport_frame(context) or Matrix.Identity(3)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_add_light_direction])

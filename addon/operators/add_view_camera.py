@@ -1,15 +1,11 @@
 """Add View Camera."""
 import bpy
-from mathutils import Matrix, Vector
 
-from ..bridge import contents, gather, view
-
-MARGIN = 1.1
-DISTANCE = 2.0  # of the camera from the object's centre, in diagonals of its bounding box
+from ..bridge import scene_objects, view_camera
 
 
 class REFLINES_OT_add_view_camera(bpy.types.Operator):
-    """Add an orthographic camera that looks at the active mesh as the 3D view does now.
+    """Add an orthographic camera that looks at the active mesh, in Edit Mode at its selection, as the 3D view does now.
 
 Reflection lines are judged, and the panel is moved, along its direction of view"""
     bl_idname = "reflines.add_view_camera"
@@ -32,22 +28,12 @@ Reflection lines are judged, and the panel is moved, along its direction of view
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()
         ob = context.view_layer.objects.active
-        frame = self.frame(context, ob)
-        center, size = view.extent(ob)
-        data = bpy.data.cameras.new("View Camera")
-        data.type = 'ORTHO'
-        data.ortho_scale = MARGIN * size
-        data.clip_start, data.clip_end = 0.01 * size, 2.0 * DISTANCE * size
-        camera = bpy.data.objects.new("View Camera", data)
-        camera.matrix_world = Matrix.Translation(center + DISTANCE * size * frame.col[2]) @ frame.to_4x4()
-        contents.editable_collection(context).objects.link(camera)
+        frame = view_camera.choose_frame(context, ob, self.direction)
+        camera = view_camera.add_camera(scene_objects.find_editable_collection(context))
+        view_camera.aim_camera(context, camera, frame, view_camera.read_framed_points(ob))
         context.scene.reflection_lines.camera = camera
+        ob.reflection_lines.keep_view(context.scene)
         return {'FINISHED'}
-
-    def frame(self, context: bpy.types.Context, ob: bpy.types.Object) -> Matrix:
-        if any(self.direction):
-            return view.frame_towards(Vector(self.direction))
-        return view.viewport_frame(context) or view.frame_towards(Vector(gather.mean_normal(ob)))
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_add_view_camera])

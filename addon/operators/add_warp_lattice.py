@@ -1,11 +1,11 @@
 """Add Warp Lattice."""
 import bpy
 
-from .. import session, solving
-from ..bridge import apply, contents, gather, lattice
-from ..bridge.refusal import Refusal
-from ..tool import Tool
-from ..tool_settings import SPLINES
+from ..bridge import facing, read_patch, region_faces, scene_objects, warp_lattice
+from ..model.refusal import Refusal
+from ..solver import live_optimizer
+from ..ui.tool_properties import SPLINES
+from .solve_tool import SolveTool
 
 
 class REFLINES_OT_add_warp_lattice(bpy.types.Operator):
@@ -24,21 +24,22 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return Tool.poll.__func__(cls, context)
+        return SolveTool.poll.__func__(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()
         settings = context.scene.reflection_lines
         try:
-            ob = gather.subjects(context)[0]
-            panel = gather.gather(ob)
-            frame = solving.frame_of(panel, session.view_of(context.scene, panel.center))
+            ob = scene_objects.find_subjects(context)[0]
+            patch = read_patch.gather_mesh_patch(ob)
+            seen = facing.read_patch_view(context.scene, patch)
+            frame = live_optimizer.compute_image_frame(patch, seen)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
-        apply.keep_region(ob, panel)
-        added = lattice.add(panel, frame, columns=self.columns, rows=self.rows, kind=self.interpolation,
-                            collection=contents.editable_collection(context))
+        region_faces.keep_region(ob, patch)
+        added = warp_lattice.add_lattice(patch, frame, columns=self.columns, rows=self.rows, kind=self.interpolation,
+                            collection=scene_objects.find_editable_collection(context))
         settings.warp.lattice = added
         added.reflection_lines.panel = ob
         return {'FINISHED'}

@@ -1,18 +1,19 @@
-"""Bend Reflection Lines after a Picture."""
+"""Image Pattern."""
 from functools import partial
 from math import pi, radians
 
 import bpy
 import numpy as np
 
-from ..bridge import picture, place
-from ..bridge.gather import Panel
-from ..bridge.refusal import Refusal
-from ..drag.modal import DraggedTool
-from ..drag.motion import Handle
-from ..solving import BuildTarget
+from ..bridge import image_pixels, view_and_light
+from ..interactive.drag_handles import Handle
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..solver.live_optimizer import BuildTarget
 from ..targets import pattern
-from ..tool_settings import PatternSettings
+from ..targets.pattern import Pattern
+from ..ui.tool_properties import PatternSettings
+from .dragged_tool import DraggedTool
 
 
 class REFLINES_OT_pattern(DraggedTool, PatternSettings, bpy.types.Operator):
@@ -21,24 +22,24 @@ image.
 
 What no surface can show is left over: see the colour map of the residual"""
     bl_idname = "reflines.pattern"
-    bl_label = "Bend Lines after Image"
+    bl_label = "Image Pattern"
 
     image: bpy.props.StringProperty(name="Image", options={'SKIP_SAVE'}, description="Name; empty takes the scene's")
 
-    def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
+    def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.pattern
 
-    def handles(self) -> tuple[Handle, ...]:
+    def build_handles(self) -> tuple[Handle, ...]:
         return (Handle("strength", "Strength", per_pixel=1e-3, low=-pi, high=pi, unit='ANGLE'),
                 Handle("angle", "Rotation", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE'))
 
-    def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, panel: Panel) -> BuildTarget:
-        right, up = place.camera_axes(context.scene.reflection_lines.camera)
-        centre = panel.center + self.offset[0] * right + self.offset[1] * up
-        settings = pattern.Pattern(
-            picture.grey(self.chosen(context.scene)), centre, right, self.width or np.ptp(panel.V @ right),
+    def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
+        right, up = view_and_light.read_camera_axes(context.scene.reflection_lines.camera)
+        centre = patch.center + self.offset[0] * right + self.offset[1] * up
+        settings = Pattern(
+            image_pixels.read_grey(self.chosen(context.scene)), centre, right, self.width or np.ptp(patch.V @ right),
             self.angle, self.strength, self.blur, self.keep_lines, self.fit == 'VALUE')
-        return partial(pattern.target, settings=settings)
+        return partial(pattern.build_pattern_target, settings=settings)
 
     def chosen(self, scene: bpy.types.Scene) -> bpy.types.Image:
         image = bpy.data.images.get(self.image) if self.image else scene.reflection_lines.pattern.image

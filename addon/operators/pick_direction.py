@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 from bpy_extras.view3d_utils import region_2d_to_location_3d
 
-from ..bridge import gather, view
+from ..bridge import scene_objects, view_and_light
 
 NAVIGATION = {'MIDDLEMOUSE', 'WHEELUPMOUSE', 'WHEELDOWNMOUSE'}
 
@@ -16,7 +16,7 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = gather.active(context)
+        ob = scene_objects.find_active_object(context)
         cls.poll_message_set("Make the panel's mesh the active object, and the 3D view visible")
         return ob is not None and ob.type == 'MESH' and context.area is not None and context.area.type == 'VIEW_3D'
 
@@ -39,7 +39,7 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
     def under(self, context: bpy.types.Context, event: bpy.types.Event) -> np.ndarray:
         """World point under the mouse, as far away as the panel's middle: what counts is the direction."""
         at = (event.mouse_x - self.window.x, event.mouse_y - self.window.y)
-        centre = view.extent(gather.active(context))[0]
+        centre = view_and_light.measure_extent(scene_objects.find_active_object(context))[0]
         return np.array(region_2d_to_location_3d(self.window, context.space_data.region_3d, at, centre))
 
     def finish(self, context: bpy.types.Context) -> set[str]:

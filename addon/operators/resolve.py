@@ -3,52 +3,67 @@ import json
 
 import bpy
 
-from .. import session
-from ..bridge import gather, versions
+from ..bridge import compat, scene_objects, view_and_light
+from ..model.refusal import Refusal
+from .solve_tool import SolveTool
 
 
 class REFLINES_OT_resolve(bpy.types.Operator):
-    """Run the last tool again with the same settings on the same faces, for the view and light as they are now.
-
-It begins with the shape before that run: of a result in a shape key the shape that the key is relative to, else the
-mesh as it was; where the mesh has been changed since, with the mesh as it is"""
+    """Run the last tool again on the same faces, for the view and light as they are now. It begins with the shape
+before that run, unless the mesh has been changed since"""
     bl_idname = "reflines.resolve"
     bl_label = "Re-solve"
     bl_options = {'REGISTER', 'UNDO'}
 
+    border: bpy.props.StringProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Another border than the last run's")
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Returns the tooltip with another border; empty without, for the docstring."""
+        return f"Run the last tool again with the border {properties.border.capitalize()}" if properties.border else ""
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = gather.active(context)
+        ob = scene_objects.find_active_object(context)
         if ob is None or ob.type != 'MESH' or not ob.reflection_lines.run.operator:
             cls.poll_message_set("Make a panel active on which a tool has run")
             return False
-        obstacle = session.obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
+        obstacle = view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
         cls.poll_message_set(obstacle)
         return not obstacle
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        ob = gather.active(context)
+        ob = scene_objects.find_active_object(context)
         mode, run = ob.mode, ob.reflection_lines.run
-        if mode != 'OBJECT':  # where the faces of the last run are kept
+        if mode != 'OBJECT':  # the stored region can be read there only
             bpy.ops.object.mode_set(mode='OBJECT')
         difference = run.difference(ob.data)
         try:
-            self.run(ob, run)
-        except RuntimeError as error:  # how Blender hands on what an operator reports
+            self.run(ob, run, shared=mode == 'EDIT')
+        except (RuntimeError, Refusal) as error:  # Blender raises the errors that an operator reports
             if mode != 'OBJECT':
                 bpy.ops.object.mode_set(mode=mode)
-            self.report({'ERROR'}, versions.reported_error(error))
+            self.report({'ERROR'}, compat.strip_error_prefix(error))
             return {'CANCELLED'}
-        if mode != 'OBJECT' and not run.key:  # to go on there; a result in a key ends in Object Mode
+        if mode != 'OBJECT' and not run.key:  # a result in a shape key ends in Object Mode
             bpy.ops.object.mode_set(mode=mode)
         for note in filter(None, (difference, *ob.reflection_lines.report.notes.splitlines())):
-            self.report({'WARNING'}, f"{ob.name}: {note}")  # what the tool reports stays in the console
+            self.report({'WARNING'}, f"{ob.name}: {note}")  # the tool's own reports reach the console only
         self.report({'INFO'}, f"{ob.name}: {ob.reflection_lines.report.summary()}")
         return {'FINISHED'}
 
-    def run(self, ob: bpy.types.Object, run: bpy.types.PropertyGroup) -> None:
+    def run(self, ob: bpy.types.Object, run: bpy.types.PropertyGroup, *, shared: bool) -> None:
+        """The name and the settings come from the file: only tools that solve are run."""
+        kind = getattr(bpy.types, run.operator, None)
+        if not isinstance(kind, type) or not issubclass(kind, SolveTool):
+            raise Refusal(f"{ob.name}: the stored run names no tool ({run.operator[:40]}): run a tool again")
         tool = getattr(bpy.ops.reflines, run.operator.split("_OT_")[1])
-        tool('EXEC_DEFAULT', anew=True, **json.loads(run.settings))
+        border = {"border": self.border} if self.border else {}
+        try:
+            settings = {**json.loads(run.settings), **border, "anew": True, "shared": shared}
+            tool('EXEC_DEFAULT', **settings)
+        except (TypeError, ValueError, RecursionError) as error:
+            raise Refusal(f"{ob.name}: the stored settings of {kind.bl_label} cannot be used: run it again") from error
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_resolve])

@@ -1,39 +1,56 @@
-"""Smooth Reflection Lines."""
+"""Smooth Lines."""
+from dataclasses import replace
 from functools import partial
 
 import bpy
 
-from .. import solving
-from ..bridge.gather import Panel
-from ..drag.modal import DraggedTool
-from ..drag.motion import Handle
-from ..solving import BuildTarget
+from ..bridge import facing
+from ..interactive.drag_handles import Handle
+from ..model.patch import Patch
+from ..model.solution import Solution
+from ..solver import automatic_smooth, live_optimizer, solve
+from ..solver.automatic_smooth import AutomaticSmooth
+from ..solver.live_optimizer import BuildTarget
+from ..state import optimizer_cache
 from ..targets import smooth
-from ..tool_settings import SmoothSettings
+from ..targets.smooth import Smooth
+from ..ui.tool_properties import SmoothSettings
+from .dragged_tool import DraggedTool
 
 
 class REFLINES_OT_smooth(DraggedTool, SmoothSettings, bpy.types.Operator):
-    """Move the vertices of the selected faces along the view so that their reflection lines run smoothly.
-
-In Object Mode the faces of the last run are taken; they are kept with the mesh as the face attribute "reflines_region".
-Quads and n-gons stay as they are"""
+    """Move the selected faces' vertices along the view so that their lines run smoothly: flaws go, design stays;
+with a length all that is finer goes. In Object Mode the faces of the last run are taken"""
     bl_idname = "reflines.smooth"
-    bl_label = "Smooth Reflection Lines"
+    bl_label = "Smooth Lines"
 
-    def handles(self) -> tuple[Handle, ...]:
+    def build_handles(self) -> tuple[Handle, ...]:
         return (Handle("strength", "Strength", per_pixel=1.0 / 300.0, low=0.0, high=1.0),
                 Handle("length", "Length", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH',
                        wheel=True))
 
-    def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
+    def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines
 
-    def detail(self, _: bpy.types.Scene) -> float:
+    def read_detail_length(self, _: bpy.types.Scene) -> float:
         return self.length
 
-    def build_target(self, _context: bpy.types.Context, _ob: bpy.types.Object, panel: Panel) -> BuildTarget:
-        length = solving.length_of(panel, self.length)
-        return partial(smooth.target, settings=smooth.Smooth(length, self.strength, self.directional))
+    def build_target(self, _context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
+        length = solve.choose_length(patch, self.length)
+        if self.follow_mouse and not self.length:
+            self.length = length  # a drag smooths by the length that it shows; the redo panel and Re-solve repeat that
+        return partial(smooth.build_smooth_target, settings=Smooth(length, self.strength, self.directional))
+
+    def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
+        seen = facing.read_patch_view(context.scene, patch)
+        if self.directional or not automatic_smooth.suits(patch, seen):
+            return super().solve_patch(context, ob, patch)
+        if self.length:  # what 0 stands for is known after an automatic press only
+            return replace(super().solve_patch(context, ob, patch), automatic_length=0.0)
+        settings = AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric)
+        with live_optimizer.convert_native_errors(patch):
+            live = optimizer_cache.ensure_optimizer(automatic_smooth.hold_marked_creases(patch), seen, self.border)
+            return automatic_smooth.smooth_panel(live, settings)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_smooth])

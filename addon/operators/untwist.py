@@ -1,38 +1,41 @@
-"""Untwist Reflection Lines."""
+"""Untwist Lines."""
 from functools import partial
 from math import pi, radians
 
 import bpy
 
-from ..bridge.gather import Panel
-from ..drag.modal import DraggedTool, radius_handle
-from ..drag.motion import Handle
-from ..solving import BuildTarget
+from ..bridge.read_falloff import read_falloff
+from ..interactive.drag_handles import Handle
+from ..model.patch import Patch
+from ..solver.live_optimizer import BuildTarget
 from ..targets import untwist
 from ..targets.falloff import Falloff
-from ..tool import placed_falloff
-from ..tool_settings import UntwistSettings
+from ..targets.untwist import Untwist
+from ..ui.tool_properties import UntwistSettings, border_property
+from .dragged_tool import DraggedTool, build_radius_handle
 
 
 class REFLINES_OT_untwist(DraggedTool, UntwistSettings, bpy.types.Operator):
     """Move the vertices of the selected faces along the view so that their reflection lines turn by an angle,
 less with the distance from a centre"""
     bl_idname = "reflines.untwist"
-    bl_label = "Untwist Reflection Lines"
+    bl_label = "Untwist Lines"
 
-    def scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
+    border: border_property('free')
+
+    def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.untwist
 
-    def handles(self) -> tuple[Handle, ...]:
+    def build_handles(self) -> tuple[Handle, ...]:
         return (Handle("angle", "Angle", per_pixel=radians(0.25), low=-pi, high=pi, unit='ANGLE'),
-                *radius_handle(self.centre))
+                *build_radius_handle(self.centre))
 
-    def falloff(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> Falloff | None:
-        return placed_falloff(self, context.scene, ob, panel)
+    def read_falloff(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Falloff | None:
+        return read_falloff(self, context.scene, ob, patch)
 
-    def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, panel: Panel) -> BuildTarget:
-        settings = untwist.Untwist(self.angle, self.falloff(context, ob, panel), self.emphasis)
-        return partial(untwist.target, settings=settings)
+    def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
+        settings = Untwist(self.angle, self.read_falloff(context, ob, patch), self.emphasis)
+        return partial(untwist.build_untwist_target, settings=settings)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_untwist])

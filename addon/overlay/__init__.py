@@ -1,1 +1,1 @@
-"""What the artist sees: stripes over the shaded model, drawn from the reflection function that the solver optimizes."""
+"""The overlay: stripes over the shaded mesh, drawn by the reflection function that the solver optimizes."""

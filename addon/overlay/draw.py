@@ -6,91 +6,105 @@ import bpy
 import gpu
 import numpy as np
 
-from .. import native, session, solving
-from ..bridge import environment, shown_cage, surface
-from . import last_solve, limit, seen, shader, stripes
-from .normals import FIT_RINGS, Fits
+from .. import native
+from ..bridge import image_pixels, viewport_cage, viewport_surface
+from ..model.solution import LastSolve
+from ..model.surface import Surface, Topology
+from ..state import last_panels, solve_history
+from . import draw_cage, legend, shader, shown_objects, solve_maps, stripe_scene, stripes
+from .fitted_normals import FIT_RINGS, FittedNormals
+from .limit_surface import LimitSurfaces
 
-POLL = 0.05  # seconds between two looks at the fit in a thread
-UNSEEN = 60.0   # seconds after which what no viewport draws is dropped: of two, each leaves the other its own
-TEXTURES = 4    # environment images kept; one of 2,048 x 1,024 pixels takes 16 MB
+POLL_INTERVAL = 0.05  # seconds between two checks of the background fit
+UNSEEN_TIME = 60.0  # seconds until objects that no viewport draws are dropped; several viewports draw different ones
+KEPT_TEXTURES = 4  # environment images kept; one of 2,048 x 1,024 pixels takes 16 MB
 NOTHING = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32), np.zeros((0, 3)))
-BEFORE = "before "  # the fit of an object's shape before its last solve goes by this and its name
+BEFORE = "before "  # prefix of the names of fits of the shape before the last solve
 
 
 @dataclass
-class Shown:
-    """What is on the GPU of one object."""
-    kind: tuple = ()              # how it was read: mode and part
+class ShownObject:
+    """What the GPU holds of one object."""
+    kind: tuple = ()              # mode, content, solve and kind of surface when it was read
     stale: bool = True            # the surface may have changed since it was uploaded
-    topology: object = None
+    topology: Topology | None = None
     uploaded: tuple = ()          # the arrays of the batch
-    batch: object = None
-    drawn: float = field(default_factory=time.monotonic)  # last
+    batch: gpu.types.GPUBatch | None = None
+    cage: draw_cage.ShownCage | None = None   # of Edit Mode
+    drawn: float = field(default_factory=time.monotonic)  # time of the last drawing
 
 
 @dataclass
-class Cache:
-    """Of all viewports. Shader and textures are kept: Blender 5.2 crashes when a texture dies after its shader."""
-    shown: dict[str, Shown] = field(default_factory=dict)
-    fits: Fits = field(default_factory=Fits)
-    limits: limit.Limits = field(default_factory=limit.Limits)
-    shader: object = None
-    uniforms: dict = field(default_factory=dict)   # one buffer an object: drawing is not done when the next is filled
+class DrawCache:
+    """The data of all viewports. Shader and textures are kept: Blender 5.2 crashes when a texture dies after its
+    shader.
+    """
+    shown: dict[str, ShownObject] = field(default_factory=dict)
+    fits: FittedNormals = field(default_factory=FittedNormals)
+    limits: LimitSurfaces = field(default_factory=LimitSurfaces)
+    shader: gpu.types.GPUShader | None = None
+    dots: gpu.types.GPUShader | None = None
+    uniforms: dict = field(default_factory=dict)  # one an object: the GPU reads it while the next is filled
     textures: dict = field(default_factory=dict)
     builds: int = 0               # batches made so far
     handles: list = field(default_factory=list)
 
 
-_cache = Cache()
+_cache = DrawCache()
 
 
-def batch_builds() -> int:
+def count_batch_builds() -> int:
     return _cache.builds
 
 
-def kept() -> set[str]:
-    """Names of the objects of which anything is kept."""
+def list_kept_names() -> set[str]:
+    """Returns the names of the objects of which anything is kept."""
     fits, limits = _cache.fits, _cache.limits
     every = (*_cache.shown, *_cache.uniforms, *fits.done, *fits.wanted, *fits.started, *limits.kept)
     return {name.removeprefix(BEFORE) for name in every}
 
 
-def kept_textures() -> int:
+def count_textures() -> int:
     return len(_cache.textures)
 
 
 def is_waiting() -> bool:
-    """Whether a fit of normals is on its way."""
+    """Returns whether a fit of normals is pending."""
     return _cache.fits.is_waiting()
 
 
-def draw() -> None:
-    """In a viewport's POST_VIEW."""
+def draw_stripes() -> None:
+    """Draws the stripes in a viewport (POST_VIEW)."""
     context = bpy.context
     settings = context.scene.reflection_lines.stripes
-    if settings.show:
+    if settings.show and context.space_data.overlay.show_overlays:
         draw_objects(context, settings)
-    drop_unseen()
+    drop_unseen_objects()
     if is_waiting() and not bpy.app.timers.is_registered(poll_fits):
-        bpy.app.timers.register(poll_fits, first_interval=POLL)
+        bpy.app.timers.register(poll_fits, first_interval=POLL_INTERVAL)
 
 
 def draw_objects(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
-    for ob in seen.shown_objects(context, settings):
-        values = seen.uniforms(context, ob)
+    last_panels.remember_panels(context.scene, shown_objects.find_panels(context, settings))
+    for ob in shown_objects.find_shown_objects(context, settings):
+        values = stripe_scene.build_uniforms(context, ob)
         if values is None:
             continue
-        shown = _cache.shown.setdefault(ob.name, Shown())
+        shown = _cache.shown.setdefault(ob.name, ShownObject())
         shown.drawn = time.monotonic()
-        refresh(shown, ob, settings, context.evaluated_depsgraph_get())
+        refresh_object(shown, ob, settings, context.evaluated_depsgraph_get())
         if shown.batch is not None:
-            paint(ob.name, shown.batch, values, texture_of(settings))
+            draw_batch(ob.name, shown.batch, values, find_texture(settings))
+        if shown.cage is not None:
+            _cache.dots = _cache.dots or draw_cage.compile_dots()
+            draw_cage.CagePainter(context, ob, _cache.dots).draw(shown.cage)
 
 
-def drop_unseen() -> None:
-    """Of objects that are gone, or that no viewport has drawn for long. After drawing: a view may rest for longer."""
-    late = time.monotonic() - UNSEEN
+def drop_unseen_objects() -> None:
+    """Drops what is kept of objects that are gone or that no viewport has drawn for UNSEEN_TIME. Called after drawing,
+    since a view may rest for longer.
+    """
+    late = time.monotonic() - UNSEEN_TIME
     for name in [name for name, shown in _cache.shown.items()
                  if shown.drawn < late or bpy.data.objects.get(name) is None]:
         del _cache.shown[name]
@@ -100,63 +114,67 @@ def drop_unseen() -> None:
             _cache.fits.drop(fit)
 
 
-def refresh(shown: Shown, ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
+def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
             depsgraph: bpy.types.Depsgraph) -> None:
-    solution = session.last_solution(ob.name) if seen.needs_solution(settings) else None
-    kind = (ob.mode, seen.content(ob, settings), id(solution), settings.id_data.reflection_lines.solve_for)
+    solution = solve_history.find_last_solve(ob.name) if stripe_scene.needs_solution(settings) else None
+    solve_for = settings.id_data.reflection_lines.solve_for
+    with_cage = settings.cage_on_top and ob.mode == 'EDIT' and draw_cage.read_kind(ob)
+    kind = (ob.mode, stripe_scene.identify_content(ob, settings), id(solution), solve_for, with_cage)
     if not shown.stale and shown.kind == kind:
         return
-    read = limit_surface(ob, settings) or surface.read(ob, depsgraph, shown.topology)
-    if solution is not None and not last_solve.is_current(solution, read.V, len(ob.data.vertices)):
+    read = read_limit_surface(ob, settings) or viewport_surface.read_viewport_surface(ob, depsgraph, shown.topology)
+    if solution is not None and not solve_maps.is_current(solution, read.V, len(ob.data.vertices)):
         solution = None
-    arrays = arrays_of(ob, settings, read, solution)
+    arrays = build_arrays(ob, settings, read, solution)
     if len(arrays) != len(shown.uploaded) or not all(map(np.array_equal, arrays, shown.uploaded)):
-        shown.batch = make_batch(*arrays) if len(arrays[1]) else None
+        shown.batch = build_batch(*arrays) if len(arrays[1]) else None
         shown.uploaded = arrays
+    shown.cage = draw_cage.start_cage(ob, read) if with_cage else None
     shown.topology, shown.kind, shown.stale = read.topology, kind, False
 
 
-def limit_surface(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> surface.Surface | None:
-    """Of a cage, where that is what is solved for."""
+def read_limit_surface(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> Surface | None:
+    """Returns the limit surface of a cage where the cage is solved for, else None."""
     wanted = settings.id_data.reflection_lines.solve_for == 'CAGE' and native.STATE.usable
-    read = shown_cage.read(ob) if wanted else None
-    return None if read is None else _cache.limits.surface(ob.name, *read)
+    read = viewport_cage.read_viewport_cage(ob) if wanted else None
+    return None if read is None else _cache.limits.update_surface(ob.name, *read)
 
 
-def arrays_of(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: surface.Surface,
-              solution: solving.Last | None) -> tuple[np.ndarray, ...]:
-    """What is uploaded; nothing for a map of no solve."""
-    if settings.mode in seen.MAPS:
-        make = last_solve.residual_map if settings.mode == 'RESIDUAL' else last_solve.deviation_map
+def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: Surface,
+              solution: LastSolve | None) -> tuple[np.ndarray, ...]:
+    """Builds the arrays to upload; empty for a map without a solve."""
+    if settings.mode in stripe_scene.MAPS:
+        make = solve_maps.build_residual_map if settings.mode == 'RESIDUAL' else solve_maps.build_deviation_map
         return make(solution, settings.map_range) if solution is not None else NOTHING
     if settings.before and solution is not None:
-        V, F, old = last_solve.before(solution, read.V, read.F, len(ob.data.vertices))
-        shaded = _cache.fits.shaded(BEFORE + ob.name, old, F)
+        V, F, old = solve_maps.build_shape_before(solution, read.V, read.F, len(ob.data.vertices))
+        shaded = _cache.fits.update_shaded(BEFORE + ob.name, old, F)
         return V[shaded.vertex], shaded.F, shaded.normals
-    return part(ob.name, read) if seen.is_part_only(ob, settings) else whole(ob.name, read)
+    build = build_part_arrays if stripe_scene.is_part_only(ob, settings) else build_whole_arrays
+    return build(ob.name, read)
 
 
-def whole(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Positions, triangles and normals of a batch."""
+def build_whole_arrays(name: str, read: Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Builds positions, triangles and normals of the whole surface."""
     if read.normals is not None:
         return read.V, read.F, read.normals
-    shaded = _cache.fits.shaded(name, read.V, read.F)
+    shaded = _cache.fits.update_shaded(name, read.V, read.F)
     return read.V[shaded.vertex], shaded.F, shaded.normals
 
 
-def part(name: str, read: surface.Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The selected triangles, with the normals that they have in the whole."""
-    inside = stripes.around(read.F, read.selected, len(read.V), rings=FIT_RINGS)
+def build_part_arrays(name: str, read: Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Builds the arrays of the selected triangles, with the normals that they have in the whole surface."""
+    inside = stripes.grow_selection(read.F, read.selected, len(read.V), rings=FIT_RINGS)
     used, F = np.unique(read.F[inside], return_inverse=True)
     V, F = read.V[used], F.reshape(-1, 3).astype(np.int32)
     chosen = read.selected[inside]
     if read.normals is not None:
         return V, F[chosen], read.normals[used]
-    shaded = _cache.fits.shaded(name, V, F)
+    shaded = _cache.fits.update_shaded(name, V, F)
     return V[shaded.vertex], shaded.F[chosen], shaded.normals
 
 
-def make_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
+def build_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
                share: np.ndarray | None = None) -> gpu.types.GPUBatch:
     _cache.builds += 1
     layout = gpu.types.GPUVertFormat()
@@ -164,7 +182,7 @@ def make_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
     layout.attr_add(id="nor", comp_type='F32', len=3, fetch_mode='FLOAT')
     layout.attr_add(id="val", comp_type='F32', len=1, fetch_mode='FLOAT')
     vertices = gpu.types.GPUVertBuf(len=len(V), format=layout)
-    # attr_fill takes other types and orders as well, and draws them wrongly.
+    # attr_fill accepts other types and memory orders too, and misreads them.
     vertices.attr_fill(id="pos", data=np.ascontiguousarray(V, np.float32))
     vertices.attr_fill(id="nor", data=np.ascontiguousarray(normals, np.float32))
     values = np.zeros((len(V), 1)) if share is None else share.reshape(-1, 1)
@@ -173,27 +191,27 @@ def make_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
     return gpu.types.GPUBatch(type='TRIS', buf=vertices, elem=triangles)
 
 
-def texture_of(settings: bpy.types.PropertyGroup) -> gpu.types.GPUTexture:
-    """Of the environment image; a grey point where none is wanted or none can be had."""
+def find_texture(settings: bpy.types.PropertyGroup) -> gpu.types.GPUTexture:
+    """Returns the texture of the environment image; a grey pixel where none is wanted or it has no pixels."""
     wanted = settings.image if settings.mode == 'IMAGE' else None
-    key = environment.key(wanted) if wanted is not None else None
+    key = image_pixels.identify_image(wanted) if wanted is not None else None
     if key not in _cache.textures:
-        pixels = environment.read(wanted) if wanted is not None else None
-        _cache.textures[key] = make_texture(np.full((1, 1, 4), 0.2, np.float32) if pixels is None else pixels)
-    _cache.textures[key] = _cache.textures.pop(key)  # the one used last at the end
-    for old in list(_cache.textures)[:-TEXTURES]:
+        pixels = image_pixels.read_environment(wanted) if wanted is not None else None
+        _cache.textures[key] = build_texture(np.full((1, 1, 4), 0.2, np.float32) if pixels is None else pixels)
+    _cache.textures[key] = _cache.textures.pop(key)  # moved to the end, as the one used last
+    for old in list(_cache.textures)[:-KEPT_TEXTURES]:
         del _cache.textures[old]
     return _cache.textures[key]
 
 
-def make_texture(pixels: np.ndarray) -> gpu.types.GPUTexture:
+def build_texture(pixels: np.ndarray) -> gpu.types.GPUTexture:
     wrapped = np.ascontiguousarray(np.concatenate([pixels[:, -1:], pixels, pixels[:, :1]], axis=1))
     height, width = wrapped.shape[:2]
     return gpu.types.GPUTexture((width, height), format='RGBA16F',
                                 data=gpu.types.Buffer('FLOAT', wrapped.size, wrapped.ravel()))
 
 
-def paint(name: str, batch: gpu.types.GPUBatch, values: np.ndarray, texture: gpu.types.GPUTexture) -> None:
+def draw_batch(name: str, batch: gpu.types.GPUBatch, values: np.ndarray, texture: gpu.types.GPUTexture) -> None:
     data = gpu.types.Buffer('FLOAT', len(values), values)
     if _cache.shader is None:
         _cache.shader = shader.compile_shader()
@@ -202,19 +220,20 @@ def paint(name: str, batch: gpu.types.GPUBatch, values: np.ndarray, texture: gpu
     else:
         _cache.uniforms[name] = gpu.types.GPUUniformBuf(data)
     gpu.state.depth_test_set('LESS_EQUAL')
-    gpu.state.depth_mask_set(False)
+    gpu.state.depth_mask_set(True)  # of two shells the nearer one hides the other's stripes
     gpu.state.blend_set('ALPHA')
     _cache.shader.bind()
     _cache.shader.uniform_block("ub", _cache.uniforms[name])
     _cache.shader.uniform_sampler("environment", texture)
     batch.draw(_cache.shader)
+    gpu.state.depth_mask_set(False)
     gpu.state.blend_set('NONE')
     gpu.state.depth_test_set('NONE')
 
 
 def poll_fits() -> float | None:
-    """A timer, so on Blender's own thread: draws again what has better normals now."""
-    name = _cache.fits.finished()
+    """A timer that redraws surfaces whose fit has finished."""
+    name = _cache.fits.take_finished()
     if name is not None and name.removeprefix(BEFORE) in _cache.shown:
         _cache.shown[name.removeprefix(BEFORE)].stale = True
         for window in bpy.context.window_manager.windows:
@@ -222,39 +241,49 @@ def poll_fits() -> float | None:
                 if area.type == 'VIEW_3D':
                     area.tag_redraw()
     _cache.fits.advance()
-    return POLL if is_waiting() else None
+    return POLL_INTERVAL if is_waiting() else None
 
 
 @bpy.app.handlers.persistent
 def note_changes(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """A new selection is no new geometry, but it says which part is shown."""
+    """Marks changed surfaces as stale. A selection is no change of geometry, but it changes which part is drawn; nor is
+    a stroke of Sculpt Mode one before the mode ends.
+    """
     any_update = scene.reflection_lines.stripes.scope == 'SELECTION'
     for update in depsgraph.updates:
-        if not (update.is_updated_geometry or any_update):
-            continue
         if isinstance(update.id, bpy.types.Object) and update.id.name in _cache.shown:
-            _cache.shown[update.id.name].stale = True
+            if update.is_updated_geometry or any_update or update.id.mode == 'SCULPT':
+                _cache.shown[update.id.name].stale = True
+        elif isinstance(update.id, bpy.types.Mesh) and update.id.original.is_editmode:
+            note_mesh_changed(update.id.name)
         elif any_update:
-            note_everything()
+            note_all_changed()
+
+
+def note_mesh_changed(name: str) -> None:
+    """Marks the objects that show an edited mesh as stale: a selection changes the cage that is drawn."""
+    for shown_name, shown in _cache.shown.items():
+        ob = bpy.data.objects.get(shown_name)
+        shown.stale |= ob is not None and ob.data is not None and ob.data.name == name
 
 
 @bpy.app.handlers.persistent
-def note_everything(*_: object) -> None:
-    """Undo exchanges objects without saying which."""
+def note_all_changed(*_: object) -> None:
+    """Marks everything as stale, since undo replaces objects without saying which."""
     for shown in _cache.shown.values():
         shown.stale = True
 
 
 @bpy.app.handlers.persistent
-def forget(*_: object) -> None:
+def clear_cache(*_: object) -> None:
     _cache.shown.clear()
     _cache.textures.clear()
-    _cache.fits.forget()
-    _cache.limits.forget()
+    _cache.fits.clear()
+    _cache.limits.clear()
 
 
-HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", note_everything), ("redo_post", note_everything),
-            ("load_post", forget))
+HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", note_all_changed), ("redo_post", note_all_changed),
+            ("load_post", clear_cache))
 
 
 def register() -> None:
@@ -262,14 +291,15 @@ def register() -> None:
         return
     for name, handler in HANDLERS:
         getattr(bpy.app.handlers, name).append(handler)
-    _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), 'WINDOW', 'POST_VIEW'))
+    for draw, kind in ((draw_stripes, 'POST_VIEW'), (legend.draw_legend, 'POST_PIXEL')):
+        _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), 'WINDOW', kind))
 
 
 def unregister() -> None:
+    for name, handler in HANDLERS if _cache.handles else ():
+        getattr(bpy.app.handlers, name).remove(handler)
     while _cache.handles:
         bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
-        for name, handler in HANDLERS:
-            getattr(bpy.app.handlers, name).remove(handler)
     if bpy.app.timers.is_registered(poll_fits):
         bpy.app.timers.unregister(poll_fits)
-    forget()
+    clear_cache()

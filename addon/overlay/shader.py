@@ -1,7 +1,7 @@
-"""The stripes' shader. theta here is theta of the solver (paper, eq. 1), evaluated in every pixel."""
+"""The shader of the stripes: the solver's theta (paper, eq. 1), evaluated in every pixel."""
 import gpu
 
-from .stripes import RAMP
+from .stripes import RAMP, SIGNED_RAMP
 
 STRUCT = """
 struct StripeData {
@@ -74,6 +74,9 @@ void main()
   else if (mode == 4) {
     color = vec4(ramp_color(share), 1.0);
   }
+  else if (mode == 5) {
+    color = vec4(signed_color(0.5 + 0.5 * share), 1.0);
+  }
   else {
     // A normal turns half as much as its reflection: twice the rate draws the stripes as densely in all three modes.
     vec3 direction = mode == 0 ? r : n;
@@ -87,16 +90,16 @@ void main()
 """
 
 
-def ramp_source() -> str:
-    """stripes.ramp in GLSL."""
-    colors = [f"vec3({r:.6f}, {g:.6f}, {b:.6f})" for r, g, b in RAMP]
+def write_ramp_source(name: str, ramp: tuple) -> str:
+    """Returns the GLSL source of stripes.compute_ramp, as a function of this name."""
+    colors = [f"vec3({r:.6f}, {g:.6f}, {b:.6f})" for r, g, b in ramp]
     steps = "".join(f"  c = mix(c, {color}, clamp(x - {k}.0, 0.0, 1.0));\n" for k, color in enumerate(colors[1:]))
-    return (f"vec3 ramp_color(float given)\n{{\n  float x = clamp(given, 0.0, 1.0) * {len(RAMP) - 1}.0;\n"
+    return (f"vec3 {name}(float given)\n{{\n  float x = clamp(given, 0.0, 1.0) * {len(ramp) - 1}.0;\n"
             f"  vec3 c = {colors[0]};\n{steps}  return c;\n}}\n")
 
 
 def compile_shader() -> gpu.types.GPUShader:
-    """In a window only: without one Blender 3.4 crashes in the first of these calls."""
+    """Compiles the shader. Needs a window: without one Blender 3.4 crashes in the first of these calls."""
     info = gpu.types.GPUShaderCreateInfo()
     info.typedef_source(STRUCT)
     info.uniform_buf(0, "StripeData", "ub")
@@ -111,5 +114,6 @@ def compile_shader() -> gpu.types.GPUShader:
     info.vertex_out(between)
     info.fragment_out(0, 'VEC4', "fragColor")
     info.vertex_source(VERTEX)
-    info.fragment_source(BAND + ENVIRONMENT + ramp_source() + FRAGMENT)
+    ramps = write_ramp_source("ramp_color", RAMP) + write_ramp_source("signed_color", SIGNED_RAMP)
+    info.fragment_source(BAND + ENVIRONMENT + ramps + FRAGMENT)
     return gpu.shader.create_from_info(info)

@@ -1,23 +1,28 @@
-"""Stripes as plain arrays: what the shader is given. No Blender, no GPU."""
+"""Stripes as plain arrays: the shader's inputs. No Blender, no GPU."""
 from dataclasses import dataclass
 
 import numpy as np
 
 TURN = 2.0 * np.pi
 # Shares of the distance from the eye. Without an offset the surface itself hides 40 % of the pixels of its stripes.
-BELOW_CAGE = 1e-3  # Blender's edges and vertices of Edit Mode stay in front
-ABOVE_CAGE = 3e-2  # hides them
+ABOVE_SURFACE = 1e-3
+# By how much Blender's own vertices of Edit Mode are nearer than the surface (bglPolygonOffsetCalc): in perspective a
+# share of the distance, else in clip space for each unit of the view's distance. Stripes in Edit Mode hide them.
+VERTEX_SHARE, VERTEX_DEPTH = 1.875e-3, 7.5e-6
+VERTEX_RADIUS = 4.0  # pixels of Blender's dots, which face the eye
 
 # Numbers of the modes in the shader.
-MODES = {'REFLECTION': 0, 'HIGHLIGHT': 1, 'ISOPHOTE': 2, 'IMAGE': 3, 'RESIDUAL': 4, 'DEVIATION': 4}
+MODES = {'REFLECTION': 0, 'HIGHLIGHT': 1, 'ISOPHOTE': 2, 'IMAGE': 3, 'RESIDUAL': 4, 'DEVIATION': 5}
 
 # Colours of the maps, linear, from 0 to the full value: dark, then cold, then warm, so that grey prints keep the order.
 RAMP = ((0.012, 0.015, 0.06), (0.05, 0.16, 0.55), (0.06, 0.55, 0.35), (0.92, 0.70, 0.10), (0.90, 0.09, 0.05))
+# The same for values with a sign: cold inwards, grey at 0, warm outwards.
+SIGNED_RAMP = ((0.02, 0.10, 0.65), (0.10, 0.35, 0.60), (0.50, 0.50, 0.50), (0.85, 0.40, 0.10), (0.75, 0.05, 0.03))
 
 
 @dataclass(frozen=True)
 class Look:
-    """How stripes are painted. Colours are linear RGBA; width and softness are shares."""
+    """The look of the stripes. Colours are linear RGBA; width and softness are shares."""
     mode: str
     count: int
     width: float
@@ -31,21 +36,23 @@ class Look:
 
 @dataclass(frozen=True)
 class Eye:
-    """Who sees the reflection: `direction` is unit, towards the viewer; `position` is None for one at infinity."""
+    """The viewer of the reflection: `direction` is unit, towards the viewer; `position` is None for one at infinity."""
     direction: np.ndarray
     position: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
 class Lights:
-    """The paper's section 2.1: theta is the angle around `line` from v_a towards a_perp. Unit vectors, world space."""
+    """The frame of theta (paper, section 2.1): the angle around `line` from v_a towards a_perp. Unit vectors, world
+    space.
+    """
     line: np.ndarray
     v_a: np.ndarray
     a_perp: np.ndarray
 
 
-def lights(direction: np.ndarray, line_direction: np.ndarray) -> Lights | None:
-    """With theta = 0 towards the viewer in `direction`; None where light and view are parallel."""
+def compute_lights(direction: np.ndarray, line_direction: np.ndarray) -> Lights | None:
+    """Computes the frame with theta = 0 towards the viewer in `direction`; None where light and view are parallel."""
     across = direction - np.dot(direction, line_direction) * line_direction
     length = np.linalg.norm(across)
     if length < 1e-6:
@@ -53,14 +60,14 @@ def lights(direction: np.ndarray, line_direction: np.ndarray) -> Lights | None:
     return Lights(line_direction, across / length, np.cross(line_direction, across / length))
 
 
-def ramp(share: np.ndarray) -> np.ndarray:
-    """The map's colours, #N x 3, at shares of the full value."""
-    place = np.clip(share, 0.0, 1.0) * (len(RAMP) - 1)
-    return np.column_stack([np.interp(place, range(len(RAMP)), channel) for channel in zip(*RAMP, strict=True)])
+def compute_ramp(share: np.ndarray, ramp: tuple = RAMP) -> np.ndarray:
+    """Returns the colours of a map at shares of the way along its ramp: #N x 3."""
+    place = np.clip(share, 0.0, 1.0) * (len(ramp) - 1)
+    return np.column_stack([np.interp(place, range(len(ramp)), channel) for channel in zip(*ramp, strict=True)])
 
 
-def around(F: np.ndarray, chosen: np.ndarray, count: int, *, rings: int) -> np.ndarray:
-    """#F bool: the chosen triangles and those that reach them over shared vertices in so many steps."""
+def grow_selection(F: np.ndarray, chosen: np.ndarray, count: int, *, rings: int) -> np.ndarray:
+    """Returns the chosen triangles and those within `rings` steps over shared vertices: #F, bool."""
     inside = chosen
     for _ in range(rings):
         touched = np.zeros(count, dtype=bool)
@@ -69,10 +76,10 @@ def around(F: np.ndarray, chosen: np.ndarray, count: int, *, rings: int) -> np.n
     return inside
 
 
-def area_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """#V x 3, of any length: the sum of the triangles' normals by area. Cheap, and as rough as Blender's own.
+def compute_area_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """Returns the sum of the adjacent triangles' area-weighted normals: #V x 3, not normalized.
 
-    By columns, since numpy's cross product of 400,000 triangles alone takes as long as all of this.
+    Computed by columns, since numpy's cross product of 400,000 triangles alone takes as long as all of this.
     """
     first = V.take(F[:, 0], axis=0)
     a, b = ((V.take(F[:, k], axis=0) - first).T for k in (1, 2))
@@ -81,11 +88,11 @@ def area_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
                             for i, j in ((1, 2), (2, 0), (0, 1))])
 
 
-def uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.ndarray, eye: Eye, lights: Lights,
+def pack_uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.ndarray, eye: Eye, lights: Lights,
              look: Look) -> np.ndarray:
-    """The shader's uniform block (see shader.STRUCT), float32. Matrices are 4 x 4, column vectors to their right."""
+    """Packs the shader's uniform block (shader.STRUCT) as float32. Matrices are 4 x 4 for column vectors."""
     blocks = [
-        (projection @ view_matrix @ model).T, model.T, normal_matrix(model).T, depth_axis(projection),
+        (projection @ view_matrix @ model).T, model.T, compute_normal_matrix(model).T, compute_depth_axis(projection),
         np.append(eye.direction, 0.0) if eye.position is None else np.append(eye.position, 1.0),
         np.append(lights.v_a, 0.0), np.append(lights.a_perp, 0.0), np.append(lights.line, 0.0),
         [look.count / TURN, look.width, look.softness, look.depth_offset],
@@ -94,10 +101,10 @@ def uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.ndarr
     return np.concatenate([np.ravel(block) for block in blocks]).astype(np.float32)
 
 
-def normal_matrix(model: np.ndarray) -> np.ndarray:
-    """4 x 4 cofactors: normals fitted in object space map by them, and they exist for a flattened object too.
+def compute_normal_matrix(model: np.ndarray) -> np.ndarray:
+    """Returns the cofactor matrix (4 x 4) that transforms normals, which exists for a flattened object too.
 
-    They turn normals over where the object is mirrored, which reflection does not notice.
+    It turns normals over where the object is mirrored, which reflection does not notice.
     """
     x, y, z = model[:3, :3].T
     matrix = np.eye(4)
@@ -105,7 +112,38 @@ def normal_matrix(model: np.ndarray) -> np.ndarray:
     return matrix
 
 
-def depth_axis(projection: np.ndarray) -> np.ndarray:
-    """How clip space changes as a point comes nearer by one: per distance for perspective, per half view width else."""
+def measure_pixels(projection: np.ndarray, pixels: float, width: float) -> float:
+    """Returns a length in pixels of a view of this width as `move_nearer` takes lengths."""
+    share = 2.0 * pixels / width
+    return share / abs(projection[0, 0]) if projection[3, 2] != 0.0 else share
+
+
+def compute_edit_offset(projection: np.ndarray, view_distance: float, radius: float) -> float:
+    """Returns how much nearer than the surface stripes must be to hide Blender's own cage on slopes up to 63 degrees;
+    `radius` is that of its dots as `measure_pixels` returns it.
+    """
+    if projection[3, 2] != 0.0:
+        blender = VERTEX_SHARE
+    else:
+        blender = VERTEX_DEPTH * view_distance * abs(projection[0, 0] / projection[2, 2])
+    return 1.2 * blender + 2.0 * radius
+
+
+def move_nearer(projection: np.ndarray, share: float) -> np.ndarray:
+    """Returns the projection with depths as if everything were nearer to the eye, by a share of its distance or,
+    without perspective, of half the view's width; places in the picture stay. The stripes' vertex shader does the same.
+    """
+    moved = projection.copy()
+    if projection[3, 2] != 0.0:
+        moved[2, 3] /= 1.0 - share
+    else:
+        moved[2, 3] += share * projection[2, 2] / abs(projection[0, 0])
+    return moved
+
+
+def compute_depth_axis(projection: np.ndarray) -> np.ndarray:
+    """Returns the change of clip space as a point comes nearer: per distance in perspective, per half the view's width
+    else.
+    """
     axis = projection[:, 2]
     return axis if axis[3] != 0.0 else axis / abs(projection[0, 0])

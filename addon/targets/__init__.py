@@ -1,1 +1,3 @@
-"""Which lines are wanted: for each tool its settings and a function (optimizer, settings) -> Target. No Blender."""
+"""The tools' targets: for each tool its settings as a dataclass, and a function (optimizer, settings) -> Target. No
+Blender.
+"""

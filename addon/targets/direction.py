@@ -1,17 +1,19 @@
-"""Lines of one direction and density."""
+"""The target of lines of one direction and density."""
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import native
-from .falloff import Falloff, emphasis, in_plane, influence
+from .falloff import Falloff, compute_influence, compute_weight, project_to_plane
 
 TURN = 2.0 * np.pi
 
 
 @dataclass(frozen=True)
 class Direction:
-    """`direction` is in world space; zero keeps that of the region's mean."""
+    """The wanted direction, in world space, and density. A zero direction keeps the mean direction of the region's
+    lines.
+    """
     direction: np.ndarray      # 3
     density: float = 1.0       # a factor of the mean's, or lines a unit of length where `count` is given
     density_end: float = 1.0   # at the far end of the axis
@@ -22,19 +24,25 @@ class Direction:
     emphasis: float = 1.0
 
 
-def target(optimizer: object, settings: Direction) -> object:
-    share = influence(optimizer, settings.falloff, settings.strength)
+def build_direction_target(optimizer: "native.ShapeOptimizer", settings: Direction) -> "native.Target":
+    """Builds a target of constant direction and linearly varying density, blended with the present lines by the
+    influence.
+    """
+    share = compute_influence(optimizer, settings.falloff, settings.strength)
     gradient = TURN / settings.count if settings.count else 1.0  # |grad theta| of one line a unit
-    direction = in_plane(optimizer, settings.direction)
-    axis = density_axis(optimizer, direction, settings.axis)
+    direction = project_to_plane(optimizer, settings.direction)
+    axis = compute_density_axis(optimizer, direction, settings.axis)
     return native.reflines.uniform(
         optimizer, direction=direction, density=gradient * settings.density,
         relative=settings.count == 0, density_end=gradient * settings.density_end if axis.any() else -1.0, axis=axis,
-        influence=share, weight=emphasis(share, settings.emphasis))
+        influence=share, weight=compute_weight(share, settings.emphasis))
 
 
-def density_axis(optimizer: object, direction: np.ndarray, kind: str) -> np.ndarray:
-    """In the image plane; zero where the density does not vary. Across the lines is where theta grows."""
+def compute_density_axis(optimizer: "native.ShapeOptimizer", direction: np.ndarray, kind: str) -> np.ndarray:
+    """Returns the image-plane axis along which the density varies, zero where it does not.
+
+    Across the lines means the direction in which theta grows.
+    """
     if kind == 'NONE':
         return np.zeros(2)
     mean = optimizer.field()[optimizer.active].mean(axis=0)

@@ -1,16 +1,16 @@
-"""The lines and heights of another, dense mesh: what a cage is fitted to."""
+"""The target that a cage is fitted to: lines and heights of another, dense mesh."""
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from .. import native
 
-COVERED = 0.5  # share of the panel's area that has to lie over the dense mesh
+COVERED = 0.5  # share of the patch's area that must lie over the dense mesh
 
 
 @dataclass(frozen=True)
-class Dense:
-    """A mesh in world space."""
+class DenseMesh:
+    """A triangle mesh in world space."""
     name: str
     V: np.ndarray  # #V x 3
     F: np.ndarray  # #F x 3
@@ -18,7 +18,9 @@ class Dense:
 
 @dataclass(frozen=True)
 class Misfit:
-    """Of a surface from the dense mesh, where that is: along the view in world units, and of theta in radians."""
+    """Distances of a surface from the dense mesh where both overlap: along the view in world units, and of theta in
+    radians.
+    """
     mean: float     # root mean square
     largest: float
     angle: float    # root mean square
@@ -26,15 +28,16 @@ class Misfit:
 
 @dataclass
 class Fit:
-    """Builds the target, and first moves the optimizer to the heights that are nearest by least squares."""
-    dense: Dense
+    """Builds the target of the dense mesh's lines, and first fits the optimizer's heights to its own by least squares.
+    """
+    dense: DenseMesh
     view_direction: np.ndarray
     line_direction: np.ndarray
     match: tuple = field(default=(), init=False)
-    optimizer: object = field(default=None, init=False)
+    optimizer: "native.ShapeOptimizer | None" = field(default=None, init=False)
     before: Misfit | None = field(default=None, init=False)
 
-    def __call__(self, optimizer: object) -> object:
+    def __call__(self, optimizer: "native.ShapeOptimizer") -> "native.Target":
         self.optimizer = optimizer
         try:
             dense = native.reflines.ShapeOptimizer(self.dense.V, self.dense.F, view_direction=self.view_direction,
@@ -51,7 +54,7 @@ class Fit:
         return target
 
     def misfit(self) -> Misfit:
-        """Of the optimizer as it is now."""
+        """Measures the optimizer's present surface against the dense mesh."""
         target, theta, heights, weight = self.match
         apart = (self.optimizer.heights - heights)[weight > 0.0]
         turned = (self.optimizer.theta() - theta + np.pi) % (2.0 * np.pi) - np.pi

@@ -1,15 +1,15 @@
-"""Lines bent after a picture."""
+"""The target of lines bent by the grey values of an image."""
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import native
-from .falloff import in_plane
+from .falloff import project_to_plane
 
 
 @dataclass(frozen=True)
 class Pattern:
-    """The picture lies in the image plane, its bottom edge along `right` turned by `angle`."""
+    """The image lies in the image plane, its bottom edge along `right` turned by `angle`."""
     grey: np.ndarray          # #rows x #columns, first row at the bottom, 0 black to 1 white
     centre: np.ndarray        # 3, world space
     right: np.ndarray         # 3, world space
@@ -21,9 +21,10 @@ class Pattern:
     by_value: bool = False    # each line where the picture puts it, black leaving it where it is
 
 
-def target(optimizer: object, settings: Pattern) -> object:
-    x, y = in_plane(optimizer, settings.right)
+def build_pattern_target(optimizer: "native.ShapeOptimizer", settings: Pattern) -> "native.Target":
+    """Builds the target of a share of the present lines plus the gradient of the image."""
+    x, y = project_to_plane(optimizer, settings.right)
     return native.reflines.pattern(
         optimizer, image=settings.grey, strength=settings.strength, blur=settings.blur, keep=settings.keep,
-        centre=in_plane(optimizer, settings.centre), width=settings.width, angle=settings.angle + np.arctan2(y, x),
-        by_value=settings.by_value)
+        centre=project_to_plane(optimizer, settings.centre), width=settings.width,
+        angle=settings.angle + np.arctan2(y, x), by_value=settings.by_value)

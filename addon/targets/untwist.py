@@ -1,18 +1,20 @@
-"""The present lines, turned."""
+"""The target of the present lines, turned."""
 from dataclasses import dataclass
 
 from .. import native
-from .falloff import Falloff, emphasis, influence
+from .falloff import Falloff, compute_influence, compute_weight
 
 
 @dataclass(frozen=True)
 class Untwist:
+    """The angle of the turn, and where it acts."""
     angle: float  # radians, counter-clockwise as the viewer sees it, where the influence is full
     falloff: Falloff | None = None
     emphasis: float = 1.0
 
 
-def target(optimizer: object, settings: Untwist) -> object:
-    share = influence(optimizer, settings.falloff)
+def build_untwist_target(optimizer: "native.ShapeOptimizer", settings: Untwist) -> "native.Target":
+    """Builds the target of the present lines turned by the angle times the influence."""
+    share = compute_influence(optimizer, settings.falloff)
     return native.reflines.turn(optimizer, angle=settings.angle, influence=share,
-                                weight=emphasis(share, settings.emphasis))
+                                weight=compute_weight(share, settings.emphasis))

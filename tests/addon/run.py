@@ -1,6 +1,6 @@
 """Runs the tests of this folder inside Blender, with the add-on installed and enabled as a user has it.
 
-    blender -b --factory-startup --python tests/addon/run.py -- [pytest arguments]
+    blender -b --factory-startup --python tests/in_blender.py -- tests/addon/run.py [pytest arguments]
 
 Debian's Blender uses the system's Python, so the system's pytest is at hand.
 """
@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+import installation
 
-import installation  # noqa: E402  (found through the line above)
+HERE = Path(__file__).resolve().parent
 
 
 class Counter:
@@ -27,9 +26,8 @@ class Counter:
 
 def main() -> None:
     installation.install()
-    given = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     options = ["-q", "-rs", "-p", "no:cacheprovider", "--rootdir", str(HERE)]
-    code = pytest.main([*options, *(given or [str(HERE)])], plugins=[Counter()])
+    code = pytest.main([*options, *(sys.argv[1:] or [str(HERE)])], plugins=[Counter()])
     sys.exit(int(code))
 
 

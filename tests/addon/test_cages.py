@@ -4,8 +4,8 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 import pytest
-from reflection_lines import session
-from reflection_lines.overlay import last_solve
+from reflection_lines.overlay import solve_maps
+from reflection_lines.state import solve_history
 
 import scenes
 
@@ -252,14 +252,14 @@ def test_simple_subdivision_is_refused_in_words() -> None:
 def test_what_could_not_be_reached_is_known_for_the_cages_faces_and_stored() -> None:
     ob = subdivided()
     scenes.smooth(length=0.8)
-    solution = session.last_solution(ob.name)
-    assert len(solution.residual) == len(solution.panel.F)
+    solution = solve_history.find_last_solve(ob.name)
+    assert len(solution.residual) == len(solution.patch.F)
     assert solution.residual.min() > 0.0
     pairs = solution.residual.reshape(-1, 2)  # of the triangles of a quad
     assert np.array_equal(pairs[:, 0], pairs[:, 1])
     assert len(np.unique(pairs)) > 10
-    V, F, _, share = last_solve.residual_map(solution, 0.0)
-    assert len(V) == 3 * len(F) == 3 * len(solution.panel.F)
+    V, F, _, share = solve_maps.build_residual_map(solution, 0.0)
+    assert len(V) == 3 * len(F) == 3 * len(solution.patch.F)
     assert share.max() == 1.0
     bpy.ops.reflines.store_result('EXEC_DEFAULT', True)
     scenes.object_mode()

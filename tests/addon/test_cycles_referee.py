@@ -6,17 +6,13 @@ of the analytic normal at the pixel's surface point, and with equation 1 of the 
 the same nodes.
 """
 import pathlib
-import sys
 
 import bpy
 import numpy as np
 import pytest
 from reflection_lines import native
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "blend_samples"))
-
-import studio  # noqa: E402  (a module of the samples' scripts, found through the line above)
+import studio
 
 PIXELS = 160
 CELLS = 320          # cells a side of the mesh over [-1, 1]^2

@@ -20,7 +20,7 @@ def test_every_object_with_selected_faces_is_solved() -> None:
     for ob in objects:
         scenes.select_faces(ob, scenes.inner())
     before = [scenes.positions(ob) for ob in objects]
-    scenes.smooth()
+    scenes.smooth(length=0.5)
     assert all((scenes.positions(ob) != old).any() for ob, old in zip(objects, before, strict=True))
     assert all(ob.reflection_lines.report.termination for ob in objects)
 
@@ -93,7 +93,7 @@ def test_edits_go_to_the_active_shape_key() -> None:
     ob.active_shape_key_index = 1
     basis, bulge = key_positions(ob, "Basis"), key_positions(ob, "Bulge")
     scenes.edit_inner(ob)
-    scenes.smooth()
+    scenes.smooth(length=0.5)
     scenes.object_mode()
     assert np.array_equal(key_positions(ob, "Basis"), basis)
     moved = key_positions(ob, "Bulge") - bulge

@@ -53,3 +53,21 @@ def test_a_light_along_the_view_is_refused() -> None:
         assert "parallel to the view" in str(error)
     else:
         raise AssertionError("no error")
+
+
+def test_the_picture_is_smooth_and_the_shading_stays() -> None:
+    scenes.panel()
+    scenes.look_from_above(light_degrees=50.0)
+    bpy.context.scene.reflection_lines.stripes.softness = 0.0
+    views = [area.spaces.active.shading for screen in bpy.data.screens for area in screen.areas
+             if area.type == 'VIEW_3D']
+    before = [(shading.type, shading.light, shading.studio_light) for shading in views]
+    assert bpy.ops.reflines.install_matcap() == {'FINISHED'}
+    assert [(shading.type, shading.light, shading.studio_light) for shading in views] == before
+    installed = next(light for light in bpy.context.preferences.studio_lights if light.name == "reflection_lines.png")
+    image = bpy.data.images.load(installed.path)
+    row = np.array(image.pixels).reshape(image.size[1], image.size[0], 4)[:, image.size[0] // 2, 0]
+    edges = np.flatnonzero(np.diff((row > 0.5).astype(int)))
+    between = ((row > 0.15) & (row < 0.85)).sum()
+    print(f"{between} pixels between light and dark at {len(edges)} edges")
+    assert len(edges) > 10 and between >= len(edges)

@@ -1,7 +1,6 @@
-"""Every sample opens with the numbers of its row in README.md, ready for one press of the button."""
+"""Every sample opens with the numbers of its row in blend_samples/README.md, ready for one press of the button."""
 import pathlib
 import re
-import sys
 from collections.abc import Callable
 
 import bpy
@@ -9,18 +8,17 @@ import numpy as np
 import pytest
 from reflection_lines import native
 
+import cage_shapes
+import hood_shape
+import panel_shapes
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "blend_samples"
-sys.path.insert(0, str(SAMPLES))
-
-import cage_shapes  # noqa: E402
-import hood_shape  # noqa: E402  (a module of the samples' scripts, found through the line above)
-import panel_shapes  # noqa: E402
 
 
 def rows() -> dict[str, list[str]]:
-    """The cells of README.md's table of samples by file."""
-    lines = [line for line in (ROOT / "README.md").read_text().splitlines() if ".blend` |" in line]
+    """The cells of the table of samples by file."""
+    lines = [line for line in (SAMPLES / "README.md").read_text().splitlines() if ".blend` |" in line]
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
     return {row[0].strip("`"): row for row in cells}
 

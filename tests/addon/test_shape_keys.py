@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import scenes
-from reflection_lines.bridge import region
+from reflection_lines.bridge import region_faces
 
 KEY = "Reflection Lines"
 
@@ -118,7 +118,7 @@ def test_of_several_panels_each_keeps_its_region(panel) -> None:
         scenes.select_faces(ob, scenes.inner())
     into_key()
     for ob in (panel, other):
-        assert region.stored(ob.data).tolist() == [scenes.inner()(face) for face in range(256)]
+        assert region_faces.read_stored_region(ob.data).tolist() == [scenes.inner()(face) for face in range(256)]
 
 
 def test_the_key_is_edited_in_place(panel) -> None:

@@ -2,7 +2,8 @@
 import bpy
 import numpy as np
 import pytest
-from reflection_lines import native, session
+from reflection_lines import native
+from reflection_lines.state import optimizer_cache
 
 import scenes
 
@@ -194,7 +195,7 @@ def test_few_optimizers_are_kept(panel) -> None:
     scenes.smooth()
     for number in range(4):
         smooth_another(f"Panel {number}")
-        assert len(session.kept()) == 2 and session.kept()[-1] == f"Panel {number}"
+        assert len(optimizer_cache.list_kept()) == 2 and optimizer_cache.list_kept()[-1] == f"Panel {number}"
 
 
 def test_the_optimizer_of_a_deleted_panel_goes(panel) -> None:
@@ -203,7 +204,7 @@ def test_the_optimizer_of_a_deleted_panel_goes(panel) -> None:
     bpy.data.objects.remove(panel)
     scenes.edit_inner(scenes.panel("Other", cells=CELLS), CELLS)
     scenes.smooth()
-    assert session.kept() == ("Other",)
+    assert optimizer_cache.list_kept() == ("Other",)
 
 
 def test_an_operation_over_several_panels_keeps_theirs(panel) -> None:
@@ -211,4 +212,4 @@ def test_an_operation_over_several_panels_keeps_theirs(panel) -> None:
     scenes.smooth()
     others = [smooth_another(f"Panel {number}") for number in range(3)]
     smooth_another("Last", *others)
-    assert set(session.kept()) == {"Last", *(ob.name for ob in others)}
+    assert set(optimizer_cache.list_kept()) == {"Last", *(ob.name for ob in others)}

@@ -49,14 +49,19 @@ IDENTITIES = {
     "pattern": lambda: pattern(strength=0.0),
     "pattern by value": lambda: pattern(strength=0.0, fit='VALUE'),
 }
+CLAMPED = {"border": 'clamped', "centre": 'EVERYWHERE'}
+INSIDE = {"border": 'clamped', "centre": 'REGION'}
+CURVE = {"centre": 'CURSOR', "shape": 'CURVE'}
 CHANGES = {
     "smooth": lambda: scenes.smooth(directional=True),
-    "angle": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='ANGLE', angle=0.1),
-    "points": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='POINTS', end=(5.0, 1.0, 0.0)),
-    "density": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.1, axis='ACROSS', density_end=0.9),
-    "lines": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, unit='LINES', density=4.0, centre='REGION'),
-    "curve": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2, centre='CURSOR', shape='CURVE'),
-    "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True, angle=0.1, centre='REGION', radius=0.7),
+    "angle": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='ANGLE', angle=0.1, **CLAMPED),
+    "points": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='POINTS', end=(5.0, 1.0, 0.0),
+                                                 **CLAMPED),
+    "density": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.1, axis='ACROSS', density_end=0.9,
+                                                  **CLAMPED),
+    "lines": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, unit='LINES', density=4.0, **INSIDE),
+    "curve": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2, **(CLAMPED | CURVE)),
+    "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True, angle=0.1, radius=0.7, **INSIDE),
     "pattern": pattern,
     "pattern by value": lambda: pattern(fit='VALUE'),
 }
@@ -112,7 +117,7 @@ def near(optimizer: object, radius: float) -> np.ndarray:
 def test_the_angle_is_that_of_the_lines_in_the_picture(panel) -> None:
     """Seen from above with X to the right. A border that stayed would keep the lines from turning all the way."""
     bpy.ops.reflines.smooth(length=2.0)
-    bpy.ops.reflines.direction(direction='ANGLE', angle=radians(8.0), border='free')
+    bpy.ops.reflines.direction(direction='ANGLE', angle=radians(8.0), border='free', centre='EVERYWHERE')
     optimizer = lines_of(panel)
     across = optimizer.field()[near(optimizer, 0.5)].mean(axis=0) @ optimizer.frame[:2]
     assert np.arctan2(across[0], -across[1]) == pytest.approx(radians(8.0), abs=radians(0.5))
@@ -131,7 +136,7 @@ def test_untwist_turns_the_middle_counter_clockwise(panel) -> None:
 def test_the_cursor_is_the_centre(panel) -> None:
     bpy.context.scene.cursor.location = (0.5, 0.0, 0.0)
     before = scenes.positions(panel)
-    bpy.ops.reflines.untwist(angle=0.3, centre='CURSOR', radius=0.3, emphasis=1000.0)
+    bpy.ops.reflines.untwist(angle=0.3, centre='CURSOR', radius=0.3, emphasis=1000.0, border='clamped')
     moved = np.abs(scenes.positions(panel) - before)[:, 2]
     assert (moved @ before[:, 0]) / moved.sum() > 0.2
 

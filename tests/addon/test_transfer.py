@@ -1,15 +1,10 @@
 """What the fast ways between Blender and numpy give is what Blender's own slow ways give."""
-import sys
-
 import bmesh
 import bpy
 import numpy as np
+from reflection_lines.bridge import read_mesh, read_patch, write_mesh
 
 import scenes
-
-
-def bridge(name: str) -> object:
-    return sys.modules[f"reflection_lines.bridge.{name}"]
 
 
 def mixed_panel(seed: int = 5) -> bpy.types.Object:
@@ -32,22 +27,22 @@ def test_triangles_are_blenders() -> None:
     ob = mixed_panel()
     scenes.look_from_above()
     scenes.edit_inner(ob, cells=20, margin=0)
-    panel = bridge("gather").gather(ob)
-    own = bridge("gather").long_triangles(ob.data, panel.faces)
+    patch = read_patch.gather_mesh_patch(ob)
+    own = read_mesh.read_region_triangles(ob.data, patch.faces)
     assert {len(polygon.vertices) for polygon in ob.data.polygons} == {3, 4}
     cuts = [tuple(triangle) for triangle in own]
     firsts = {polygon.vertices[0] for polygon in ob.data.polygons if len(polygon.vertices) == 4}
     assert not all(triangle[0] in firsts for triangle in cuts)  # some quads are cut the other way
-    np.testing.assert_array_equal(panel.index[panel.F], own)
+    np.testing.assert_array_equal(patch.index[patch.F], own)
 
 
 def test_normals_after_few_moves_are_those_of_all() -> None:
     ob = scenes.panel(cells=60)
     scenes.edit_inner(ob, cells=60, margin=27)
-    panel = bridge("gather").gather(ob)
-    moved = panel.V + np.random.default_rng(1).uniform(0.0, 0.02, len(panel.V))[:, None] * [0.0, 0.0, 1.0]
-    assert len(moved) < bridge("apply").FEW * 61 * 61
-    bridge("apply").apply(ob, panel, moved)
+    patch = read_patch.gather_mesh_patch(ob)
+    moved = patch.V + np.random.default_rng(1).uniform(0.0, 0.02, len(patch.V))[:, None] * [0.0, 0.0, 1.0]
+    assert len(moved) < write_mesh.FEW * 61 * 61
+    write_mesh.write_solution(ob, patch, moved)
     mesh = bmesh.from_edit_mesh(ob.data)
     few = np.array([vertex.normal for vertex in mesh.verts])
     mesh.normal_update()

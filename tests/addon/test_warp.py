@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 import pytest
-from reflection_lines.bridge import lattice
+from reflection_lines.bridge import warp_lattice
 from reflection_lines.targets import warp
 
 import scenes
@@ -57,7 +57,7 @@ def test_the_map_is_that_of_blenders_modifier(panel, kind, columns, rows) -> Non
     matrix = np.array(ob.matrix_world)
     local = np.random.default_rng(5).uniform(-0.7, 0.7, (200, 2)) * (columns, rows)  # beyond the lattice too
     world = np.column_stack([local, np.zeros(200), np.ones(200)]) @ matrix.T
-    ours = world[:, :3] + warp.moved(lattice.read(ob), local) @ matrix[:3, :3].T
+    ours = world[:, :3] + warp.evaluate_moves(warp_lattice.read_lattice(ob), local) @ matrix[:3, :3].T
     assert np.abs(ours - deformed_by_modifier(ob, world[:, :3])).max() < 1e-6
 
 
@@ -66,10 +66,10 @@ def test_the_lattice_is_the_same_in_its_edit_mode(panel, columns, rows) -> None:
     ob = added(panel, columns=columns, rows=rows)
     scenes.object_mode()
     disturb(ob, 0.3)
-    outside = lattice.read(ob)
+    outside = warp_lattice.read_lattice(ob)
     assert np.allclose(outside.low, ob.data.points[0].co) and np.allclose(outside.high, ob.data.points[-1].co)
     scenes.edit(ob)
-    assert lattice.read(ob).same(outside)
+    assert warp_lattice.read_lattice(ob).same(outside)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -7,5 +7,6 @@ void register_solves();
 void register_strategies();
 void register_biharmonic();
 void register_cages();
+void register_bounded();
 
 }  // namespace reflines::bench

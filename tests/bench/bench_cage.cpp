@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "native/cage_optimizer.h"
-#include "native/reflection/smooth.h"
+#include "reflines/cage_optimizer.h"
+#include "reflines/smooth_target.h"
 #include "tests/bench/bench.h"
 
 namespace reflines::bench {
@@ -46,6 +46,10 @@ std::unique_ptr<CageOptimizer> cage_optimizer(bool sparse) {
   return std::make_unique<CageOptimizer>(cage(), bonnet(), kView, std::vector<Vector3>{kLines}, options);
 }
 
+Target smooth_target(ShapeOptimizer& optimizer, double strength) {
+  return build_smooth_target(optimizer.field(0), optimizer.smoother(0), kSmoothing, strength, 0);
+}
+
 void count(benchmark::State& state, const Report& report) {
   state.counters["unknowns"] = report.unknowns;
   state.counters["iterations"] = report.iterations;
@@ -57,7 +61,7 @@ void cage_solve(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     const std::unique_ptr<CageOptimizer> optimizer = cage_optimizer(false);
-    const std::vector<Target> target = {optimizer->smooth_target(kSmoothing, 1.0, 0)};
+    const std::vector<Target> target = {smooth_target(*optimizer, 1.0)};
     state.ResumeTiming();
     count(state, optimizer->solve(target));
   }
@@ -66,7 +70,7 @@ void cage_solve(benchmark::State& state) {
 // The same triangles and the same target, with a height for each vertex.
 void dense_solve(benchmark::State& state) {
   const std::unique_ptr<CageOptimizer> cage = cage_optimizer(false);
-  const std::vector<Target> target = {cage->smooth_target(kSmoothing, 1.0, 0)};
+  const std::vector<Target> target = {smooth_target(*cage, 1.0)};
   for (auto _ : state) {
     state.PauseTiming();
     ShapeOptimizer dense(cage->positions(), cage->triangles(), kView, {kLines});
@@ -78,13 +82,13 @@ void dense_solve(benchmark::State& state) {
 // What a drag of the smoothing's strength does for every move of the mouse: the target, and the shape after it.
 void cage_warm_step(benchmark::State& state) {
   const std::unique_ptr<CageOptimizer> start = cage_optimizer(false), follower = cage_optimizer(true);
-  follower->solve({start->smooth_target(kSmoothing, 0.5, 0)});
+  follower->solve({smooth_target(*start, 0.5)});
   MinimizerOptions drag;
   drag.gradient_tolerance = 1e-2;
   int update = 0;
   for (auto _ : state) {
     const double strength = update++ % 2 == 0 ? 0.6 : 0.5;
-    count(state, follower->solve({start->smooth_target(kSmoothing, strength, 0)}, drag));
+    count(state, follower->solve({smooth_target(*start, strength)}, drag));
     benchmark::DoNotOptimize(follower->cage_positions());
   }
 }

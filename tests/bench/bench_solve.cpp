@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "native/optimization/linear_solver.h"
+#include "optimization/linear/linear_solver.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/bump_cylinder.h"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "native/reflection/element.h"
+#include "reflection/element.h"
 
 namespace reflines::bench {
 namespace {

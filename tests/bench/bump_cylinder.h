@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "native/reflection/target.h"
-#include "native/shape_optimizer.h"
-#include "native/types.h"
+#include "reflines/shape_optimizer.h"
+#include "reflines/target.h"
+#include "reflines/types.h"
 
 namespace reflines::bench {
 

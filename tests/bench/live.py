@@ -21,7 +21,7 @@ def measured(name: str, command: list[str]) -> Times:
     """What a script of this folder leaves in build/bench."""
     out = OUT / f"{name}.json"
     out.unlink(missing_ok=True)
-    subprocess.run([*command, "--python-exit-code", "1", "--python", f"tests/bench/{name}.py"], cwd=ROOT, check=True,
+    subprocess.run([*command, *lanes.script_options(f"tests/bench/{name}.py")], cwd=ROOT, check=True,
                    env=lanes.blender_environment(), timeout=PATIENCE, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
     return json.loads(out.read_text())

@@ -14,13 +14,11 @@ import bmesh
 import bpy
 import numpy as np
 
+import dragging
+import scenes
+import window
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "ui"))
-
-import window  # noqa: E402  (found through the line above)
-
-import dragging  # noqa: E402  (needs what `window` finds)
-import scenes  # noqa: E402
 
 SIZES = {"10k": 99, "100k": 315}  # cells a side
 STRIPED = 447                     # cells a side with 400,000 triangles
@@ -61,7 +59,7 @@ def pressed(driver: window.Window, cells: int, times: Times, name: str) -> Steps
     yield 1.0
     before = height(cells)
     with driver.override():
-        bpy.ops.reflines.smooth('INVOKE_DEFAULT', True)
+        bpy.ops.reflines.smooth('INVOKE_DEFAULT', True, follow_mouse=True)
     for what, value in zip(("ready", "ready_still"), (yield from changed(cells, before)), strict=False):
         times[f"{what}_{name}"] = [value]
 
@@ -113,9 +111,9 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
     dragging.panel(driver, SIZES["100k"])
     driver.move(400, 300)
     yield 1.0
-    view, worker = driver.area(), sys.modules["reflection_lines"].worker
+    view, worker = driver.area(), sys.modules["reflection_lines"].interactive.background_thread
     with driver.override():
-        bpy.ops.reflines.smooth('INVOKE_DEFAULT', True)
+        bpy.ops.reflines.smooth('INVOKE_DEFAULT', True, follow_mouse=True)
     view.type = 'IMAGE_EDITOR'
     yield after
     space, start, control, ended = view.spaces.active, time.perf_counter(), 0.0, 0.0
@@ -126,7 +124,7 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
         yield LOOK
         now = 1e3 * (time.perf_counter() - start)
         control = control or now * (space.show_region_ui != shown)
-        ended = ended or now * (control > 0.0 and not bpy.app.timers.is_registered(worker.reap))
+        ended = ended or now * (control > 0.0 and not bpy.app.timers.is_registered(worker.end_stopped_threads))
     yield 0.5
     start = time.perf_counter()
     driver.key('N')
@@ -140,7 +138,7 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
 
 def stripes_rebuilt(driver: window.Window) -> Generator[float, None, list[float]]:
     """Reading, comparing and uploading 400,000 triangles, one vertex of which has moved: time of the processor."""
-    draw, times = sys.modules["reflection_lines"].draw, []
+    draw, times = sys.modules["reflection_lines"].overlay.draw, []
     dragging.panel(driver, STRIPED)
     with driver.override():
         scenes.object_mode()
@@ -149,11 +147,11 @@ def stripes_rebuilt(driver: window.Window) -> Generator[float, None, list[float]
         yield 0.2
     ob, settings = bpy.context.view_layer.objects.active, bpy.context.scene.reflection_lines.stripes
     settings.show = False
-    shown = draw.Shown()
+    shown = draw.ShownObject()
 
     def measure() -> None:
         shown.stale, start = True, time.thread_time()
-        draw.refresh(shown, ob, settings, bpy.context.evaluated_depsgraph_get())
+        draw.refresh_object(shown, ob, settings, bpy.context.evaluated_depsgraph_get())
         times.append(1e3 * (time.thread_time() - start))
 
     handle = bpy.types.SpaceView3D.draw_handler_add(measure, (), 'WINDOW', 'POST_VIEW')

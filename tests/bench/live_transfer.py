@@ -1,6 +1,6 @@
 """What the add-on's own work costs in Edit Mode, in a Blender in the background: mesh transfer, and a drag's solves.
 
-    blender -b --factory-startup --python-exit-code 1 --python tests/bench/live_transfer.py
+    blender -b --factory-startup --python tests/in_blender.py -- tests/bench/live_transfer.py
 
 Writes build/bench/live_transfer.json: name -> list of milliseconds.
 """
@@ -14,11 +14,10 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "addon"))
+import installation
+import scenes
 
-import installation  # noqa: E402  (found through the line above)
-import scenes  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 SIZES = {"10k": 99, "100k": 315}  # cells a side
 REPETITIONS = 9
@@ -51,33 +50,34 @@ def fresh_panel(cells: int) -> bpy.types.Object:
 def transfer(cells: int) -> Times:
     """Every vertex of the region is moved, which is the most that can be written."""
     ob = fresh_panel(cells)
-    gather, apply = addon("bridge.gather").gather, addon("bridge.apply").apply
-    panel = gather(ob)
-    moves = [panel.V + [0.0, 0.0, 1e-4 * k] for k in range(1, REPETITIONS + 1)]
+    gather, write = addon("bridge.read_patch").gather_mesh_patch, addon("bridge.write_mesh").write_solution
+    patch = gather(ob)
+    moves = [patch.V + [0.0, 0.0, 1e-4 * k] for k in range(1, REPETITIONS + 1)]
     return {"gather": [milliseconds(lambda: gather(ob)) for _ in range(REPETITIONS)],
             "blender_copy": [milliseconds(ob.update_from_editmode) for _ in range(REPETITIONS)],
-            "apply": [milliseconds(partial(apply, ob, panel, move)) for move in moves]}
+            "apply": [milliseconds(partial(write, ob, patch, move)) for move in moves]}
 
 
-def request(panel: object, strength: float) -> object:
-    solving, smooth, pursuit = addon("solving"), addon("targets.smooth"), addon("drag.pursuit")
-    length = solving.length_of(panel, 0.0)
-    build = partial(smooth.target, settings=smooth.Smooth(length, strength))
-    return pursuit.Request((build,), solving.Settings('clamped', length))
+def request(patch: object, strength: float) -> object:
+    smooth = addon("targets.smooth")
+    length = addon("solver.solve").choose_length(patch, 0.0)
+    build = partial(smooth.build_smooth_target, settings=smooth.Smooth(length, strength))
+    settings = addon("model.solution").SolveSettings('clamped', length)
+    return addon("interactive.solve_job").SolveRequest((build,), settings)
 
 
 def solves(cells: int) -> Times:
     """One from the bare mesh, and those of a drag of the strength, 15 pixels a step."""
-    panel = addon("bridge.gather").gather(fresh_panel(cells))
-    session = addon("session")
-    view = session.view_of(bpy.context.scene, panel.center)
-    first = request(panel, 1.0)
-    solve = milliseconds(lambda: session.solve(panel, view, first.settings, first.builds[0]))
-    session.forget()
-    pursuit = addon("drag.pursuit").Pursuit((panel,), (view,), 'clamped')
-    ready = milliseconds(lambda: pursuit.run(first))
-    requests = [request(panel, strength) for strength in np.linspace(0.95, 0.0, STEPS)]
-    steps = [milliseconds(partial(pursuit.run, wanted)) for wanted in requests]
+    patch = addon("bridge.read_patch").gather_mesh_patch(fresh_panel(cells))
+    cache = addon("state.optimizer_cache")
+    view = addon("bridge.view_and_light").read_scene_view(bpy.context.scene, patch.center)
+    first = request(patch, 1.0)
+    solve = milliseconds(lambda: cache.solve_with_cache(patch, view, first.settings, first.builds[0]))
+    cache.clear_cache()
+    job = addon("interactive.solve_job").SolveJob((patch,), (view,), 'clamped')
+    ready = milliseconds(lambda: job.run(first))
+    requests = [request(patch, strength) for strength in np.linspace(0.95, 0.0, STEPS)]
+    steps = [milliseconds(partial(job.run, wanted)) for wanted in requests]
     return {"solve": [solve], "ready": [ready], "step": steps}
 
 

@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   reflines::bench::register_strategies();
   reflines::bench::register_biharmonic();
   reflines::bench::register_cages();
+  reflines::bench::register_bounded();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -1,6 +1,7 @@
 """Runs the native benchmarks and writes build/bench/report.json: a list of {"name", "value", "unit", "note"}.
 
-Ratios are taken within one run, where both sides are measured by turns; every time is a median.
+Ratios are taken within one run, where both sides are measured by turns; every time is a median. With --keep the rows
+also go into tests/bench/report.json, with the date, the commit and the machine: the report that the documents quote.
 """
 import argparse
 import json
@@ -10,6 +11,7 @@ import platform
 import statistics
 import subprocess
 from dataclasses import asdict
+from datetime import date
 from pathlib import Path
 
 from bench import live
@@ -18,9 +20,11 @@ from bench.row import Row
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/release/tests/bench"
 OUT = ROOT / "build/bench"
+KEPT = ROOT / "tests/bench/report.json"
 REPETITIONS = 5
 MILLION_REPETITIONS = 3  # a solve takes half a minute, and its spread is small
 TASKS = ("creation", "elimination")
+BOUNDED_SHARES = ("10", "50", "90")  # per cent of the vertices that the limit holds
 FIGURE_SIZES = (32, 64, 128, 256)
 
 Times = dict[str, float]  # benchmark -> median milliseconds
@@ -34,7 +38,8 @@ REACH = {
     "gather_apply_over_solve_100k": (0.2, True), "drag_hysteresis": (1e-6, True), "drag_kick": (1.5, True),
     "stripes_ms_400k": (100.0, True), "escape_ms_100k": (100.0, True), "drag_still_ms_100k": (100.0, True),
     "cgal_fair_over_ours_10k": (20.0, False), "biharmonic_over_ours_100k": (0.5, False),
-    "cage_warm_step_ms": (33.0, True),
+    "cage_warm_step_ms": (33.0, True), "bounded_over_free_10k": (5.0, True), "bounded_over_free_100k": (5.0, True),
+    "bounded_warm_over_free_10k": (2.0, True), "bounded_warm_over_free_100k": (2.0, True),
 }
 
 
@@ -102,6 +107,20 @@ def cage_rows(times: Times) -> list[Row]:
             Row("cage_warm_step_ms", times["cage_warm_step"], "ms", f"one drag update of Smooth, {note}")]
 
 
+def bounded_rows(runs: dict[str, list[dict]]) -> list[Row]:
+    """Solves within a limit against free ones of the same noisy panel; of three limits the slowest counts."""
+    times, rows = medians(runs), []
+    for name, row in (("bounded", "bounded_over_free"), ("bounded_warm_step", "bounded_warm_over_free")):
+        for size in ("10k", "100k"):
+            free = times[f"{name}/{size}/free"]
+            ratios = {share: times[f"{name}/{size}/{share}"] / free for share in BOUNDED_SHARES}
+            parts = ", ".join(f"{100 * runs[f'{name}/{size}/{share}'][0]['touching']:.0f} % of the vertices touching "
+                              f"{ratio:.2f}" for share, ratio in ratios.items())
+            rows.append(Row(f"{row}_{size}", max(ratios.values()), "",
+                            f"{parts}; free {free:.0f} ms, medians of {REPETITIONS}"))
+    return rows
+
+
 def million_rows(times: Times) -> list[Row]:
     """Each run is a process of its own, solves and factorizations by turns, so that the peak is that of one solve."""
     solves, factors, peaks = [], [], []
@@ -149,21 +168,45 @@ def print_table(rows: list[Row]) -> None:
         print(f"{row.name:28} {row.value:8.2f} {row.unit:4} {reach:>8} {met:6} {row.note}")
 
 
-def main() -> None:
+def machine() -> str:
+    return f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
+
+
+def keep(rows: list[dict]) -> None:
+    """Writes the report that the documents quote; a commit that ends in "-dirty" has uncommitted changes."""
+    describe = ["git", "describe", "--always", "--dirty", "--exclude=*"]
+    commit = subprocess.run(describe, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout.strip()
+    kept = {"date": date.today().isoformat(), "commit": commit, "machine": machine(), "rows": rows}
+    KEPT.write_text(json.dumps(kept, indent=1) + "\n")
+
+
+def asked() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="./run bench", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="without one million unknowns and the largest of Figure 7")
-    quick = parser.parse_args().quick
+    parser.add_argument("--keep", action="store_true", help="keep the report as the one that the documents quote")
+    arguments = parser.parse_args()
+    if arguments.quick and arguments.keep:
+        parser.error("a quick report lacks rows that the documents quote: keep a full one")
+    return arguments
+
+
+def main() -> None:
+    arguments = asked()
+    quick = arguments.quick
     times = medians(run("bench_solve", "^(solve|whole_solve|factor_[a-z]*|warm_step|biharmonic)/100?k", REPETITIONS)[0])
     sizes = FIGURE_SIZES[:-1] if quick else FIGURE_SIZES
     cages = medians(run("bench_solve", "^(cage_solve|dense_solve|cage_warm_step)", REPETITIONS)[0])
-    rows = [*solve_rows(times), *cgal_rows(times), *strategy_rows(sizes), *cage_rows(cages)]
+    bounded, _ = run("bench_solve", "^bounded", REPETITIONS)
+    rows = [*solve_rows(times), *bounded_rows(bounded), *cgal_rows(times), *strategy_rows(sizes), *cage_rows(cages)]
     if not quick:
         rows += [*million_rows(times), *live.rows()]
-    (OUT / "report.json").write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n")
+    values = [asdict(row) for row in rows]
+    (OUT / "report.json").write_text(json.dumps(values, indent=1) + "\n")
+    if arguments.keep:
+        keep(values)
     print_table(rows)
     load = os.getloadavg()[0]
-    print(f"\n{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {load:.1f} at the end: ",
-          end="")
+    print(f"\n{machine()}, load {load:.1f} at the end: ", end="")
     print("a load well above the cores blurs milliseconds." if load > os.cpu_count() + 1 else "quiet.")
 
 

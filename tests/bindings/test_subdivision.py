@@ -82,3 +82,15 @@ def test_all_levels_lie_on_one_limit_surface_with_one_normal(scheme: str) -> Non
         assert len(fine.faces) == 4 * len(coarse.faces)
         assert np.allclose(fine.positions(V)[:shared], levels[0].positions(V), rtol=0, atol=1e-12)
         assert np.allclose(fine.normals(V)[:shared], levels[0].normals(V), rtol=0, atol=1e-10)
+
+
+def test_an_edge_of_many_faces_is_refused_and_nothing_is_overwritten() -> None:
+    pages = [[0, 1, k + 2] for k in range(20)]
+    with pytest.raises(ValueError, match="20 faces of the cage share the edge between the vertices 0 and 1"):
+        reflines.Subdivision(3 * np.arange(21), np.ravel(pages), vertices=22, level=1)
+
+
+def test_offsets_whose_differences_overflow_are_refused() -> None:
+    offsets = np.array([0, 2147483647, -2147483646, -1000, 4], dtype=np.int32)
+    with pytest.raises(ValueError, match="fewer than 3 vertices, the first is face 1"):
+        reflines.Subdivision(offsets, [0, 1, 2, 3], vertices=4)

@@ -4,7 +4,16 @@
 #include <atomic>
 #include <cstddef>
 
-#if !defined(__SANITIZE_ADDRESS__)                 // AddressSanitizer brings its own malloc
+// The sanitizers bring their own malloc: GCC tells by a macro, clang by __has_feature.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define REFLINES_OTHER_MALLOC
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define REFLINES_OTHER_MALLOC
+#endif
+
+#if !defined(REFLINES_OTHER_MALLOC)
 extern "C" void* __libc_malloc(std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
 static std::atomic<long> allocations{0};
 extern "C" void* malloc(std::size_t size) {

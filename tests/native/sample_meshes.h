@@ -5,8 +5,8 @@
 #include <functional>
 #include <random>
 
-#include "native/geometry/height_field.h"
-#include "native/types.h"
+#include "geometry/height_field.h"
+#include "reflines/types.h"
 
 namespace reflines::samples {
 

@@ -12,6 +12,7 @@ from tree import ROOT, cpp_files
 
 BUILD = ROOT / "build/release"
 JUDGED = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "reflection_lines/tidy"
+ROOTS = ("native/include", "native/src", "native", ".")  # where the build looks for an include
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -34,7 +35,8 @@ def with_own_headers(file: Path, seen: set[Path]) -> set[Path]:
     if file not in seen and (ROOT / file).is_file():
         seen.add(file)
         for included in OWN_INCLUDE.findall((ROOT / file).read_text()):
-            with_own_headers(Path(included), seen)
+            for folder in (*ROOTS, file.parent):
+                with_own_headers(Path(folder, included), seen)
     return seen
 
 

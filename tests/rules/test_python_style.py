@@ -1,4 +1,4 @@
-"""ruff on every Python file, by the rules in .ruff.toml.
+"""ruff on every Python file, by the rules in pyproject.toml.
 
 Debian 12 has no package of ruff; npm has it as WebAssembly. An installed ruff is used where there is one.
 """
@@ -29,7 +29,7 @@ def fetched() -> Path:
 
 
 def complaints_from_node() -> list[str]:
-    options = tomllib.loads((ROOT / ".ruff.toml").read_text())
+    options = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["ruff"]
     texts = {str(file): (ROOT / file).read_text() for file in python_files()}
     command = ["node", str(ROOT / "tests/rules/ruff.js"), str(fetched())]
     request = json.dumps({"options": options, "files": texts})

@@ -6,7 +6,7 @@ import tomllib
 from tree import ROOT, files
 
 TOP_LEVEL = {"addon", "native", "CMakeLists.txt", "tests", "blend_samples", "README.md", "run", ".ci", "LICENSE",
-             "CMakePresets.json", "CHANGELOG.md"}
+             "CMakePresets.json", "CHANGELOG.md", "pyproject.toml"}
 
 # In the README: [text](target), and `code` that looks like a path of the project.
 LINK = re.compile(r"\]\(([^)#]+)(?:#[^)]*)?\)")

@@ -12,7 +12,11 @@ PATIENCE = 60.0  # seconds for a solve on a busy machine
 
 
 def panel(driver: window.Window, cells: int = 16, levels: int = 0) -> bpy.types.Object:
-    """With `levels` it is a cage below a Subdivision Surface."""
+    """With `levels` it is a cage below a Subdivision Surface. What earlier drags kept in the sidebar is forgotten."""
+    settings = bpy.context.scene.reflection_lines
+    for name, values in (("strength", settings), ("length", settings), ("density", settings.direction),
+                         ("angle", settings.untwist), ("strength", settings.pattern), ("amount", settings.warp)):
+        values.property_unset(name)
     with driver.override():
         if bpy.context.mode != 'OBJECT':
             bpy.ops.object.mode_set(mode='OBJECT')
@@ -44,21 +48,26 @@ def executed(driver: window.Window, levels: int = 0, **settings: object) -> np.n
     return shown(driver)
 
 
+def dragged_length() -> float:
+    """The length of the last drag, which is never automatic."""
+    length = bpy.context.window_manager.operators[-1].properties.length
+    assert length > 0.0
+    return length
+
+
 def press(driver: window.Window, operator: str = "smooth") -> Steps:
     driver.move(400, 300)
     yield 0.2
     with driver.override():
-        getattr(bpy.ops.reflines, operator)('INVOKE_DEFAULT', True)
+        getattr(bpy.ops.reflines, operator)('INVOKE_DEFAULT', True, follow_mouse=True)
     yield 0.2
     yield from settled(driver)
 
 
 def at_rest() -> bool:
     """Whether no drag and no live warp is solving, or has something to show."""
-    session = sys.modules["reflection_lines"].session
-    return (not any(drag.moved or drag.keeping or not drag.worker.idle() or drag.worker.has_outcome()
-                    for drag in session.drags)
-            and not any(follower.has_more() for follower in session.live_warps.values()))
+    interactive = sys.modules["reflection_lines"].interactive
+    return not interactive.drag.has_work() and not interactive.live_warp_handlers.has_work()
 
 
 def settled(driver: window.Window) -> Steps:
@@ -98,11 +107,12 @@ def ended(driver: window.Window) -> Steps:
     yield from settled(driver)
 
 
-def adjust(driver: window.Window, *, length: float, strength: float) -> Steps:
+def adjust(driver: window.Window, **settings: object) -> Steps:
     """By the panel Adjust Last Operation, the last one being Smooth."""
     with driver.override():
         operator = bpy.context.active_operator
         assert operator.bl_idname == "REFLINES_OT_smooth"
-        operator.properties.length, operator.properties.strength = length, strength
+        for name, value in settings.items():
+            setattr(operator.properties, name, value)
         assert bpy.ops.ed.undo_redo() == {'FINISHED'}
     yield 0.5

@@ -11,6 +11,10 @@ CELLS = 40
 COUNT, WIDTH = 40, 0.5
 SOFT_EDGE = 0.25  # of a period to each side: softness 1 at width 0.5, wider than any pixel here
 
+# Blender's own overlays; the switch of all of them stays on, for the stripes go by it.
+OVERLAYS = ("show_floor", "show_axis_x", "show_axis_y", "show_axis_z", "show_ortho_grid", "show_text", "show_cursor",
+            "show_outline_selected", "show_object_origins", "show_relationship_lines", "show_extras")
+
 Steps = Generator[float, None, None]
 
 
@@ -20,7 +24,8 @@ def prepare(driver: window.Window, ob: bpy.types.Object) -> None:
     stripes.show, stripes.count, stripes.width, stripes.softness, stripes.opacity = True, COUNT, WIDTH, 1.0, 1.0
     stripes.eye, stripes.cage_on_top, stripes.mode, stripes.scope = 'CAMERA', False, 'REFLECTION', 'OBJECT'
     stripes.color, stripes.gap_color = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 1.0)
-    driver.area().spaces.active.overlay.show_overlays = False
+    for name in OVERLAYS:
+        setattr(driver.area().spaces.active.overlay, name, False)
     region_3d = driver.region_3d()
     region_3d.view_perspective = 'ORTHO'
     region_3d.view_rotation = bpy.context.scene.reflection_lines.camera.matrix_world.to_quaternion()

@@ -86,7 +86,8 @@ def drag_tool(walker: Walker) -> Steps:
     walker.driver.move(dice.randrange(200, 600), 300)
     yield 0.05
     tool = dice.choice(walker.tools())
-    answer = walker.call(tool, 'INVOKE_DEFAULT', True)
+    draggable = "follow_mouse" in getattr(bpy.ops.reflines, tool.split(".")[1]).get_rna_type().properties
+    answer = walker.call(tool, 'INVOKE_DEFAULT', True, **({"follow_mouse": True} if draggable else {}))
     print("   ", tool, answer, flush=True)
     yield dice.choice((0.02, 0.3))
     for _ in range(dice.randrange(6) if "RUNNING" in answer else 0):
@@ -106,7 +107,7 @@ def surprised_drag(walker: Walker) -> Steps:
     """Scripts change the scene below a running drag."""
     walker.driver.move(400, 300)
     yield 0.05
-    print("   ", walker.call("reflines.smooth", 'INVOKE_DEFAULT', True), flush=True)
+    print("   ", walker.call("reflines.smooth", 'INVOKE_DEFAULT', True, follow_mouse=True), flush=True)
     yield walker.dice.choice((0.0, 0.2))
     walker.driver.move(walker.dice.randrange(100, 700), 300)
     surprise = walker.dice.choice((delete_something, change_mode, change_mesh, undo, load, reload_addon, add_modifier))

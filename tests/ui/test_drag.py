@@ -1,19 +1,14 @@
 """Tools under the mouse, in a window: a drag, typed numbers, the ways out of it, and what is left of it afterwards."""
 import os
-import sys
 from collections.abc import Generator
-from pathlib import Path
 
 import bpy
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import installation  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-import scenes  # noqa: E402
-from dragging import adjust, ended, executed, panel, press, settled, shown, undone_and_redone  # noqa: E402
+import installation
+import scenes
+import window
+from dragging import adjust, dragged_length, ended, executed, panel, press, settled, shown, undone_and_redone
 
 Steps = Generator[float, None, None]
 
@@ -48,7 +43,7 @@ def test_what_is_kept_is_what_the_operator_makes_without_a_mouse(driver: window.
     yield from ended(driver)
     kept, strength = shown(driver), bpy.context.window_manager.operators[-1].properties.strength
     assert abs(strength - 0.5) < 1e-6
-    assert np.array_equal(kept, executed(driver, strength=strength))
+    assert np.array_equal(kept, executed(driver, strength=strength, length=dragged_length()))
 
 
 def test_typed_numbers(driver: window.Window) -> Steps:
@@ -114,7 +109,7 @@ def test_escape_while_the_first_factorization_runs(driver: window.Window) -> Ste
     driver.move(400, 300)
     yield 0.2
     with driver.override():
-        bpy.ops.reflines.smooth('INVOKE_DEFAULT', True)
+        bpy.ops.reflines.smooth('INVOKE_DEFAULT', True, follow_mouse=True)
     yield 0.1
     driver.key('ESC')
     yield 0.3
@@ -122,10 +117,10 @@ def test_escape_while_the_first_factorization_runs(driver: window.Window) -> Ste
     yield from press(driver)
     driver.key('RET')
     yield from ended(driver)
-    kept = shown(driver)
+    kept, length = shown(driver), dragged_length()
     panel(driver, cells=100)
     with driver.override():
-        scenes.smooth()
+        scenes.smooth(length=length)
     assert np.array_equal(kept, shown(driver))
 
 

@@ -1,16 +1,11 @@
 """Drags of a cage below a Subdivision Surface, in a window: it follows by few samples, and is kept by all."""
-import sys
-from pathlib import Path
 
 import bpy
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from dragging import Steps, comes_to, ended, executed, panel, press, settled, shown  # noqa: E402
+import scenes
+import window
+from dragging import Steps, comes_to, ended, executed, panel, press, settled, shown
 
 LEVELS = 3  # from here on a drag leaves samples out
 

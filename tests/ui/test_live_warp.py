@@ -1,19 +1,14 @@
 """Live warp in a window: the panel follows while Blender's own tools edit the lattice, at undo, and after reload."""
 import os
-import sys
 import tempfile
 from collections.abc import Generator
-from pathlib import Path
 
 import bpy
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import dragging  # noqa: E402  (needs what `window` finds)
-import scenes  # noqa: E402
+import dragging
+import scenes
+import window
 
 Steps = Generator[float, None, None]
 MIDDLE = 12  # of 5 x 5 control points

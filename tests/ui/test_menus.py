@@ -1,17 +1,14 @@
 """Menus, pie and key in a real window."""
 import os
-import sys
 import tempfile
 from collections.abc import Generator
-from pathlib import Path
 
 import bpy
+import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+import scenes
+import window
+from dragging import executed, panel, settled, shown
 
 Steps = Generator[float, None, None]
 MODIFIERS = ("ctrl", "alt", "shift", "oskey")
@@ -63,7 +60,8 @@ def test_menus_open_in_both_modes(driver: window.Window) -> Steps:
         ob = scenes.panel()
         scenes.look_from_above()
     for _ in range(2):
-        for name in ("VIEW3D_MT_reflines", "VIEW3D_MT_reflines_pie"):
+        for name in ("VIEW3D_MT_reflines", "VIEW3D_MT_reflines_pie", "VIEW3D_MT_reflines_drag",
+                     "VIEW3D_MT_reflines_drag_pie"):
             yield from opened_without_error(driver, name)
         with driver.override():
             scenes.edit_inner(ob)
@@ -85,4 +83,26 @@ def test_the_key_opens_the_pie(driver: window.Window) -> Steps:
     assert stripes.show
 
 
-window.run(test_the_key_collides_with_nothing, test_menus_open_in_both_modes, test_the_key_opens_the_pie)
+def test_the_second_pie_drags_what_the_first_presses(driver: window.Window) -> Steps:
+    """Smooth lies in the west of both; the drag begins with the sidebar's value where the mouse is then."""
+    whole, before = executed(driver, length=0.5), None
+    for pie, change in (("VIEW3D_MT_reflines_pie", True), ("VIEW3D_MT_reflines_drag_pie", False)):
+        panel(driver)
+        bpy.context.scene.reflection_lines.length = 0.5
+        before = shown(driver)
+        driver.move(400, 300)
+        with driver.override():
+            bpy.ops.wm.call_menu_pie('INVOKE_DEFAULT', name=pie)
+        yield 0.4
+        driver.move(300, 300)
+        yield 0.2
+        driver.key('LEFTMOUSE')
+        yield from settled(driver)
+        assert np.abs(shown(driver) - whole).max() < 1e-5
+        driver.key('ESC')
+        yield 0.3
+        assert np.array_equal(shown(driver), whole if change else before)
+
+
+window.run(test_the_key_collides_with_nothing, test_menus_open_in_both_modes, test_the_key_opens_the_pie,
+           test_the_second_pie_drags_what_the_first_presses)

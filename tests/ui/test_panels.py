@@ -1,17 +1,12 @@
 """Every panel draws in every state of the work. Blender only prints what a panel raises."""
 import os
-import sys
 import tempfile
 from collections.abc import Generator
-from pathlib import Path
 
 import bpy
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+import scenes
+import window
 
 Steps = Generator[float, None, None]
 

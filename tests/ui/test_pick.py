@@ -1,16 +1,11 @@
 """Pick Two Points in a real window: two clicks give a direction, Esc leaves all as it was."""
-import sys
 from collections.abc import Generator
-from pathlib import Path
 
 import bpy
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
+import scenes
+import window
 
 Steps = Generator[float, None, None]
 

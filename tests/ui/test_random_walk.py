@@ -8,11 +8,8 @@ import tempfile
 from collections.abc import Generator
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import random_steps as steps  # noqa: E402  (needs what `window` finds)
+import random_steps as steps
+import window
 
 LENGTH = int(os.environ.get("REFLINES_WALK", "80"))
 SEED = int(os.environ.get("REFLINES_SEED", "1"))

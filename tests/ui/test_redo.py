@@ -1,17 +1,12 @@
 """Adjust Last Operation and undo, in a window, with the operator started by a key as an artist does."""
-import sys
 from collections.abc import Generator
-from pathlib import Path
 
 import bpy
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from dragging import adjust, panel, shown, undone_and_redone  # noqa: E402
+import scenes
+import window
+from dragging import adjust, panel, shown, undone_and_redone
 
 Steps = Generator[float, None, None]
 
@@ -46,6 +41,15 @@ def test_other_settings_start_from_the_mesh_before(driver: window.Window) -> Ste
     assert np.array_equal(shown(driver), expected)
 
 
+def test_the_settings_of_the_automatic_length_can_be_changed(driver: window.Window) -> Steps:
+    expected = smoothed(driver, lights='SINGLE', symmetric=False)
+    assert not np.array_equal(expected, smoothed(driver))
+    panel(driver)
+    yield from press_smooth(driver)
+    yield from adjust(driver, lights='SINGLE', symmetric=False)
+    assert np.array_equal(shown(driver), expected)
+
+
 def test_one_undo_takes_it_back_and_redo_brings_it(driver: window.Window) -> Steps:
     panel(driver)
     before = shown(driver)
@@ -70,5 +74,6 @@ def test_resolve_in_edit_mode_is_one_step_there(driver: window.Window) -> Steps:
     yield from undone_and_redone(driver, before, after)
 
 
-window.run(test_other_settings_start_from_the_mesh_before, test_one_undo_takes_it_back_and_redo_brings_it,
+window.run(test_other_settings_start_from_the_mesh_before,
+           test_the_settings_of_the_automatic_length_can_be_changed, test_one_undo_takes_it_back_and_redo_brings_it,
            test_resolve_in_edit_mode_is_one_step_there)

@@ -1,19 +1,16 @@
 """Every mode, eye and scope of the stripes in a real window: pixels against theta or the formula of the mode."""
+import os
 import sys
 from collections.abc import Callable, Generator
 from math import pi
-from pathlib import Path
 
 import bpy
 import numpy as np
 from mathutils import Euler
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, triangles  # noqa: E402
+import scenes
+import window
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, triangles
 
 
 class Sample:
@@ -281,32 +278,32 @@ def solved_panel(driver: window.Window, name: str) -> Generator[float, None, tup
         scenes.smooth(length=1.0)
         scenes.object_mode()
     yield 0.2
-    return ob, before, sys.modules["reflection_lines"].session.last_solution(name)
+    return ob, before, sys.modules["reflection_lines"].state.solve_history.find_last_solve(name)
 
 
 def test_deviation_map(driver: window.Window) -> Steps:
     ob, before, _ = yield from solved_panel(driver, "Deviation")
-    moved = np.linalg.norm(scenes.world(ob) - before, axis=1)
-    draw = sys.modules["reflection_lines"].stripes
-    for full in (0.0, 2.0 * moved.max()):
+    moved = (scenes.world(ob) - before)[:, 2]  # along the view from above, where the normals point
+    stripe_arrays = sys.modules["reflection_lines"].overlay.stripes
+    for full in (0.0, 2.0 * np.abs(moved).max()):
         stripes().mode, stripes().map_range = 'DEVIATION', full
         picture = yield from captured(driver)
         pixel, triangle, barycentric = samples(driver, before, triangles(ob))
-        share = (moved[triangles(ob)[triangle]] * barycentric).sum(axis=1) / (full or moved.max())
+        share = (moved[triangles(ob)[triangle]] * barycentric).sum(axis=1) / (full or np.abs(moved).max())
         inner = scenes.inner(CELLS)
         chosen = np.array([inner(face) for face in triangle // 2])
         Sample(picture[pixel[:, 1], pixel[:, 0]][chosen], np.ones((chosen.sum(), 3)), before).agree(
-            draw.ramp(share[chosen])[:, 1], spread=0.1)
+            stripe_arrays.compute_ramp(0.5 + 0.5 * share[chosen], stripe_arrays.SIGNED_RAMP)[:, 1], spread=0.1)
 
 
 def test_residual_map(driver: window.Window) -> Steps:
     ob, before, solution = yield from solved_panel(driver, "Residual")
     stripes().mode, stripes().map_range = 'RESIDUAL', 0.0
     picture = yield from captured(driver)
-    panel = solution.panel
-    pixel, triangle, _ = samples(driver, scenes.world(ob)[panel.index], panel.F)
+    patch = solution.patch
+    pixel, triangle, _ = samples(driver, scenes.world(ob)[patch.index], patch.F)
     share = solution.residual[triangle] / solution.residual.max()
-    light = sys.modules["reflection_lines"].stripes.ramp(share)[:, 1]
+    light = sys.modules["reflection_lines"].overlay.stripes.compute_ramp(share)[:, 1]
     Sample(picture[pixel[:, 1], pixel[:, 0]], np.ones((len(share), 3)), before).agree(light, share=0.99, spread=0.1)
 
 
@@ -334,6 +331,32 @@ def test_before_the_last_solve(driver: window.Window) -> Steps:
     sample.agree(expected_light(reflines.theta(normals, sample.v, sample.a)))
 
 
+def test_the_legend_has_units_and_sign(driver: window.Window) -> Steps:
+    ob, before, solution = yield from solved_panel(driver, "Legend")
+    legend = sys.modules["reflection_lines"].overlay.legend
+    moved = np.abs((scenes.world(ob) - before)[:, 2]).max()
+    stripes().map_range = 0.0
+    found = {}
+    for mode in ('DEVIATION', 'RESIDUAL', 'REFLECTION'):
+        stripes().mode = mode
+        yield from captured(driver)
+        with driver.override():
+            found[mode] = legend.find_full_value(bpy.context, stripes())
+    assert abs(found['DEVIATION'] - moved) < 1e-6 and found['REFLECTION'] is None
+    assert abs(found['RESIDUAL'] - solution.residual.max()) < 1e-9
+    units = bpy.context.scene.unit_settings
+    units.system, units.scale_length = 'METRIC', 0.001
+    assert legend.describe_ends(bpy.context.scene, 'DEVIATION', 1.7) == ("\u22121.7 mm", "0", "+1.7 mm")
+    assert legend.describe_ends(bpy.context.scene, 'RESIDUAL', 0.2) == ("0", "100", "200 rad/m")
+    units.scale_length = 1.0
+    stripes().mode = 'DEVIATION'
+    if "REFLINES_PICTURES" in os.environ:
+        driver.redraw()
+        yield 0.3
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "legend.png"))
+        yield 0.3
+
+
 LARGE = 160  # cells a side of a panel that is fitted in a thread
 
 
@@ -344,12 +367,12 @@ def test_a_large_panel_is_drawn_at_once_and_then_better(driver: window.Window) -
         ob = scenes.panel("Large", cells=LARGE)
         scenes.look_from_above(light_degrees=60.0)
         bpy.context.view_layer.update()
-    draw = sys.modules["reflection_lines"].draw
+    draw = sys.modules["reflection_lines"].overlay.draw
     prepare(driver, ob)
     yield from captured(driver)
     while draw.is_waiting():
         yield 0.1
-    builds = draw.batch_builds()
+    builds = draw.count_batch_builds()
     sample = yield from sampled(driver, ob)
     sample.agree(expected_light(sample.theta(sample.v[None])), share=0.99)
     ob.data.vertices[LARGE * LARGE // 2].co.z += 0.01
@@ -359,7 +382,7 @@ def test_a_large_panel_is_drawn_at_once_and_then_better(driver: window.Window) -
         yield 0.1
     sample = yield from sampled(driver, ob)
     sample.agree(expected_light(sample.theta(sample.v[None])), share=0.99)
-    assert draw.batch_builds() == builds + 2  # at once with what normals there are, then with better ones
+    assert draw.count_batch_builds() == builds + 2  # at once with what normals there are, then with better ones
 
 
 window.run(test_highlight_lines, test_isophotes, test_environment_image, test_no_image_is_no_error,
@@ -367,4 +390,4 @@ window.run(test_highlight_lines, test_isophotes, test_environment_image, test_no
            test_a_frozen_eye_stays_while_the_view_turns, test_edges_are_soft_at_any_zoom, test_only_the_selected_faces,
            test_a_part_has_the_normals_of_the_whole, test_a_collection, test_named_setups_are_kept_and_picked,
            test_deviation_map, test_residual_map, test_a_map_of_a_changed_mesh_is_not_shown, test_before_the_last_solve,
-           test_a_large_panel_is_drawn_at_once_and_then_better)
+           test_the_legend_has_units_and_sign, test_a_large_panel_is_drawn_at_once_and_then_better)

@@ -1,17 +1,13 @@
 """Stripes in a real window: every pixel against the solver's theta; and what rebuilds a batch, counted."""
 import sys
-from pathlib import Path
 
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, triangles  # noqa: E402
+import scenes
+import window
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, triangles
 
 
 def theta_at_samples(driver: window.Window, ob: bpy.types.Object, picture: np.ndarray, corners: np.ndarray
@@ -96,7 +92,7 @@ def test_pixels_over_the_edit_cage(driver: window.Window) -> Steps:
 
 
 def builds() -> int:
-    return sys.modules["reflection_lines"].draw.batch_builds()
+    return sys.modules["reflection_lines"].overlay.draw.count_batch_builds()
 
 
 def test_settings_view_and_light_rebuild_no_batch(driver: window.Window) -> Steps:
@@ -175,6 +171,7 @@ def test_a_panel_that_is_hidden_wholly(driver: window.Window) -> Steps:
     hidden = yield from captured(driver)
     with driver.override():
         bpy.ops.mesh.reveal('EXEC_DEFAULT', True)
+        scenes.select_faces(ob, scenes.inner(CELLS))
     shown = yield from captured(driver)
     assert np.ptp(hidden) < 0.1 < np.ptp(before)
     assert same_picture(shown, before)
@@ -202,36 +199,36 @@ def test_stripes_follow_undo_in_both_modes(driver: window.Window) -> Steps:
 
 
 def test_what_is_gone_or_long_unseen_is_dropped(driver: window.Window) -> Steps:
-    draw = sys.modules["reflection_lines"].draw
+    draw = sys.modules["reflection_lines"].overlay.draw
     ob = fresh_panel(driver, "First")
     prepare(driver, ob)
     yield from captured(driver)
-    assert draw.kept() == {"First"}  # and none of the tests before
+    assert draw.list_kept_names() == {"First"}  # and none of the tests before
     with driver.override():
         scenes.panel("Second", cells=CELLS)
     yield from captured(driver)
-    assert draw.kept() == {"First", "Second"}
-    draw.UNSEEN, patience = 0.2, draw.UNSEEN
+    assert draw.list_kept_names() == {"First", "Second"}
+    draw.UNSEEN_TIME, patience = 0.2, draw.UNSEEN_TIME
     yield from captured(driver)
     picture = yield from captured(driver)
-    assert draw.kept() == {"Second"}
+    assert draw.list_kept_names() == {"Second"}
     assert np.ptp(picture) > 0.5
     with driver.override():
         scenes.activate(ob)
     again = yield from captured(driver)
-    draw.UNSEEN = patience
+    draw.UNSEEN_TIME = patience
     assert same_picture(again, picture)  # both panels are alike
 
 
 def test_few_environment_images_are_kept(driver: window.Window) -> Steps:
-    draw, stripes = sys.modules["reflection_lines"].draw, bpy.context.scene.reflection_lines.stripes
+    draw, stripes = sys.modules["reflection_lines"].overlay.draw, bpy.context.scene.reflection_lines.stripes
     prepare(driver, fresh_panel(driver, "Surroundings"))
     stripes.mode = 'IMAGE'
-    for number in range(draw.TEXTURES + 2):
+    for number in range(draw.KEPT_TEXTURES + 2):
         stripes.image = bpy.data.images.new(f"Surroundings {number}", 8, 4)
         driver.redraw()
         yield 0.2
-    assert draw.kept_textures() == draw.TEXTURES
+    assert draw.count_textures() == draw.KEPT_TEXTURES
     stripes.mode, stripes.image = 'REFLECTION', None
 
 

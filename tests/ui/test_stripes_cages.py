@@ -1,18 +1,14 @@
 """Stripes of a cage below a Subdivision Surface: its limit surface with the limit's own normals, in every pixel."""
 import os
 import sys
-from pathlib import Path
 
 import bmesh
 import bpy
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import window  # noqa: E402  (found through the line above)
-
-import scenes  # noqa: E402  (the folder of the add-on's tests is there once `window` is)
-from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples  # noqa: E402
+import scenes
+import window
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples
 
 
 def limit_of(ob: bpy.types.Object) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -83,4 +79,41 @@ def test_it_follows_the_cage_in_edit_mode(driver: window.Window) -> Steps:
     assert share > 0.97  # the rest lies under the cage's edges and vertices
 
 
-window.run(test_every_pixel_shows_the_limit_and_with_solve_for_mesh_it_does_not, test_it_follows_the_cage_in_edit_mode)
+def test_a_file_with_an_edge_of_too_many_faces_shows_the_modifiers_surface(driver: window.Window) -> Steps:
+    """OpenSubdiv's limit would overrun its buffers on opening the file."""
+    fresh_panel(driver, "Beside")
+    with driver.override():
+        pages = [(0, 1, 2 + page) for page in range(20)]
+        rim = [(np.cos(0.3 * page), np.sin(0.3 * page), 0.5) for page in range(20)]
+        ob = scenes.linked("Book", [(0.0, 0.0, 0.0), (0.0, 0.0, 1.0), *rim], pages)
+        ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+        prepare(driver, ob)
+        path = os.path.join(bpy.app.tempdir, "book.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path)
+    driver = window.Window()
+    draw = sys.modules["reflection_lines.overlay.draw"]
+    for _ in range(5):
+        driver.redraw()
+        yield 0.2
+    assert bpy.context.scene.reflection_lines.stripes.show
+    shown = draw._cache.shown["Book"]
+    mesh = bpy.data.objects["Book"].evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    assert shown.batch is not None
+    assert {len(mesh.vertices)} <= {int(shown.topology.corners.max()) + 1}
+    with driver.override():
+        scenes.edit(bpy.data.objects["Book"])
+        bpy.ops.mesh.select_all(action='SELECT')
+        before = scenes.fingerprint(bpy.data.objects["Book"])
+        refused = ""
+        try:
+            scenes.smooth()
+        except RuntimeError as error:
+            refused = str(error)
+        assert "20 faces of the cage share the edge" in refused
+        assert scenes.fingerprint(bpy.data.objects["Book"]) == before
+        scenes.object_mode()
+
+
+window.run(test_every_pixel_shows_the_limit_and_with_solve_for_mesh_it_does_not, test_it_follows_the_cage_in_edit_mode,
+           test_a_file_with_an_edge_of_too_many_faces_shows_the_modifiers_surface)

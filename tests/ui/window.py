@@ -3,13 +3,10 @@ import os
 import sys
 import traceback
 from collections.abc import Callable, Generator
-from pathlib import Path
 
 import bpy
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "addon"))
-
-import installation  # noqa: E402  (found through the line above)
+import installation
 
 Test = Callable[["Window"], Generator[float, None, None]]
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "native/geometry/cage.h"
+#include "reflines/cage.h"
 
 namespace reflines {
 

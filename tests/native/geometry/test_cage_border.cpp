@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "native/geometry/cage_border.h"
+#include "geometry/cage_border.h"
 #include "tests/native/geometry/cages.h"
 
 namespace reflines {
 namespace {
 
-constexpr auto kPosition = BorderHold::kPosition;
-constexpr auto kTangent = BorderHold::kPositionAndTangent;
+constexpr auto kPosition = Border::kFixed;
+constexpr auto kTangent = Border::kClamped;
 
 Mask everywhere(const Cage& cage) { return Mask::Constant(cage.face_offsets.size() - 1, true); }
 

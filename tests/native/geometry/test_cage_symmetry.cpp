@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "native/errors.h"
-#include "native/geometry/cage_border.h"
-#include "native/geometry/cage_symmetry.h"
+#include "geometry/cage_border.h"
+#include "geometry/cage_symmetry.h"
+#include "reflines/errors.h"
 #include "tests/native/geometry/cages.h"
 
 namespace reflines {
@@ -54,7 +54,7 @@ TEST(CageSymmetry, APlaneNeedsANormal) {
 TEST(CageSymmetry, UnknownsReachEveryFreeVertexOnceAndNoHeldOne) {
   const PlacedCage placed = grid(6, 6);
   const Subdivision surface = subdivide(placed.cage, {});
-  const Mask held = held_by_border(surface, Mask::Constant(36, true), BorderHold::kPositionAndTangent);
+  const Mask held = held_by_border(surface, Mask::Constant(36, true), Border::kClamped);
   const SparseMatrix B = cage_unknowns(held, mirror_pairs(placed.V, kMiddle, 1e-6));
   EXPECT_EQ(B.cols(), 3 * 2);  // 3 x 3 free vertices, a column of them on the plane
   const Vector reached = B * Vector::Ones(B.cols());

@@ -1,14 +1,14 @@
 #include <gtest/gtest.h>
 
-#include "native/geometry/mesh.h"
-#include "native/geometry/pieces.h"
+#include "geometry/mesh.h"
+#include "geometry/piece.h"
 #include "tests/native/sample_meshes.h"
 
 namespace reflines {
 namespace {
 
 int crease_count(const samples::Mesh& mesh, double angle = kCreaseAngle) {
-  return static_cast<int>(crease_edges(mesh.V, mesh.F, edge_neighbors(mesh.F), angle).count()) / 2;
+  return static_cast<int>(crease_edges(mesh.V, mesh.F, edge_neighbors(mesh.F), {.angle = angle}).count()) / 2;
 }
 
 // A gentle bowl with a V-shaped groove of the given depth along x = 0.5, one cell to each side.

@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <set>
 
-#include "native/errors.h"
-#include "native/geometry/crease.h"
-#include "native/geometry/crease_split.h"
-#include "native/geometry/normals.h"
+#include "geometry/crease.h"
+#include "geometry/crease_split.h"
+#include "geometry/normal_fit.h"
+#include "reflines/errors.h"
 #include "tests/native/sample_meshes.h"
 
 namespace reflines {

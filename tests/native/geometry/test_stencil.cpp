@@ -2,9 +2,9 @@
 
 #include <Eigen/LU>
 
-#include "native/errors.h"
-#include "native/geometry/derivatives.h"
-#include "native/geometry/stencil.h"
+#include "geometry/derivatives.h"
+#include "geometry/stencil.h"
+#include "reflines/errors.h"
 #include "tests/native/sample_meshes.h"
 
 namespace reflines {

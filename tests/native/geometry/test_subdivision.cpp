@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "native/geometry/subdivision.h"
+#include "reflines/subdivision.h"
 #include "tests/native/geometry/cages.h"
 
 namespace reflines {

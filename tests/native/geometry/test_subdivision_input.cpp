@@ -4,8 +4,8 @@
 #include <limits>
 #include <string>
 
-#include "native/errors.h"
-#include "native/geometry/subdivision.h"
+#include "reflines/errors.h"
+#include "reflines/subdivision.h"
 #include "tests/native/geometry/cages.h"
 
 namespace reflines {
@@ -56,6 +56,11 @@ TEST(SubdivisionInput, FacesMustBePolygonsOfTheCage) {
   expect_said(refusal([](Cage* cage, auto*) { cage->face_vertices[1] = 0; }), "uses vertex 0 twice");
   expect_said(refusal([](Cage* cage, auto*) { cage->face_offsets[6] = 99; }), "to 99");
   expect_said(refusal([](Cage* cage, auto*) { cage->face_offsets[2] = 99; }), "fewer than 3");
+  const auto overflow = [](Cage* cage, auto*) {  // each difference is 3 or more modulo 2^32
+    *cage = polygons(4, {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}});
+    cage->face_offsets << 0, 2147483647, -2147483646, -1000, 12;
+  };
+  expect_said(refusal(overflow), "the first is face 1");
 }
 
 TEST(SubdivisionInput, LoopNeedsTriangles) {

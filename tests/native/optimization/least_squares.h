@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "native/optimization/problem.h"
+#include "optimization/problem.h"
 
 namespace reflines {
 

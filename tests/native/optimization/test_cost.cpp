@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "least_squares.h"
-#include "native/optimization/minimizer.h"
+#include "optimization/minimizer.h"
 #include "tests/native/allocations.h"
 
 namespace reflines {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "native/optimization/dissection.h"
-#include "native/optimization/linear_solver.h"
+#include "optimization/linear/dissection.h"
+#include "optimization/linear/linear_solver.h"
 
 namespace reflines {
 namespace {

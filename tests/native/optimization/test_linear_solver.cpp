@@ -4,8 +4,8 @@
 #include <Eigen/Cholesky>
 #include <random>
 
-#include "native/errors.h"
-#include "native/optimization/linear_solver.h"
+#include "optimization/linear/linear_solver.h"
+#include "reflines/errors.h"
 
 namespace reflines {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "least_squares.h"
-#include "native/errors.h"
-#include "native/optimization/minimizer.h"
+#include "optimization/minimizer.h"
+#include "reflines/errors.h"
 
 namespace reflines {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "native/optimization/linear_solver.h"
+#include "optimization/linear/linear_solver.h"
 
 namespace reflines {
 namespace {

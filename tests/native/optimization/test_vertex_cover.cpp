@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "native/optimization/vertex_cover.h"
+#include "optimization/linear/vertex_cover.h"
 
 namespace reflines {
 namespace {

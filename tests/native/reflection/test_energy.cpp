@@ -3,9 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
-#include "native/reflection/energy.h"
-#include "native/reflection/field.h"
-#include "native/reflection/hessian_assembly.h"
+#include "reflection/energy.h"
+#include "reflection/hessian_assembly.h"
+#include "reflection/reflection_field.h"
 #include "tests/native/sample_meshes.h"
 
 namespace reflines {

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "native/errors.h"
-#include "native/reflection/reflection_function.h"
+#include "reflection/reflection_function.h"
+#include "reflines/errors.h"
 
 namespace reflines {
 namespace {

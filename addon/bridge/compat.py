@@ -1,0 +1,55 @@
+"""Differences between Blender 3.4, 4.3 and 5.2 in the interfaces that this add-on uses."""
+import bmesh
+import bpy
+import numpy as np
+
+
+def is_shape_locked(key: bpy.types.ShapeKey) -> bool:
+    """Returns whether the shape key is locked, which Blender can do from 4.2 on."""
+    return getattr(key, "lock_shape", False)
+
+
+def strip_error_prefix(error: RuntimeError) -> str:
+    """Returns the text that an operator reported, without the translated word "Error: " that Blender puts before it.
+
+    Reports have a translation of their own from Blender 4.1 on.
+    """
+    translated = getattr(bpy.app.translations, "pgettext_rpt", bpy.app.translations.pgettext_tip)
+    return str(error).removeprefix(f"{translated('Error')}: ").removeprefix("Error: ").strip()
+
+
+def read_edge_creases(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Reads the crease of every edge: #edges in [0, 1].
+
+    An attribute from Blender 4.0 on, absent where nothing is creased.
+    """
+    return read_crease_values(mesh, "crease_edge", len(mesh.edges), mesh.edges)
+
+
+def read_vertex_creases(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Reads the crease of every vertex: #vertices in [0, 1]."""
+    layers = getattr(mesh, "vertex_creases", None)
+    return read_crease_values(mesh, "crease_vert", len(mesh.vertices), layers[0].data if layers else ())
+
+
+def read_crease_values(mesh: bpy.types.Mesh, name: str, count: int,
+                       before: bpy.types.bpy_prop_collection | tuple) -> np.ndarray:
+    """Reads creases from the attribute `name`, or from the collection `before`, which held them in Blender 3."""
+    values = np.zeros(count, dtype=np.float32)
+    if bpy.app.version < (4, 0, 0):
+        if len(before) > 0:
+            before.foreach_get("crease" if name == "crease_edge" else "value", values)
+    elif name in mesh.attributes:
+        attribute = mesh.attributes[name]
+        if mesh.is_editmode:  # attributes have no data there
+            values[:] = read_edited_values(bmesh.from_edit_mesh(mesh), attribute.domain, name)
+        else:
+            attribute.data.foreach_get("value", values)
+    return values.astype(np.float64)
+
+
+def read_edited_values(edited: bmesh.types.BMesh, domain: str, name: str) -> list[float]:
+    """Reads a float layer of the edit mesh; zeros where the mesh has no such layer."""
+    elements = edited.edges if domain == 'EDGE' else edited.verts
+    layer = elements.layers.float.get(name)
+    return [0.0] * len(elements) if layer is None else [element[layer] for element in elements]

@@ -1,0 +1,56 @@
+"""The light direction as two angles in the view camera's picture, and turning the light by them."""
+from math import asin, atan2, cos, radians, sin
+
+import bpy
+from mathutils import Matrix, Vector
+
+# What an object's transform is stored in; a matrix written to it is taken apart, which loses bits.
+TRANSFORM = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
+TILT_LIMIT = radians(85.0)  # along the view no lines are seen
+
+
+def read_picture_axes(camera: bpy.types.Object | None) -> Matrix:
+    """Returns the axes of the camera's picture as columns right, up, towards the viewer; without a camera those of the
+    world as seen from above.
+    """
+    return Matrix.Identity(3) if camera is None else camera.matrix_world.to_3x3().normalized()
+
+
+def read_light_direction(camera: bpy.types.Object | None, light: bpy.types.Object) -> Vector:
+    """Returns the light direction in the axes of the picture, unit; zero where the light is scaled to nothing."""
+    return read_picture_axes(camera).transposed() @ light.matrix_world.to_3x3().col[2].normalized()
+
+
+def read_light_angles(camera: bpy.types.Object | None, light: bpy.types.Object) -> tuple[float, float]:
+    """Returns the turn of the light, counter-clockwise from the picture's horizontal, and its tilt towards the viewer,
+    in radians.
+    """
+    direction = read_light_direction(camera, light)
+    across = direction.xy.length
+    return (atan2(direction.y, direction.x) if across > 1e-6 else 0.0), asin(min(max(direction.z, -1.0), 1.0))
+
+
+def turn_light(camera: bpy.types.Object | None, light: bpy.types.Object, turn: float, tilt: float) -> None:
+    """Turns the light to the angles of `read_light_angles`, the shortest way; its place and scale stay."""
+    point_light(camera, light, Vector((cos(tilt) * cos(turn), cos(tilt) * sin(turn), sin(tilt))))
+
+
+def point_light(camera: bpy.types.Object | None, light: bpy.types.Object, direction: Vector) -> None:
+    """Turns the light to a direction in the axes of the picture."""
+    if not direction.length > 0.0:
+        return
+    place, rotation, scale = light.matrix_world.decompose()
+    wanted = read_picture_axes(camera) @ direction
+    rotation = (rotation @ Vector((0.0, 0.0, 1.0))).rotation_difference(wanted) @ rotation
+    light.matrix_world = Matrix.LocRotScale(place, rotation, scale)
+
+
+def read_transform(ob: bpy.types.Object) -> tuple[tuple[float, ...], ...]:
+    """Reads the stored transform of an object, to be restored to the bit."""
+    return tuple(tuple(getattr(ob, name)) for name in TRANSFORM)
+
+
+def restore_transform(ob: bpy.types.Object, stored: tuple[tuple[float, ...], ...]) -> None:
+    """Restores what `read_transform` read."""
+    for name, values in zip(TRANSFORM, stored, strict=True):
+        setattr(ob, name, values)

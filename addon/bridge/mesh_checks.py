@@ -1,0 +1,54 @@
+"""Refuses meshes that cannot be solved or written, each in one sentence."""
+import bpy
+import numpy as np
+
+from ..model.refusal import Refusal
+from . import compat
+
+
+def refuse_unusable(ob: bpy.types.Object, key: str, *, shared: bool = False) -> None:
+    """Refuses objects whose mesh cannot be written: linked, shared (unless `shared` is given), with locked or missing
+    shape keys, or of no extent.
+    """
+    mesh, keys = ob.data, ob.data.shape_keys
+    if ob.library is not None or mesh.library is not None:
+        raise Refusal(f"{ob.name} is linked from another file and cannot be changed here: make it local")
+    if mesh.override_library is not None:
+        raise Refusal(f"The mesh of {ob.name} is linked from another file and overridden here, which keeps no moved "
+                      "vertices: make it local")
+    if ob.mode != 'EDIT' and keys is not None and not key:
+        raise Refusal(f"{ob.name} has shape keys: enter Edit Mode on the key that is to be changed, "
+                      "or choose the result Shape Key")
+    if key and keys is not None and not keys.use_relative:
+        raise Refusal(f"{ob.name} has absolute shape keys, which cannot be mixed: choose the result Mesh in Edit Mode")
+    refuse_mixed_keys(ob, key)
+    others = mesh.users - mesh.use_fake_user - 1
+    if ob.mode != 'EDIT' and others > 0 and not shared:
+        raise Refusal(f"{ob.name} shares its mesh with {others} other objects: "
+                      "make it single-user, or work in Edit Mode")
+    written = keys and (keys.key_blocks.get(key) or (None if key else ob.active_shape_key))
+    if written and compat.is_shape_locked(written):
+        raise Refusal(f"The shape key {written.name} of {ob.name} is locked: unlock it, or choose another")
+    scale = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
+    if not np.isfinite(scale).all() or np.linalg.matrix_rank(scale) < 3:
+        raise Refusal(f"{ob.name} is scaled to nothing in one direction: give it a scale other than zero")
+
+
+def refuse_mixed_keys(ob: bpy.types.Object, key: str) -> None:
+    """Refuses to put the region of one shape key into another one, which would tear the mesh at the region's border:
+    shape keys hold whole shapes.
+    """
+    edited = ob.active_shape_key if ob.mode == 'EDIT' else None
+    if key and edited is not None and edited.name != key and key in ob.data.shape_keys.key_blocks:
+        raise Refusal(f"{ob.name} is edited in the shape key {edited.name}, but the result would go into {key}, which "
+                      f"is there already: edit {key} to go on with it, or rename it to begin another")
+
+
+def refuse_broken_coordinates(name: str, vertices: np.ndarray, local: np.ndarray) -> None:
+    """Refuses vertices with coordinates that are not finite, which Blender's triangulation of n-gons must not get."""
+    if np.isfinite(local).all():
+        return
+    broken = np.unique(vertices[~np.isfinite(local[vertices]).all(axis=1)])
+    if len(broken):
+        raise Refusal(f"{name} has {len(broken)} vertices in the region whose coordinates are no numbers, "
+                      f"the first is {broken[0]}: delete or move them")

@@ -1,0 +1,75 @@
+"""Reads the region of a Blender mesh as a patch, in world space and double precision."""
+import bpy
+import numpy as np
+
+from ..model import triangulation
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from . import mesh_checks, read_creases, read_mesh, read_mirror, region_faces
+
+
+def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
+                      or_all: bool = False, shared: bool = False) -> Patch:
+    """Gathers the region: the selected faces in Edit Mode, the stored region in Object Mode.
+
+    `local` (#vertices x 3, object space) replaces the coordinates of the mesh. With `or_all` all visible faces are
+    taken where no region is stored; with `shared` the mesh may belong to other objects too.
+    """
+    mesh_checks.refuse_unusable(ob, key, shared=shared)
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    faces = choose_faces(ob, or_all=or_all)
+    local = read_mesh.read_coordinates(ob, key) if local is None else local
+    index, F = triangulation.renumber_vertices(triangulate(ob, faces, local), len(local))
+    matrix = np.array(ob.matrix_world, dtype=np.float64)
+    if np.linalg.det(matrix[:3, :3]) < 0.0:
+        F = F[:, ::-1]  # a mirroring transform turns triangles over, but not what Blender calls their front
+    local = local[index]
+    V = local @ matrix[:3, :3].T + matrix[:3, 3]
+    mirror = read_mirror.read_mirror(ob, local)
+    return Patch(ob.name, faces, index, local, V, np.ascontiguousarray(F), matrix, key, mirror,
+                 read_creases.read_creases(ob, index))
+
+
+def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:
+    """Returns the faces of the region: #faces, bool; refuses an empty one."""
+    mesh = ob.data
+    if ob.mode == 'EDIT':
+        faces = region_faces.read_selected_faces(mesh)
+    elif or_all and not region_faces.has_stored_region(mesh):
+        faces = region_faces.read_visible_faces(mesh)
+    else:
+        faces = region_faces.read_stored_region(mesh)
+    if not faces.any():
+        raise Refusal(f"{ob.name} has no stored region: "
+                      "select the faces of the panel in Edit Mode and run the tool there once")
+    return faces
+
+
+def triangulate(ob: bpy.types.Object, faces: np.ndarray, local: np.ndarray) -> np.ndarray:
+    """Returns the triangles of the faces as Blender cuts them: #triangles x 3 of the mesh's vertices."""
+    around, sizes = read_mesh.read_region_corners(ob.data, faces)
+    mesh_checks.refuse_broken_coordinates(ob.name, around, local)
+    if sizes.max() <= 4:
+        return triangulation.triangulate_short_faces(around, sizes, local)
+    return read_mesh.read_region_triangles(ob.data, faces)
+
+
+def compute_mean_normal(ob: bpy.types.Object) -> np.ndarray:
+    """Returns the mean normal, in world space, of the selected faces, else of the stored region, else of all faces; +Z
+    for a closed body.
+    """
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    mesh = ob.data
+    faces = region_faces.read_selected_faces(mesh) if ob.mode == 'EDIT' else region_faces.read_stored_region(mesh)
+    areas, directions = np.empty(len(mesh.polygons)), np.empty(3 * len(mesh.polygons))
+    mesh.polygons.foreach_get("area", areas)
+    mesh.polygons.foreach_get("normal", directions)
+    chosen = faces if faces.any() else np.ones(len(faces), dtype=bool)
+    total = areas[chosen] @ directions.reshape(-1, 3)[chosen]
+    matrix = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
+    if np.linalg.norm(total) < 1e-3 * areas[chosen].sum() or np.linalg.matrix_rank(matrix) < 3 or not len(areas):
+        return np.array([0.0, 0.0, 1.0])
+    normal = np.linalg.solve(matrix.T, total)
+    return normal / np.linalg.norm(normal)

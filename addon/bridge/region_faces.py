@@ -1,0 +1,59 @@
+"""The region: the faces that the artist chose, stored as a face attribute so that undo, save and edits keep it.
+
+The attribute is an integer, because Blender 3.4 has no boolean layers in Edit Mode.
+"""
+import bmesh
+import bpy
+import numpy as np
+
+from ..model.patch import Patch
+
+ATTRIBUTE = "reflines_region"
+
+
+def has_stored_region(mesh: bpy.types.Mesh) -> bool:
+    attribute = mesh.attributes.get(ATTRIBUTE)
+    return attribute is not None and attribute.domain == 'FACE' and attribute.data_type == 'INT'
+
+
+def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Reads the selected visible faces: #faces, bool. In Edit Mode the mesh must have been updated from it."""
+    return read_visible_faces(mesh) & read_face_flags(mesh, "select")
+
+
+def read_stored_region(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Reads the stored region in Object Mode: #faces, bool; hidden faces are never part of it."""
+    if not has_stored_region(mesh):
+        return np.zeros(len(mesh.polygons), dtype=bool)
+    values = np.empty(len(mesh.polygons), dtype=np.int32)
+    mesh.attributes[ATTRIBUTE].data.foreach_get("value", values)
+    return read_visible_faces(mesh) & (values != 0)
+
+
+def read_visible_faces(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Reads which faces are not hidden: #faces, bool."""
+    return ~read_face_flags(mesh, "hide")
+
+
+def read_face_flags(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    values = np.empty(len(mesh.polygons), dtype=bool)
+    mesh.polygons.foreach_get(name, values)
+    return values
+
+
+def store_region(mesh: bpy.types.Mesh, faces: np.ndarray) -> None:
+    """Stores the region in Edit Mode.
+
+    A new layer invalidates references to elements of the edit mesh, so call this before taking any.
+    """
+    edit = bmesh.from_edit_mesh(mesh)
+    layers = edit.faces.layers.int
+    layer = layers.get(ATTRIBUTE) or layers.new(ATTRIBUTE)
+    for face, inside in zip(edit.faces, faces.tolist(), strict=True):
+        face[layer] = inside
+
+
+def keep_region(ob: bpy.types.Object, patch: Patch) -> None:
+    """Stores the faces of a patch gathered in Edit Mode, so that tools can run on them again in Object Mode."""
+    if ob.mode == 'EDIT':
+        store_region(ob.data, patch.faces)

@@ -1,0 +1,53 @@
+"""The shape key that takes results. It is relative to the shape that the tool began with, so its value is the strength.
+"""
+import bpy
+import numpy as np
+
+from . import read_mesh
+
+NAME = "Reflection Lines"
+
+
+def open_result_key(ob: bpy.types.Object) -> list[str]:
+    """Makes the result's key the active one in Object Mode, adding it where it is missing; returns the names of the
+    keys added.
+    """
+    made = [] if ob.data.shape_keys is not None else [ob.shape_key_add(name="Basis", from_mix=False).name]
+    blocks = ob.data.shape_keys.key_blocks
+    if blocks.get(NAME) is None:
+        began, shape = ob.active_shape_key, read_mesh.read_coordinates(ob).astype(np.float32)
+        key = ob.shape_key_add(name=NAME, from_mix=False)
+        key.relative_key, key.value = began, 1.0
+        key.data.foreach_set("co", shape.ravel())
+        made.append(key.name)
+    ob.active_shape_key_index = blocks.find(NAME)
+    return made
+
+
+def is_result_key_edited(ob: bpy.types.Object) -> bool:
+    """Returns whether the object is in Edit Mode on the result's key."""
+    return ob.mode == 'EDIT' and ob.active_shape_key is not None and ob.active_shape_key.name == NAME
+
+
+def remove_keys(ob: bpy.types.Object, made: list[str]) -> None:
+    """Removes the keys that `open_result_key` added."""
+    blocks = ob.data.shape_keys.key_blocks if ob.data.shape_keys is not None else {}
+    for key in [blocks[name] for name in reversed(made) if name in blocks]:
+        ob.shape_key_remove(key)
+
+
+def read_original_shape(ob: bpy.types.Object) -> np.ndarray | None:
+    """Reads the shape that the result's key is relative to: #vertices x 3, in Object Mode; None without that key."""
+    keys = ob.data.shape_keys
+    key = keys.key_blocks.get(NAME) if keys is not None else None
+    return None if key is None else read_mesh.read_coordinates(ob, key.relative_key.name)
+
+
+def describe_hidden_key(ob: bpy.types.Object, name: str) -> tuple[str, ...]:
+    """Describes why the result in the key of this name cannot be seen: a sentence, or nothing."""
+    blocks = ob.data.shape_keys.key_blocks if ob.data.shape_keys is not None else {}
+    key = blocks.get(name)
+    if key is None or key.value != 0.0 and not key.mute:
+        return ()
+    why = "is muted: unmute it" if key.mute else "has the value 0: raise its Strength"
+    return (f"Nothing of the result is seen, since the shape key {name} {why}",)

@@ -1,0 +1,66 @@
+"""Aims a view camera at a panel: what it frames, and from which side."""
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from . import read_patch, view_and_light
+
+MARGIN = 1.1    # of the picture around what it frames
+DISTANCE = 2.0  # of the camera from the middle of what it frames, in sizes of that
+
+
+def choose_frame(context: bpy.types.Context, ob: bpy.types.Object, direction: tuple[float, float, float]) -> Matrix:
+    """Chooses the axes of the picture, columns right, up, towards the viewer: of the given direction where it is not
+    zero, else of the 3D view, in background of the panel's mean normal.
+    """
+    if any(direction):
+        return view_and_light.build_frame(Vector(direction))
+    return (view_and_light.read_viewport_frame(context)
+            or view_and_light.build_frame(Vector(read_patch.compute_mean_normal(ob))))
+
+
+def read_framed_points(ob: bpy.types.Object) -> np.ndarray:
+    """Reads the points to frame, in world space: the selected vertices in Edit Mode, else the corners of the object's
+    bounding box: #P x 3.
+    """
+    points = np.array(ob.bound_box, dtype=np.float64)
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+        count = len(ob.data.vertices)
+        local, selected = np.empty(3 * count), np.empty(count, dtype=bool)
+        ob.data.vertices.foreach_get("co", local)
+        ob.data.vertices.foreach_get("select", selected)
+        points = local.reshape(-1, 3)[selected] if selected.any() else points
+    matrix = np.array(ob.matrix_world, dtype=np.float64)
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def aim_camera(context: bpy.types.Context, camera: bpy.types.Object, frame: Matrix, points: np.ndarray) -> None:
+    """Turns and moves a camera so that its picture has these axes and shows all points with MARGIN around them."""
+    axes = np.array(frame, dtype=np.float64)
+    low, high = (points @ axes).min(axis=0), (points @ axes).max(axis=0)
+    middle, size = axes @ (0.5 * (low + high)), float(np.linalg.norm(high - low)) or 1.0
+    camera.matrix_world = Matrix.Translation(Vector(middle + DISTANCE * size * axes[:, 2])) @ frame.to_4x4()
+    context.view_layer.update()
+    place, scale = camera.camera_fit_coords(context.evaluated_depsgraph_get(), points.ravel().tolist())
+    if camera.data.type == 'ORTHO':
+        camera.data.ortho_scale = MARGIN * scale
+    else:
+        away = (place - Vector(middle)).length
+        camera.matrix_world = Matrix.Translation(place + (MARGIN - 1.0) * away * frame.col[2]) @ frame.to_4x4()
+    far = (camera.matrix_world.translation - Vector(middle)).length + size
+    camera.data.clip_start, camera.data.clip_end = min(camera.data.clip_start, 0.01 * size), 2.0 * far
+
+
+def add_camera(collection: bpy.types.Collection) -> bpy.types.Object:
+    """Adds an orthographic camera."""
+    data = bpy.data.cameras.new("View Camera")
+    data.type = 'ORTHO'
+    camera = bpy.data.objects.new("View Camera", data)
+    collection.objects.link(camera)
+    return camera
+
+
+def is_looking_through(space: bpy.types.Space, camera: bpy.types.Object) -> bool:
+    """Returns whether the 3D view looks through the camera."""
+    return space.region_3d.view_perspective == 'CAMERA' and space.camera == camera

@@ -1,0 +1,38 @@
+"""Where the mouse is in a 3D view: over the view itself, or over the sidebar, a header or a toolbar that covers it."""
+import bpy
+
+
+def find_view_region(area: bpy.types.Area) -> bpy.types.Region:
+    """Returns the region of a 3D view's area that shows the scene."""
+    return next(region for region in area.regions if region.type == 'WINDOW')
+
+
+def covers(region: bpy.types.Region, x: int, y: int) -> bool:
+    """Returns whether a region lies at a place, in pixels of the window. Hidden regions are one pixel large."""
+    return 0 <= x - region.x < region.width and 0 <= y - region.y < region.height and region.width > 1
+
+
+def is_over_view(area: bpy.types.Area, x: int, y: int) -> bool:
+    """Returns whether nothing but the scene is at a place (pixels of the window). The view's region reaches below the
+    sidebar where regions overlap.
+    """
+    others = (region for region in area.regions if region.type != 'WINDOW')
+    return covers(find_view_region(area), x, y) and not any(covers(region, x, y) for region in others)
+
+
+def find_view_left(area: bpy.types.Area) -> int:
+    """Returns where the view begins beside the toolbar, in pixels of the window."""
+    tools = [region for region in area.regions if region.type == 'TOOLS' and region.width > 1]
+    return max([find_view_region(area).x, *(region.x + region.width for region in tools)])
+
+
+def find_view_middle(area: bpy.types.Area) -> tuple[int, int]:
+    """Returns the middle of the view between toolbar and sidebar, in pixels of the window."""
+    view = find_view_region(area)
+    low, high = view.x, view.x + view.width
+    for region in area.regions:
+        if region.type == 'TOOLS' and region.width > 1:
+            low = max(low, region.x + region.width)
+        elif region.type == 'UI' and region.width > 1:
+            high = min(high, region.x)
+    return (low + high) // 2, view.y + view.height // 2

@@ -1,0 +1,57 @@
+"""Reads the cage behind the surface that the viewport shows, for stripes on the limit surface.
+
+It only reads, so that viewports may call it while they draw.
+"""
+import bmesh
+import bpy
+import numpy as np
+
+from ..model.cage import Cage
+from ..model.refusal import Refusal
+from . import modifiers, read_cage, read_mesh, region_faces
+
+
+def read_viewport_cage(ob: bpy.types.Object) -> tuple[Cage, np.ndarray] | None:
+    """Reads the cage in object space, its region the visible faces, and which faces (#faces) are selected.
+
+    None where what is shown is not the surface of a cage, or of one with modifiers that are not followed.
+    """
+    if not modifiers.is_cage(ob):
+        return None
+    *below, modifier = modifiers.find_shaping_modifiers(ob)
+    if modifier.subdivision_type != 'CATMULL_CLARK' or ob.mode == 'EDIT' and not modifier.show_in_editmode:
+        return None
+    try:
+        mirror = read_cage.find_followed_mirror(ob.name, below)
+    except Refusal:
+        return None
+    state = read_edited_state(ob.data) if ob.mode == 'EDIT' else read_stored_state(ob)
+    if state is None or not np.isfinite(state[0]).all() or not state[1].any():
+        return None
+    local, visible, selected = state
+    axis = -1 if mirror is None else next(k for k in range(3) if mirror.use_axis[k])
+    whole = read_cage.read_cage(ob.data, visible, np.eye(4), modifier, mirror, axis, local)
+    return whole, np.tile(selected, 1 if mirror is None else 2)
+
+
+def read_stored_state(ob: bpy.types.Object) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Reads positions, visible and selected faces; None where the mesh has shape keys, which the viewport mixes."""
+    if ob.data.shape_keys is not None or not len(ob.data.polygons):
+        return None
+    return (read_mesh.read_coordinates(ob), region_faces.read_visible_faces(ob.data),
+            region_faces.read_face_flags(ob.data, "select"))
+
+
+def read_edited_state(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Reads positions, visible and selected faces of the edit mesh; None where its topology is no longer the stored
+    mesh's.
+    """
+    now = bmesh.from_edit_mesh(mesh)
+    if (len(now.verts), len(now.edges)) != (len(mesh.vertices), len(mesh.edges)) or not len(now.faces):
+        return None
+    corners = [vertex.index for face in now.faces for vertex in face.verts]
+    if not np.array_equal(corners, read_mesh.read_corners(mesh)[0]):
+        return None
+    local = np.array([vertex.co for vertex in now.verts], dtype=np.float64)
+    hidden, selected = np.array([(face.hide, face.select) for face in now.faces], dtype=bool).T
+    return local, ~hidden, selected

@@ -1,1 +1,0 @@
-"""Tools under the mouse: how a drag sets values, and how the panel follows while a thread solves."""

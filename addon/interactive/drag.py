@@ -1,0 +1,219 @@
+"""A drag of a tool under the mouse: its values, the texts in header and status bar, and the mesh that follows.
+
+Events are handled by operators/dragged_tool.py, solves by solve_job.py on a background thread.
+"""
+import time
+from contextlib import suppress
+from typing import Protocol
+
+import bpy
+import numpy as np
+
+from ..bridge import facing, read_mesh, region_faces, scene_objects, units, view_region, write_mesh
+from ..bridge.write_mesh import EditVertices
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..model.solution import Solution, SolveSettings
+from ..overlay import falloff_circle
+from ..solver import live_optimizer
+from ..solver.live_optimizer import BuildTarget
+from ..targets.falloff import Falloff
+from .background_thread import BackgroundThread
+from .drag_handles import DragValues, Handle
+from .solve_job import SolveJob, SolveRequest
+
+TICK_INTERVAL = 0.01  # seconds between two checks for the thread's results
+SAYS_BUSY = 0.3  # seconds of solving after which the status bar shows the stage
+KEYS_TEXT = "LMB, Enter: keep   RMB, Esc: cancel   Shift: precision   0-9: type   MMB: turn the view"
+
+
+class DraggedOperator(Protocol):
+    """What a drag needs of its operator, whose properties the mouse changes."""
+    bl_label: str
+    border: str
+
+    def build_handles(self) -> tuple[Handle, ...]: ...
+    def choose_automatic(self, name: str, patch: Patch) -> float: ...
+    def gather_patch(self, ob: bpy.types.Object) -> Patch: ...
+    def read_detail_length(self, scene: bpy.types.Scene) -> float: ...
+    def read_falloff(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Falloff | None: ...
+    def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget: ...
+
+
+class Drag:
+    """One drag, from the press of the button to its end."""
+
+    def __init__(self, tool: DraggedOperator, context: bpy.types.Context) -> None:
+        scene = context.scene
+        self.tool, self.area = tool, context.area
+        subjects = scene_objects.find_subjects(context)
+        self.patches = [tool.gather_patch(ob) for ob in subjects]
+        self.counts = [read_mesh.count_elements(ob) for ob in subjects]
+        views = [facing.read_patch_view(scene, patch) for patch in self.patches]
+        self.shown = [patch.round_start_positions() for patch in self.patches]
+        self.vertices = [EditVertices(patch.index) for patch in self.patches]
+        self.values = self.read_values(scene)
+        self.frame = live_optimizer.compute_image_frame(self.patches[0], views[0])
+        self.update_request(context)  # refuses before anything is started
+        self.job = SolveJob(self.patches, views, tool.border)
+        self.circle = falloff_circle.add_circle(lambda: self.circle_points)
+        self.thread = BackgroundThread(self.job.run, self.job.cancel)
+        self.thread.submit(self.request)
+        self.keeping, self.busy_since, self.problem, self.texts = False, time.monotonic(), "", ("", "")
+        self.moved = False  # whether values changed since the last request
+        self.largest_move = 0.0  # of what is shown, from the start, world units
+        self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
+        _running.append(self)
+
+    def read_values(self, scene: bpy.types.Scene) -> DragValues:
+        handles = self.tool.build_handles()
+        starts = [getattr(self.tool, handle.name) or self.tool.choose_automatic(handle.name, self.patches[0])
+                  for handle in handles]
+        return DragValues(handles, starts, [read_typed_unit(handle, scene) for handle in handles])
+
+    def begin_at(self, context: bpy.types.Context, x: int, y: int) -> None:
+        """Takes the mouse's place (pixels of the window) as that of the present values. Where it is not over the view,
+        on a button of the sidebar say, it is put there, so that the way from the button changes nothing.
+        """
+        self.move_mouse(x, y, precise=False)
+        if self.values.last is None:
+            context.window.cursor_warp(*view_region.find_view_middle(self.area))
+
+    def move_mouse(self, x: int, y: int, *, precise: bool) -> None:
+        """Moves the held value with the mouse, from the first place over the view on."""
+        if self.values.last is not None or view_region.is_over_view(self.area, x, y):
+            self.values.move(x, precise=precise)
+
+    def keep_values(self, settings: bpy.types.PropertyGroup) -> None:
+        """Writes the values that were moved or typed into the scene's settings of the tool."""
+        for index, handle in enumerate(self.values.handles):
+            if self.values.is_touched(index):
+                setattr(settings, handle.name, self.values.value(index))
+
+    def find_objects(self) -> list[bpy.types.Object]:
+        """Returns the dragged objects; refuses where somebody else has changed one of them."""
+        found = [bpy.data.objects.get(patch.name) for patch in self.patches]
+        for ob, patch, shown, counts in zip(found, self.patches, self.shown, self.counts, strict=True):
+            same = ob is not None and ob.type == 'MESH' and read_mesh.count_elements(ob) == counts
+            if not same or not read_mesh.has_positions(ob, patch, shown):
+                raise Refusal(f"{patch.name} was changed while it was dragged: it is left as it is now")
+        return found
+
+    def update_request(self, context: bpy.types.Context, *, final: bool = False) -> None:
+        """Sets the tool's properties from the drag's values, and builds the request for them."""
+        for index, handle in enumerate(self.values.handles):
+            if self.values.is_touched(index):
+                setattr(self.tool, handle.name, self.values.value(index))
+        builds = tuple(self.tool.build_target(context, ob, patch)
+                       for ob, patch in zip(self.find_objects(), self.patches, strict=True))
+        settings = SolveSettings(self.tool.border, self.tool.read_detail_length(context.scene))
+        self.request = SolveRequest(builds, settings, final)
+        falloff = self.tool.read_falloff(context, self.find_objects()[0], self.patches[0])
+        self.circle_points = (falloff_circle.sample_circle(falloff.centre, falloff.radius, self.frame)
+                              if falloff is not None else None)
+
+    def submit_request(self, context: bpy.types.Context, *, final: bool = False) -> None:
+        """Submits the request of the present values to the thread; a refusal is shown in the header."""
+        self.moved = False
+        try:
+            self.update_request(context, final=final)
+        except Refusal as refusal:
+            self.problem = str(refusal)
+            return
+        self.keeping = final
+        if self.thread.is_idle():
+            self.busy_since = time.monotonic()
+        self.thread.submit(self.request)
+
+    def show_positions(self, positions: tuple[np.ndarray, ...]) -> None:
+        self.largest_move = max(float(np.linalg.norm(wanted - patch.V, axis=1).max())
+                                for patch, wanted in zip(self.patches, positions, strict=True))
+        new = [patch.to_object_space(wanted) for patch, wanted in zip(self.patches, positions, strict=True)]
+        self.write_positions(new)
+
+    def write_positions(self, new: list[np.ndarray]) -> None:
+        every = zip(self.find_objects(), self.patches, new, self.shown, self.vertices, strict=True)
+        for ob, patch, to, now, vertices in every:
+            write_mesh.write_positions(ob, patch, to, now, vertices)
+        self.shown = new
+
+    def write_solutions(self, solutions: tuple[Solution, ...]) -> None:
+        """Replaces what the drag showed in the mesh by the result in a shape key, where one is wanted."""
+        if not any(patch.key for patch in self.patches):
+            return
+        self.restore()
+        for ob, solution in zip(self.find_objects(), solutions, strict=True):
+            region_faces.keep_region(ob, solution.patch)
+        for ob, solution in zip(self.find_objects(), solutions, strict=True):
+            write_mesh.write_solution(ob, solution.patch, solution.positions)
+        self.shown = [solution.patch.to_object_space(solution.positions) for solution in solutions]
+
+    def restore(self) -> None:
+        self.write_positions([patch.round_start_positions() for patch in self.patches])
+
+    def update_texts(self, context: bpy.types.Context) -> None:
+        values = "   ".join(self.format_handle(context, index) for index in range(len(self.values.handles)))
+        moved = f"   moved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
+        header = f"{self.tool.bl_label}   {values}{moved}" + (f"   {self.problem}" if self.problem else "")
+        working = not self.thread.is_idle() and time.monotonic() - self.busy_since > SAYS_BUSY
+        more = "   Tab: next value" if len(self.values.handles) > 1 else ""
+        turned = self.values.find_wheel_handle()
+        wheel = f"   Wheel: {turned.label.lower()}" if turned else ""
+        status = f"{self.job.describe_stage()}   Esc: cancel" if working or self.keeping else KEYS_TEXT + more + wheel
+        if self.texts != (header, status):  # setting a text redraws its bar
+            self.texts = header, status
+            self.area.header_text_set(header)
+            context.workspace.status_text_set(status)
+
+    def format_handle(self, context: bpy.types.Context, index: int) -> str:
+        handle, typed = self.values.handles[index], self.values.typed[index]
+        held = index == self.values.held and len(self.values.handles) > 1
+        shown = f"[{typed}|]" if typed else format_value(handle, self.values.value(index), context.scene)
+        return f"{'> ' if held else ''}{handle.label}: {shown}"
+
+    def end(self, context: bpy.types.Context) -> None:
+        """Restores header, status bar and timer; the thread ends after what it is doing now."""
+        _running.remove(self)
+        context.window_manager.event_timer_remove(self.timer)
+        if self.thread.is_idle():
+            self.job.return_optimizers()
+        self.thread.stop()
+        falloff_circle.remove_circle(self.circle)
+        self.area.header_text_set(None)
+        context.workspace.status_text_set(None)
+
+    def abort(self, context: bpy.types.Context) -> None:
+        """Restores the mesh and ends the drag, when Blender exits, opens another file or disables the add-on."""
+        with suppress(Refusal):  # the mesh is gone, or was changed by something else
+            self.restore()
+        self.end(context)
+
+
+def read_typed_unit(handle: Handle, scene: bpy.types.Scene) -> float:
+    """Returns what a typed 1 means to the property: a degree, or the scene's unit of length."""
+    if handle.unit == 'ANGLE':
+        return float(np.radians(1.0)) if scene.unit_settings.system_rotation == 'DEGREES' else 1.0
+    return units.read_typed_length(scene) if handle.unit == 'LENGTH' else 1.0
+
+
+def format_value(handle: Handle, value: float, scene: bpy.types.Scene) -> str:
+    if handle.unit == 'ANGLE':
+        degrees = scene.unit_settings.system_rotation == 'DEGREES'
+        return f"{np.degrees(value):.2f}\u00b0" if degrees else f"{value:.4f}"
+    if handle.unit == 'LENGTH':
+        return units.format_length(value, scene)
+    return f"{value:.1f} %" if handle.unit == 'PERCENT' else f"{value:.3f}"
+
+
+_running: list[Drag] = []  # at most one
+
+
+def has_work() -> bool:
+    """Returns whether a running drag has something left to submit, solve or show."""
+    return any(drag.moved or drag.keeping or not drag.thread.is_idle() or drag.thread.has_outcome()
+               for drag in _running)
+
+
+def unregister() -> None:
+    for drag in list(_running):  # Blender drops the operator without calling it
+        drag.abort(bpy.context)

@@ -1,0 +1,111 @@
+"""The baseline of a live warp as the scene stores it: the mesh and its start, the lattice, view and light.
+
+All of it is saved with the file and undone with it, and the shape of the mesh follows from it alone.
+"""
+from dataclasses import dataclass
+from functools import partial
+
+import bpy
+import numpy as np
+
+from ..bridge import facing, gather, live_warp_start, view_and_light, warp_lattice
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..model.solution import SolveSettings
+from ..model.view import View
+from ..solver.live_optimizer import BuildTarget
+from ..targets import warp
+from ..targets.warp import Warp
+
+
+class BaselineChanged(Refusal):
+    """Refuses to go on with a live warp whose mesh or lattice was changed by something else; the mesh stays as it is.
+    """
+
+
+@dataclass(frozen=True)
+class Baseline:
+    """What the optimizer of a live warp is built from; `signs` are cheap to read and differ where it may have changed.
+    """
+    patch: Patch
+    view: View
+    border: str
+    signs: tuple
+
+    def serves(self, other: "Baseline") -> bool:
+        """Returns whether an optimizer built for one baseline serves the other."""
+        return self.signs == other.signs and self.patch.same(other.patch)
+
+
+def find_subject(scene: bpy.types.Scene) -> bpy.types.Object:
+    """Returns the warped mesh object; refuses while it is in Edit Mode."""
+    ob = scene.reflection_lines.live.panel
+    if not scene.reflection_lines.present(ob):
+        raise BaselineChanged(f"The panel {ob.name} is no longer in the scene: bring it back by undo, or discard the "
+                              "live warp")
+    if ob.mode == 'EDIT':
+        raise Refusal(f"The live warp waits while {ob.name} is in Edit Mode")
+    return ob
+
+
+def refuse_changed(ob: bpy.types.Object) -> None:
+    """Refuses a mesh that was changed since the live warp wrote it."""
+    refuse_other_mesh(ob)
+    if not live_warp_start.is_unchanged(ob):
+        raise BaselineChanged(f"{ob.name} was changed by something else than its live warp, which cannot go on: "
+                      "apply leaves it as it is now, discard takes it back to where it began")
+
+
+def refuse_other_mesh(ob: bpy.types.Object) -> None:
+    """Refuses a mesh for which the stored start no longer holds."""
+    if live_warp_start.read_start(ob) is None:
+        raise BaselineChanged(f"{ob.name} has lost where the live warp began (the attribute "
+                              f"{live_warp_start.ATTRIBUTE}): apply or discard, both leave it as it is now")
+    vertices, faces = live_warp_start.count_growth(ob)
+    if vertices or faces:
+        raise BaselineChanged(f"{ob.name} has other vertices ({vertices:+}) and faces ({faces:+}) than when the live "
+                              "warp began, which cannot go on: apply or discard, both leave it as it is now")
+
+
+def read_warp(scene: bpy.types.Scene) -> Warp:
+    """Reads the wanted warp: the lattice as it is now, and the settings."""
+    own, live = scene.reflection_lines.warp, scene.reflection_lines.live
+    if not scene.reflection_lines.present(own.lattice):
+        raise BaselineChanged(f"The warp lattice of {live.panel_name()} is no longer in the scene: bring it back by "
+                              "undo; apply leaves the panel as it is now, discard takes it back to where it began")
+    return Warp(warp_lattice.read_lattice(own.lattice).scaled(own.amount / 100.0), own.cells, own.fit == 'VALUE')
+
+
+def read_signs(scene: bpy.types.Scene, ob: bpy.types.Object, center: np.ndarray) -> tuple:
+    """Reads the cheap signs of a baseline: transform, border, view and light; refuses where no tool can run."""
+    obstacle = view_and_light.find_obstacle(scene)
+    if obstacle:
+        raise Refusal(obstacle)
+    seen, settings = view_and_light.read_scene_view(scene, center), scene.reflection_lines
+    return (ob.name, tuple(map(tuple, ob.matrix_world)), settings.border,
+            *(tuple(getattr(seen, name)) for name in ("view_direction", "line_direction")))
+
+
+def read_baseline(scene: bpy.types.Scene, ob: bpy.types.Object) -> Baseline:
+    """Reads the baseline: the patch at the start of the live warp, with view and border."""
+    settings = scene.reflection_lines
+    patch = gather.gather_patch(ob, settings.live.solve_for, settings.live.result, live_warp_start.read_whole_start(ob))
+    now = read_signs(scene, ob, patch.center)
+    return Baseline(patch, facing.read_patch_view(scene, patch), settings.border, now)
+
+
+def bind_target(wanted: Warp) -> BuildTarget:
+    """Returns the target builder of a warp."""
+    return partial(warp.build_warp_target, settings=wanted)
+
+
+def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
+    """Reads the settings of the solve from the scene."""
+    return SolveSettings(scene.reflection_lines.border, scene.reflection_lines.length)
+
+
+def read_operator_settings(scene: bpy.types.Scene) -> dict[str, object]:
+    """Returns the settings with which the operator Warp makes the same shape."""
+    settings, own = scene.reflection_lines, scene.reflection_lines.warp
+    return {"amount": own.amount, "cells": own.cells, "fit": own.fit, "border": settings.border,
+            "solve_for": settings.live.solve_for, "result": settings.live.result}

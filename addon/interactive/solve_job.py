@@ -1,0 +1,125 @@
+"""The solves of a drag or a live warp on a background thread: numpy and the native module only.
+
+Every patch has two optimizers. The first keeps the heights of the start: targets are built from its lines. The second
+follows the mouse, warm-started from its last solution, which takes a few back substitutions instead of a factorization.
+The final result is solved by the first from the start, so it does not depend on the path of the mouse.
+"""
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import native
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..model.solution import Solution, SolveSettings
+from ..model.view import View
+from ..solver import live_optimizer, solve
+from ..solver.formulation import choose_formulation
+from ..solver.live_optimizer import BuildTarget, LiveOptimizer
+from ..state import optimizer_cache
+
+# Relative to the gradient after a move of the mouse; 1e-2 would leave 4e-5 of the size after a closed path.
+FOLLOW_TOLERANCE = 1e-4
+
+
+@dataclass(frozen=True)
+class SolveRequest:
+    """The wanted target of each patch."""
+    builds: tuple[BuildTarget, ...]
+    settings: SolveSettings
+    final: bool = False  # whether the result is kept, so solved from the start
+
+
+@dataclass(frozen=True)
+class SolveOutcome:
+    """The positions that a request led to, or why there are none."""
+    request: SolveRequest
+    positions: tuple[np.ndarray, ...] = ()  # #V x 3 of each panel, world space
+    solutions: tuple[Solution, ...] = ()    # results of a final request
+    refusal: str = ""                       # why there are none, as a sentence
+
+
+class SolveJob:
+    """The optimizers of the patches, and the progress of what they do."""
+
+    def __init__(self, patches: Sequence[Patch], views: Sequence[View], border: str) -> None:
+        self.patches, self.views, self.border = tuple(patches), tuple(views), border
+        self.starts: list[LiveOptimizer | None] = [optimizer_cache.take_optimizer(patch, seen, border)
+                                                   for patch, seen in zip(patches, views, strict=True)]
+        self.followers: list[native.ShapeOptimizer] = []
+        self.progress = native.reflines.Progress()
+        self.stage = "Preparing"
+        self.cancelled = False
+
+    @property
+    def ready(self) -> bool:
+        """Whether all optimizers are built."""
+        return len(self.followers) == len(self.patches)
+
+    def describe_stage(self) -> str:
+        """Describes the present stage and its progress for the status bar."""
+        inner = self.progress.stage
+        return f"{self.stage} {self.progress.fraction:.0%}" + (f" ({inner})" if inner else "")
+
+    def cancel(self) -> None:
+        """Cancels the running request and every later one. To cancel the running one only, cancel `progress`."""
+        self.cancelled = True
+        self.progress.cancel()
+
+    def run(self, request: SolveRequest) -> SolveOutcome:
+        """Serves a request on the background thread; refusals and cancellation become the outcome's text."""
+        self.progress = native.reflines.Progress()
+        if self.cancelled:
+            self.progress.cancel()
+        try:
+            self.prepare()
+            return self.solve_from_start(request) if request.final else self.follow(request)
+        except Refusal as refusal:
+            return SolveOutcome(request, refusal=str(refusal))
+        except native.Cancelled as cancelled:
+            return SolveOutcome(request, refusal=str(cancelled))
+
+    def prepare(self) -> None:
+        """Builds the optimizers that are missing."""
+        for start in self.starts:
+            if start is not None:
+                start.optimizer.watch(self.progress)
+        while not self.ready:
+            which = len(self.followers)
+            patch, seen = self.patches[which], self.views[which]
+            with live_optimizer.convert_native_errors(patch):
+                if self.starts[which] is None:
+                    self.starts[which] = live_optimizer.build_optimizer(patch, seen, self.border, self.progress)
+                follower = live_optimizer.build_optimizer(patch, seen, self.border, self.progress, to_follow=True)
+                self.followers.append(follower.optimizer)
+
+    def follow(self, request: SolveRequest) -> SolveOutcome:
+        """Solves warm-started from the last solution, to FOLLOW_TOLERANCE."""
+        self.stage = "Following"
+        positions = []
+        every = zip(self.patches, self.starts, self.followers, request.builds, strict=True)
+        for patch, start, follower, build in every:
+            with live_optimizer.convert_native_errors(patch):
+                target = live_optimizer.build_target(start, build)
+                follower.solve(target, gradient_tolerance=FOLLOW_TOLERANCE, progress=self.progress)
+                positions.append(choose_formulation(patch, start.view).read_positions(follower))
+        return SolveOutcome(request, tuple(positions))
+
+    def solve_from_start(self, request: SolveRequest) -> SolveOutcome:
+        """Solves from the heights of the start, and measures the result."""
+        self.stage = "Solving from the start"
+        solutions = []
+        for start, build in zip(self.starts, request.builds, strict=True):
+            start.optimizer.reset()
+            with live_optimizer.convert_native_errors(start.patch):
+                solutions.append(solve.solve_patch(start, build, request.settings, self.progress))
+            start.optimizer.reset()  # the next target is built from the start's lines too
+        return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
+
+    def return_optimizers(self) -> None:
+        """Returns the optimizers to the cache, for the redo panel and the next drag; only while the thread is idle."""
+        for start in self.starts:
+            if start is not None:
+                optimizer_cache.return_optimizer(start)
+        optimizer_cache.drop_surplus({patch.name for patch in self.patches})

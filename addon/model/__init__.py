@@ -1,0 +1,1 @@
+"""What the add-on computes with: frozen bundles of arrays, without Blender."""

@@ -1,0 +1,79 @@
+"""The control mesh of a Catmull-Clark surface (the cage) as arrays, and the patch that is solved for it."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .patch import Patch
+
+IN_PLANE_TOLERANCE = 1e-6  # relative to a unit view direction
+
+
+@dataclass(frozen=True)
+class Cage:
+    """The control mesh that the modifier subdivides, in world space; with a Mirror modifier the other half follows the
+    mesh's own.
+    """
+    V: np.ndarray          # #V x 3
+    sizes: np.ndarray      # #faces: corners of each
+    corners: np.ndarray    # all corners, counter-clockwise seen from outside
+    region: np.ndarray     # #faces, bool
+    creases: np.ndarray    # #C x 2
+    sharpness: np.ndarray  # #C
+    sharp_corners: np.ndarray      # #K
+    corner_sharpness: np.ndarray   # #K
+    partner: np.ndarray    # #V: mirror images, -1 where there is none
+    own_faces: int         # how many of the faces are the mesh's
+    rules: tuple[tuple[str, object], ...]  # the modifier's options as arguments of reflines.CageOptimizer
+
+    def same(self, other: "Cage") -> bool:
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
+
+    def build_arguments(self, symmetric: bool) -> dict[str, object]:
+        """Builds the arguments of reflines.CageOptimizer.
+
+        Where the view is not in the mirror plane only the mesh's own half is solved; its seam is then a border across
+        which the surface stays smooth.
+        """
+        region = self.region & (symmetric | (np.arange(len(self.region)) < self.own_faces))
+        offsets = np.append(0, np.cumsum(self.sizes))
+        return dict(self.rules, V=self.V, face_offsets=offsets, face_vertices=self.corners, region=region,
+                    creases=self.creases, crease_sharpness=self.sharpness, corners=self.sharp_corners,
+                    corner_sharpness=self.corner_sharpness, partner=self.partner if symmetric else None)
+
+
+@dataclass(frozen=True)
+class CagePatch(Patch):
+    """The region of a cage, with all of the cage around it."""
+    cage: Cage
+    mirror_axis: int  # axis of the object normal to the mirror plane; -1: none
+
+    def same(self, other: Patch) -> bool:
+        return isinstance(other, CagePatch) and self.cage.same(other.cage) and super().same(other)
+
+    def is_symmetric_for(self, view_direction: np.ndarray) -> bool:
+        """Returns whether moves along the view keep the cage symmetric."""
+        along = np.linalg.solve(self.matrix[:3, :3], view_direction)
+        return self.mirror_axis >= 0 and abs(along[self.mirror_axis]) <= IN_PLANE_TOLERANCE * np.linalg.norm(along)
+
+
+def mirror_cage(local: np.ndarray, axis: int, merge: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mirrors positions as the modifier does: both halves, the image of each vertex of the first, and the images in
+    both.
+
+    Vertices within `merge` of the plane are merged with their image.
+    """
+    seam = 2.0 * np.abs(local[:, axis]) <= merge
+    sign = np.where(np.arange(3) == axis, -1.0, 1.0)
+    own = np.where(seam[:, None] & (sign < 0.0), 0.0, local)
+    image = np.where(seam, np.arange(len(local)), len(local) + np.cumsum(~seam) - 1)
+    both = np.concatenate([own, own[~seam] * sign])
+    partner = np.empty(len(both), dtype=np.int64)
+    partner[:len(local)], partner[image] = image, np.arange(len(local))
+    return both, image, partner
+
+
+def reverse_faces(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """Reverses the order of every face's corners."""
+    starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
+    ends = starts + np.repeat(sizes, sizes) - 1
+    return corners[starts + ends - np.arange(len(corners))]

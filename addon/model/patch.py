@@ -1,0 +1,83 @@
+"""The patch: the region of one mesh as arrays, and the way back to the mesh."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import mirror
+from .creases import Creases
+from .mirror import Mirror
+from .refusal import Refusal
+
+
+@dataclass(frozen=True)
+class Patch:
+    """The region of one object as the solver takes it, and what writing the result needs."""
+    name: str            # name of the object
+    faces: np.ndarray    # #mesh faces, bool: the region
+    index: np.ndarray    # #V: the mesh vertex behind each vertex of the region
+    local: np.ndarray    # #V x 3, object space
+    V: np.ndarray        # #V x 3, world space
+    F: np.ndarray        # #F x 3, oriented so that normals point outwards in world space
+    matrix: np.ndarray   # 4 x 4, object to world
+    key: str             # the shape key that the result goes to; empty for the mesh itself
+    mirror: Mirror | None
+    creases: Creases
+
+    @property
+    def center(self) -> np.ndarray:
+        """The centre of the bounding box, with the image that a Mirror modifier adds.
+
+        Unlike the mean of the vertices it does not depend on how densely the mesh is subdivided.
+        """
+        own = compute_bounds(self.V)
+        if self.mirror is None or not self.mirror.image or self.mirror.axis < 0:
+            return 0.5 * sum(own)
+        image = compute_bounds(self.to_world(self.local * self.mirror.sign))
+        return 0.5 * (np.minimum(own[0], image[0]) + np.maximum(own[1], image[1]))
+
+    @property
+    def local_center(self) -> np.ndarray:
+        """The centre in object space."""
+        return np.linalg.solve(self.matrix, np.append(self.center, 1.0))[:3]
+
+    @property
+    def diagonal(self) -> float:
+        """The length of the bounding box's diagonal, without the image."""
+        low, high = compute_bounds(self.V)
+        return float(np.linalg.norm(high - low))
+
+    def to_world(self, local: np.ndarray) -> np.ndarray:
+        """Transforms #points x 3 from object space to world space."""
+        return local @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+
+    def round_start_positions(self) -> np.ndarray:
+        """Returns the positions that the mesh had, as Blender stores them: #V x 3 float32, object space."""
+        return self.local.astype(np.float32)
+
+    def to_object_space(self, positions: np.ndarray) -> np.ndarray:
+        """Transforms solved positions to object space: #V x 3 float32.
+
+        The move is transformed and added to the old coordinates, so that rounding moves no vertex across the view.
+        Refuses what float32 cannot hold.
+        """
+        move = (positions - self.V) @ np.linalg.inv(self.matrix[:3, :3]).T
+        exact = self.local + move
+        if not (np.abs(exact) < np.finfo(np.float32).max).all():
+            raise Refusal(f"{self.name}: the result lies too far away to be stored, so nothing was changed: "
+                          "ask for less, or apply the object's scale")
+        new = exact.astype(np.float32)
+        return new if self.mirror is None else mirror.restore_symmetry(self.mirror, new, self.local)
+
+    def same(self, other: "Patch") -> bool:
+        """Returns whether an optimizer built for one patch serves the other."""
+        return (type(self) is type(other) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
+                and mirror.are_equal(self.mirror, other.mirror) and np.array_equal(self.matrix, other.matrix)
+                and self.creases.same(other.creases))
+
+
+def compute_bounds(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the lowest and highest corner of the bounding box, by columns, which is ten times faster in numpy than by
+    rows.
+    """
+    columns = np.ascontiguousarray(V.T)
+    return columns.min(axis=1), columns.max(axis=1)

@@ -1,0 +1,54 @@
+"""Requests and results of a solve."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import native
+from .patch import Patch
+
+
+@dataclass(frozen=True)
+class SolveSettings:
+    """The parameters that every solve needs beside its target."""
+    border: str
+    length: float  # detail finer than this counts as wobble, world units; 0: a share of the patch's diagonal
+
+
+@dataclass(frozen=True)
+class PressReport:
+    """How an automatic press of Smooth ended, by the names that native.Report has; lengths in world units."""
+    termination: str     # of the last solve; "not_applied" where nothing was moved
+    message: str
+    iterations: int      # of the last solve
+    seconds: float       # of the whole press
+    unknowns: int
+    largest_move: float  # along the view, of the whole press
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The result of one solve of one patch. Scores are degrees."""
+    patch: Patch
+    positions: np.ndarray  # #V x 3, world space
+    report: "native.Report | PressReport"
+    target: "native.Target"
+    residual: np.ndarray   # #F, |grad theta - target|, radians / length
+    residual_before: float  # root mean square by area and the target's weight, radians / length
+    residual_after: float
+    length: float
+    score_before: float
+    score_after: float
+    notes: tuple[str, ...]
+    automatic_length: float = 0.0  # what the length 0 stands for in this patch, world units
+    remedy: str = ""  # the border that would let a larger share of the wish be reached; empty where this one does
+
+    def to_last_solve(self) -> "LastSolve":
+        return LastSolve(self.patch, self.positions, self.residual)
+
+
+@dataclass(frozen=True)
+class LastSolve:
+    """What is remembered of the last solve of an object and saved with the file (state/persistence.py)."""
+    patch: Patch
+    positions: np.ndarray  # #V x 3, world space
+    residual: np.ndarray   # #F; empty where it is not known

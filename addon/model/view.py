@@ -1,0 +1,11 @@
+"""View and light: two directions in world space."""
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class View:
+    """The directions that define the reflection function: unit vectors in world space."""
+    view_direction: np.ndarray  # 3, from the surface towards the viewer
+    line_direction: np.ndarray  # 3, along the line lights

@@ -1,0 +1,176 @@
+"""The base of tools that can be dragged: pressed they solve at once, asked to follow the mouse they are dragged.
+
+In a drag Enter keeps the result and its values, Esc takes all back.
+"""
+import bpy
+from bpy.props import BoolProperty
+
+from ..bridge.read_falloff import choose_radius
+from ..interactive.drag import Drag
+from ..interactive.drag_handles import Handle
+from ..interactive.solve_job import SolveOutcome
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..solver import solve
+from ..targets.falloff import Falloff
+from .solve_tool import SolveTool
+
+DIGITS = {name: str(digit) for digit, word in enumerate(
+    ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"))
+    for name in (word, f"NUMPAD_{digit}")}
+CHARACTERS = DIGITS | {'PERIOD': '.', 'NUMPAD_PERIOD': '.', 'COMMA': '.', 'MINUS': '-', 'NUMPAD_MINUS': '-'}
+NOTCHES = {'WHEELUPMOUSE': 1, 'WHEELDOWNMOUSE': -1}
+KEEP_KEYS, CANCEL_KEYS = {'LEFTMOUSE', 'RET', 'NUMPAD_ENTER'}, {'ESC', 'RIGHTMOUSE'}
+NAVIGATION = {'MIDDLEMOUSE', 'TRACKPADPAN', 'TRACKPADZOOM', 'NDOF_MOTION'}
+
+
+def build_radius_handle(centre: str) -> tuple[Handle, ...]:
+    """Returns the handle of the radius for a tool with tool_properties.FalloffSettings; none where it acts everywhere.
+    """
+    if centre == 'EVERYWHERE':
+        return ()
+    return (Handle("radius", "Radius", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH',
+                   wheel=True),)
+
+
+class DraggedTool(SolveTool):
+    """A tool with handles. Pressed it runs at once with the sidebar's settings, which the redo panel can change; with
+    `follow_mouse` it is dragged in the 3D view, and the values that are kept become the sidebar's.
+    """
+    bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
+
+    follow_mouse: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Drag the tool's values in the 3D view")
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Returns the tooltip of the handle beside a button; empty for the button itself, which has the docstring."""
+        return f"Drag {cls.bl_label} in the 3D view, from the present settings" if properties.follow_mouse else ""
+
+    def build_handles(self) -> tuple[Handle, ...]:
+        """Returns the handles; the mouse moves the first, Tab switches to the next."""
+        raise NotImplementedError
+
+    def choose_automatic(self, name: str, patch: Patch) -> float:
+        """Returns the value that 0 stands for in a property."""
+        return {"length": solve.choose_length(patch, 0.0), "radius": choose_radius(patch)}.get(name, 0.0)
+
+    def read_falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, _patch: Patch) -> Falloff | None:
+        """Returns the tool's fall-off, None where it acts everywhere alike."""
+        return None
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if not self.follow_mouse or context.area is None or context.area.type != 'VIEW_3D':
+            return self.execute(context)
+        context.view_layer.update()
+        self.copy_settings(context.scene)
+        try:
+            self.drag = Drag(self, context)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        self.drag.begin_at(context, event.mouse_x, event.mouse_y)
+        self.drag.update_texts(context)
+        context.window_manager.modal_handler_add(self)
+        return {'RUNNING_MODAL'}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        try:
+            return self.handle_timer(context) if event.type == 'TIMER' else self.handle_event(context, event)
+        except Refusal as refusal:
+            self.end_drag(context)
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+
+    def handle_timer(self, context: bpy.types.Context) -> set[str]:
+        """Submits moved values, and takes what the thread has finished."""
+        drag = self.drag
+        if drag.moved and drag.thread.is_idle():
+            drag.submit_request(context)  # not at each move: Blender redraws all windows when a property is set
+        outcome = drag.thread.take()
+        if outcome is None and not drag.thread.is_alive():
+            return self.cancel_drag(context, "The solver stopped: the mesh is as it was before")
+        if outcome is not None and (outcome.refusal or outcome.solutions or not drag.keeping):
+            return self.take_outcome(context, outcome)
+        drag.update_texts(context)
+        return {'RUNNING_MODAL'}
+
+    def take_outcome(self, context: bpy.types.Context, outcome: SolveOutcome) -> set[str]:
+        drag = self.drag
+        drag.problem = outcome.refusal
+        if outcome.refusal and (drag.keeping or not drag.job.ready):
+            return self.cancel_drag(context, outcome.refusal)
+        if not outcome.refusal:
+            drag.show_positions(outcome.positions)
+        if outcome.solutions:
+            return self.finish_drag(context, outcome)
+        drag.update_texts(context)
+        return {'RUNNING_MODAL'}
+
+    def handle_event(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Handles a key or mouse event. Others are swallowed: an undo or a change of mode would meet a half-written
+        mesh.
+        """
+        if event.type in CANCEL_KEYS and event.value == 'PRESS':
+            return self.cancel_drag(context)
+        if event.type in NAVIGATION or event.type in NOTCHES and self.drag.values.find_wheel_handle() is None:
+            return {'PASS_THROUGH'}
+        if self.drag.keeping:
+            return {'RUNNING_MODAL'}
+        if event.type in KEEP_KEYS and event.value == 'PRESS':
+            self.drag.submit_request(context, final=True)
+        elif self.update_values(event):
+            self.drag.moved = True
+        self.drag.update_texts(context)
+        return {'RUNNING_MODAL'}
+
+    def update_values(self, event: bpy.types.Event) -> bool:
+        """Changes the values by an event; returns whether that may have changed one."""
+        values = self.drag.values
+        if event.type == 'MOUSEMOVE':
+            self.drag.move_mouse(event.mouse_x, event.mouse_y, precise=event.shift)
+            return not values.typed[values.held]
+        if event.type in NOTCHES:
+            values.wheel(NOTCHES[event.type], precise=event.shift)
+            return True
+        if event.value == 'PRESS':
+            return self.type_key(event.type)
+        return False
+
+    def type_key(self, key: str) -> bool:
+        values = self.drag.values
+        if key in CHARACTERS:
+            values.type(CHARACTERS[key])
+        elif key == 'BACK_SPACE':
+            values.erase()
+        elif key == 'TAB':
+            values.hold_next()
+            return False
+        else:
+            return False
+        return True
+
+    def finish_drag(self, context: bpy.types.Context, outcome: SolveOutcome) -> set[str]:
+        self.drag.write_solutions(outcome.solutions)
+        for ob, solution in zip(self.drag.find_objects(), outcome.solutions, strict=True):
+            self.record_solution(ob, solution)
+        self.drag.keep_values(self.find_scene_settings(context.scene))
+        self.end_drag(context)
+        return {'FINISHED'}
+
+    def cancel_drag(self, context: bpy.types.Context, why: str = "") -> set[str]:
+        self.drag.restore()
+        self.end_drag(context)
+        if why:
+            self.report({'ERROR'}, why)
+        return {'CANCELLED'}
+
+    def end_drag(self, context: bpy.types.Context) -> None:
+        """Ends the drag and drops it: Blender keeps the operator for its redo panel, and the drag holds large factors.
+        """
+        drag, self.drag = self.drag, None
+        drag.end(context)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Restores the mesh when Blender exits or opens another file."""
+        drag, self.drag = self.drag, None
+        drag.abort(context)

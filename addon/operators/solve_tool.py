@@ -1,0 +1,139 @@
+"""The base of operators that solve: when they can run, gathering, applying, and reporting to the artist."""
+import bpy
+import numpy as np
+from bpy.props import BoolProperty
+
+from ..bridge import (facing, gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, view_and_light,
+                      write_mesh)
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..model.solution import Solution, SolveSettings
+from ..solver.live_optimizer import BuildTarget
+from ..state import optimizer_cache, solve_history
+from ..ui.properties import result_property, solve_for_property
+from ..ui.tool_properties import border_property
+
+SHARED = {"border", "solve_for", "result"}  # settings of the scene for all tools that have none of their own
+LOST_START = ("The run began with the mesh as it is now: the shape before the last run is not known, since the mesh "
+              "was changed, undone, renamed or duplicated after it")
+
+
+class SolveTool:
+    """A tool adds its settings, names the property group that holds the scene's, and builds a target from them."""
+    bl_options = {'REGISTER', 'UNDO'}
+
+    border: border_property()
+    solve_for: solve_for_property(options={'SKIP_SAVE'})
+    result: result_property(options={'SKIP_SAVE'})
+    anew: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Begin with the shape before the last run")
+    shared: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Also in Object Mode change a mesh that other "
+                         "objects share, as Edit Mode does")
+
+    def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
+        """Returns the scene's settings, which stand for those not given."""
+        raise NotImplementedError
+
+    def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
+        """Returns the builder of the tool's target."""
+        raise NotImplementedError
+
+    def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
+        """Returns sentences about a finished solve beside the solver's own."""
+        return ()
+
+    def read_detail_length(self, scene: bpy.types.Scene) -> float:
+        """Returns the length below which detail counts as wobble in the score; 0 is a share of the patch's diagonal."""
+        return scene.reflection_lines.length
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = scene_objects.find_active_object(context)
+        if ob is None or ob.type != 'MESH' or ob.mode not in {'EDIT', 'OBJECT'}:
+            cls.poll_message_set("Make the panel's mesh the active object, in Edit Mode or Object Mode")
+            return False
+        obstacle = view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
+        cls.poll_message_set(obstacle)
+        return not obstacle
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        context.view_layer.update()  # scripts may have set transforms that are not evaluated yet
+        self.copy_settings(context.scene)
+        subjects = []
+        try:
+            subjects = self.find_subjects(context)
+            solutions = [self.solve(context, ob) for ob in subjects]
+            for solution in solutions:  # all or none are written
+                solution.patch.to_object_space(solution.positions)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        finally:
+            optimizer_cache.drop_surplus({ob.name for ob in subjects})
+        for solution in solutions:  # before writing: a result in a shape key ends Edit Mode for all objects
+            region_faces.keep_region(bpy.data.objects[solution.patch.name], solution.patch)
+        for solution in solutions:
+            ob = bpy.data.objects[solution.patch.name]
+            write_mesh.write_solution(ob, solution.patch, solution.positions)
+            self.record_solution(ob, solution)
+        return {'FINISHED'}
+
+    def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        return scene_objects.find_subjects(context)
+
+    def copy_settings(self, scene: bpy.types.Scene) -> None:
+        """Copies the scene's settings into the properties that were not given."""
+        own = self.find_scene_settings(scene)
+        for name, _ in self.properties.bl_rna.properties.items():
+            shared = name in SHARED and name not in own.bl_rna.properties
+            holder = scene.reflection_lines if shared else own
+            taken = holder.bl_rna.properties.get(name)
+            if taken is not None and taken.type != 'POINTER' and not self.properties.is_property_set(name):
+                setattr(self, name, getattr(holder, name))
+
+    def solve(self, context: bpy.types.Context, ob: bpy.types.Object) -> Solution:
+        return self.solve_patch(context, ob, self.gather_patch(ob))
+
+    def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
+        build = self.build_target(context, ob, patch)
+        settings = SolveSettings(self.border, self.read_detail_length(context.scene))
+        seen = facing.read_patch_view(context.scene, patch)
+        return optimizer_cache.solve_with_cache(patch, seen, settings, build)
+
+    def gather_patch(self, ob: bpy.types.Object) -> Patch:
+        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), shared=self.shared)
+
+    def begin_run(self, ob: bpy.types.Object) -> np.ndarray | None:
+        """Returns the shape to begin with: #vertices x 3, None for the mesh as it is.
+
+        Records for the report whether the shape before the last run was lost, and whether the stored region was taken.
+        """
+        found = self.find_original_shape(ob) if self.anew else None
+        self.lost_start = self.anew and found is None
+        self.region_stored = ob.mode != 'EDIT' and region_faces.has_stored_region(ob.data)
+        return found
+
+    def find_original_shape(self, ob: bpy.types.Object) -> np.ndarray | None:
+        """Returns the shape before the last run: #vertices x 3, in Object Mode; None where the mesh has changed since.
+        """
+        if self.result == 'SHAPE_KEY':
+            return shape_keys.read_original_shape(ob)
+        last = solve_history.find_last_solve(ob.name)
+        return None if last is None else read_mesh.read_shape_before(ob, last.patch, last.positions)
+
+    def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
+        """Records a solution beside its positions: region, history, report, and the run for Re-solve."""
+        region_faces.keep_region(ob, solution.patch)
+        solve_history.remember_solve(solution.to_last_solve())
+        stored = ob.reflection_lines
+        stored.center = solution.patch.local_center
+        stored.keep_view(bpy.context.scene)
+        stored.run.fill(self, ob.data, solution.patch.key)
+        lost = (LOST_START,) if self.lost_start else ()
+        shown = (*shape_keys.describe_hidden_key(ob, solution.patch.key),
+                 *modifiers.describe_unsolved_modifiers(ob, self.solve_for))
+        stored.report.fill(solution, (*solution.notes, *self.describe_solution(solution), *shown, *lost))
+        for note in stored.report.notes.splitlines():
+            self.report({'WARNING'}, f"{ob.name}: {note}")
+        faces = f" ({solution.patch.faces.sum()} faces kept as the region; in Edit Mode the selected ones are taken)"
+        # The status bar shows the last report.
+        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}{faces if self.region_stored else ''}")

@@ -1,0 +1,39 @@
+"""A circle in space that shows the radius of a dragged tool."""
+from collections.abc import Callable
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+COLOR = (1.0, 1.0, 1.0, 0.8)
+WIDTH = 1.5  # pixels
+TURN = np.linspace(0.0, 2.0 * np.pi, 97)
+
+
+def sample_circle(centre: np.ndarray, radius: float, frame: np.ndarray) -> np.ndarray:
+    """Samples a circle along the first two rows of `frame`: #P x 3."""
+    return centre + radius * np.stack([np.cos(TURN), np.sin(TURN)], axis=1) @ frame[:2]
+
+
+def add_circle(points: Callable[[], np.ndarray | None]) -> object:
+    """Draws the line strip that `points` returns in all 3D views, until `remove_circle` gets the returned handle."""
+    return bpy.types.SpaceView3D.draw_handler_add(draw_circle, (points,), 'WINDOW', 'POST_VIEW')
+
+
+def remove_circle(handle: object) -> None:
+    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+
+
+def draw_circle(points: Callable[[], np.ndarray | None]) -> None:
+    positions = points()
+    if positions is None:
+        return
+    shader = gpu.shader.from_builtin('UNIFORM_COLOR')
+    gpu.state.blend_set('ALPHA')
+    gpu.state.line_width_set(WIDTH)
+    shader.bind()
+    shader.uniform_float("color", COLOR)
+    batch_for_shader(shader, 'LINE_STRIP', {"pos": positions.astype(np.float32).tolist()}).draw(shader)
+    gpu.state.line_width_set(1.0)
+    gpu.state.blend_set('NONE')

@@ -1,0 +1,79 @@
+"""The legend of the maps in a 3D view: a bar of their colours, what the ends stand for, with unit and sign."""
+import blf
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from ..bridge import units, view_region
+from ..state import solve_history
+from . import shown_objects, solve_maps, stripe_scene, stripes
+
+WIDTH, HEIGHT, MARGIN, STEPS = 220.0, 12.0, 16.0, 64  # pixels at a scale of 1; and pieces of the bar
+FONT, SIZE = 0, 11.0
+TITLES = {'DEVIATION': "Moved by the last solve, + outwards", 'RESIDUAL': "Lines off the wanted ones"}
+
+
+def find_full_value(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> float | None:
+    """Returns the value with the last colour, of the first mesh shown with a map; None where none is."""
+    if not settings.show or settings.mode not in stripe_scene.MAPS or not context.space_data.overlay.show_overlays:
+        return None
+    for ob in shown_objects.find_shown_objects(context, settings):
+        solution = solve_history.find_last_solve(ob.name)
+        if solution is not None:
+            values = solve_maps.compute_values(solution, settings.mode)
+            return settings.map_range or float(np.abs(values).max(initial=0.0))
+    return None
+
+
+def describe_ends(scene: bpy.types.Scene, mode: str, full: float) -> tuple[str, str, str]:
+    """Describes the values at the ends and in the middle of the bar, left, middle and right, in the scene's units."""
+    if mode == 'DEVIATION':
+        length = units.format_length(full, scene)
+        return f"\u2212{length}", "0", f"+{length}"
+    system = scene.unit_settings
+    per, scale = ("unit", 1.0) if system.system == 'NONE' else ("m", system.scale_length)
+    return "0", f"{full / scale / 2.0:.3g}", f"{full / scale:.3g} rad/{per}"
+
+
+def draw_legend() -> None:
+    """Draws the legend in a viewport (POST_PIXEL)."""
+    context = bpy.context
+    settings = context.scene.reflection_lines.stripes
+    full = find_full_value(context, settings)
+    if full is None:
+        return
+    scale = context.preferences.system.ui_scale
+    left = view_region.find_view_left(context.area) - context.region.x + MARGIN * scale
+    low = 4.5 * MARGIN * scale  # above the redo panel
+    draw_bar(settings.mode, left, low, scale)
+    ends = describe_ends(context.scene, settings.mode, full)
+    blf.size(FONT, SIZE * scale)
+    blf.color(FONT, 1.0, 1.0, 1.0, 1.0)
+    blf.enable(FONT, blf.SHADOW)
+    blf.shadow(FONT, 3, 0.0, 0.0, 0.0, 1.0)
+    for text, share in zip(ends, (0.0, 0.5, 1.0), strict=True):
+        draw_text(text, left + share * (WIDTH * scale - blf.dimensions(FONT, text)[0]), low - 1.2 * SIZE * scale)
+    draw_text(TITLES[settings.mode], left, low + (HEIGHT + 5.0) * scale)
+    blf.disable(FONT, blf.SHADOW)
+
+
+def draw_text(text: str, x: float, y: float) -> None:
+    blf.position(FONT, x, y, 0.0)
+    blf.draw(FONT, text)
+
+
+def draw_bar(mode: str, left: float, low: float, scale: float) -> None:
+    share = np.repeat(np.linspace(0.0, 1.0, STEPS + 1), 2)
+    colors = encode_color(stripes.compute_ramp(share, stripes.SIGNED_RAMP if mode == 'DEVIATION' else stripes.RAMP))
+    places = np.column_stack([left + share * WIDTH * scale,
+                              low + np.tile([0.0, HEIGHT * scale], STEPS + 1)]).astype(np.float32)
+    shader = gpu.shader.from_builtin('SMOOTH_COLOR')
+    points = [(x, y, 0.0) for x, y in places.tolist()]
+    batch_for_shader(shader, 'TRI_STRIP', {"pos": points, "color": [(*color, 1.0) for color in colors.tolist()]}
+                     ).draw(shader)
+
+
+def encode_color(linear: np.ndarray) -> np.ndarray:
+    """Returns sRGB values of linear ones (IEC 61966-2-1), which Blender's own shaders take."""
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0.0) ** (1.0 / 2.4) - 0.055)

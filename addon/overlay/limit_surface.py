@@ -1,0 +1,59 @@
+"""Limit surfaces of cages with their limit normals, by OpenSubdiv."""
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import native
+from ..model.cage import Cage
+from ..model.surface import Surface, Topology
+
+NOWHERE = np.zeros((0, 3))
+
+
+@dataclass(frozen=True)
+class LimitTopology:
+    """A subdivided cage without its positions."""
+    cage: Cage
+    subdivision: "native.Subdivision"
+    topology: Topology
+
+
+class LimitSurfaces:
+    """The subdivisions by object name, kept while only the positions of a cage change."""
+
+    def __init__(self) -> None:
+        self.kept: dict[str, LimitTopology] = {}
+
+    def update_surface(self, name: str, cage: Cage, selected: np.ndarray) -> Surface | None:
+        """Returns the limit surface in the cage's space, subdividing anew where the topology changed; None where
+        OpenSubdiv refuses it.
+        """
+        still = replace(cage, V=NOWHERE)
+        if name not in self.kept or not self.kept[name].cage.same(still):
+            try:
+                self.kept[name] = build_limit_topology(still, len(cage.V))
+            except native.InvalidInput:
+                self.kept.pop(name, None)
+                return None
+        limit = self.kept[name]
+        return Surface(limit.subdivision.positions(cage.V), limit.topology, selected[limit.topology.faces],
+                       limit.subdivision.normals(cage.V))
+
+    def drop(self, name: str) -> None:
+        self.kept.pop(name, None)
+
+    def clear(self) -> None:
+        self.kept.clear()
+
+
+def build_limit_topology(cage: Cage, vertices: int) -> LimitTopology:
+    """Subdivides a cage without positions."""
+    arguments = cage.build_arguments(True)
+    names = ("face_offsets", "face_vertices", "creases", "crease_sharpness", "corners", "corner_sharpness",
+             "level", "limit", "boundary")
+    subdivision = native.reflines.Subdivision(**{name: arguments[name] for name in names}, vertices=vertices)
+    quads, parent = subdivision.faces, subdivision.face_parent
+    F = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.int32)
+    seen = cage.region[parent]
+    topology = Topology(quads.ravel(), np.full(len(quads), 4), seen, F[np.repeat(seen, 2)], np.repeat(parent[seen], 2))
+    return LimitTopology(cage, subdivision, topology)

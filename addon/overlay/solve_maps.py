@@ -1,0 +1,72 @@
+"""The last solve as arrays to draw: its residual, its deviation, and the shape before it."""
+import numpy as np
+
+from ..model.solution import LastSolve
+from . import stripes
+
+Arrays = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # positions, triangles, normals, shares of full colour
+
+# Relative to the patch's size: vertices further from where the solve left them have been changed since.
+UNCHANGED_TOLERANCE = 1e-4
+
+
+def compute_left_positions(solution: LastSolve) -> np.ndarray:
+    """Returns where the solve left the patch's vertices: #V x 3, object space."""
+    patch = solution.patch
+    return patch.local + np.linalg.solve(patch.matrix[:3, :3], (solution.positions - patch.V).T).T
+
+
+def is_current(solution: LastSolve, V: np.ndarray, vertices: int) -> bool:
+    """Returns whether the surface shown (V) is as the solve left it; True where its vertices are not the mesh's."""
+    patch = solution.patch
+    if len(V) != vertices:
+        return True
+    if patch.index[-1] >= len(V):
+        return False
+    size = np.ptp(patch.local, axis=0).max()
+    return bool(np.abs(V[patch.index] - compute_left_positions(solution)).max() <= UNCHANGED_TOLERANCE * size)
+
+
+def build_residual_map(solution: LastSolve, full: float) -> Arrays:
+    """Builds the map of the residual, constant on each triangle, so with own vertices; empty where it is not known."""
+    F = solution.patch.F if len(solution.residual) == len(solution.patch.F) else solution.patch.F[:0]
+    residual = solution.residual[:len(F)]
+    V = compute_left_positions(solution)[F].reshape(-1, 3)
+    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(scale_values(residual, full), 3)
+
+
+def build_deviation_map(solution: LastSolve, full: float) -> Arrays:
+    """Builds the map of the distances that the vertices moved, positive outwards."""
+    V = compute_left_positions(solution)
+    return V, solution.patch.F, np.zeros_like(V), scale_values(compute_values(solution, 'DEVIATION'), full)
+
+
+def compute_values(solution: LastSolve, mode: str) -> np.ndarray:
+    """Computes what a map shows: the residual of each triangle, radians / length, or the distance that each vertex
+    moved, positive to the side of the normals.
+    """
+    if mode == 'RESIDUAL':
+        return solution.residual
+    move = solution.positions - solution.patch.V
+    outwards = (move * stripes.compute_area_normals(solution.patch.V, solution.patch.F)).sum(axis=1)
+    return np.copysign(np.linalg.norm(move, axis=1), outwards)
+
+
+def scale_values(values: np.ndarray, full: float) -> np.ndarray:
+    """Returns the values as shares of `full`, or of the largest where that is 0."""
+    return values / (full or np.abs(values).max(initial=0.0) or 1.0)
+
+
+def build_shape_before(solution: LastSolve, V: np.ndarray, F: np.ndarray,
+                       vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Returns where to draw, the triangles, and where the vertices were before; of the patch alone where the surface
+    has other vertices than the mesh.
+
+    Vertices move along the view, so seen from the view camera the old reflections lie on the present surface.
+    """
+    patch = solution.patch
+    if len(V) != vertices:
+        return compute_left_positions(solution), patch.F, patch.local
+    old = V.copy()
+    old[patch.index] = patch.local
+    return V, F, old

@@ -1,0 +1,148 @@
+"""Formulations: how a patch is posed to the native solver, and how its arrays are read back.
+
+There are four: the patch alone, a patch that is symmetric in itself, a patch joined with the image that a Mirror
+modifier adds, and a cage. Which one holds is decided once, by `choose_formulation`; everything else asks the result.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import native
+from ..model import mirror
+from ..model.cage import CagePatch
+from ..model.patch import Patch
+from ..model.view import View
+from ..targets import mirror_target
+
+BORDER_CODES = {"free": 0, "fixed": 1, "clamped": 2}  # of borders, vertex by vertex
+
+
+@dataclass(frozen=True)
+class Formulation:
+    """The patch alone. Below a Mirror modifier its seam is clamped, so that both halves join smoothly."""
+    patch: Patch
+    view: View
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether the solve keeps the symmetry of the patch."""
+        return False
+
+    def choose_directions(self) -> dict[str, np.ndarray]:
+        """Returns the directions as arguments of the native constructors."""
+        return {"view_direction": self.view.view_direction, "line_direction": self.view.line_direction}
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether the vertices that are solved for are those of the patch and no others."""
+        return True
+
+    def choose_border(self, border: str) -> str | np.ndarray:
+        """Returns the border, or its codes vertex by vertex (#V), as the native module takes it."""
+        if self.patch.mirror is None or not self.patch.mirror.image:
+            return border
+        return np.where(self.patch.mirror.seam, BORDER_CODES["clamped"], BORDER_CODES[border])
+
+    def build(self, border: str, progress: "native.Progress | None", *,
+              sparse: bool) -> "native.ShapeOptimizer":
+        """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely."""
+        return native.reflines.ShapeOptimizer(self.patch.V, self.patch.F, **self.choose_directions(), progress=progress,
+                                              border=self.choose_border(border),
+                                              **self.patch.creases.build_arguments())
+
+    def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
+        """Reads the solved positions of the patch's vertices: #V x 3, world space."""
+        return optimizer.positions
+
+    def complete_target(self, wanted: "native.Target") -> "native.Target":
+        """Returns the target for all that is solved, from one that was built for it."""
+        return wanted
+
+    def read_residual(self, optimizer: "native.ShapeOptimizer", target: "native.Target") -> np.ndarray:
+        """Reads the residual of the patch's triangles: #F."""
+        return optimizer.residual(target)[:len(self.patch.F)]
+
+
+class SymmetricFormulation(Formulation):
+    """A patch that is symmetric in itself: the moves of mirror images are averaged."""
+
+    @property
+    def is_symmetric(self) -> bool:
+        return True
+
+    def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
+        move = optimizer.positions - self.patch.V
+        return self.patch.V + 0.5 * (move + move[self.patch.mirror.partner])
+
+
+class JoinedFormulation(Formulation):
+    """A patch joined along the seam with the image that a Mirror modifier adds."""
+
+    @property
+    def is_symmetric(self) -> bool:
+        return True
+
+    @property
+    def is_alone(self) -> bool:
+        return False
+
+    def join(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Returns positions (world space), triangles, and mirror images of both halves."""
+        local, F, partner = mirror.join_with_image(self.patch.mirror, self.patch.local, self.patch.F)
+        return self.patch.to_world(local), F, partner
+
+    def build(self, border: str, progress: "native.Progress | None", *,
+              sparse: bool) -> "native.ShapeOptimizer":
+        V, F, partner = self.join()
+        return native.reflines.ShapeOptimizer(V, F, **self.choose_directions(), progress=progress, border=border,
+                                              **self.patch.creases.build_arguments(partner))
+
+    def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
+        V, _, partner = self.join()
+        move, own = optimizer.positions - V, len(self.patch.V)
+        return self.patch.V + 0.5 * (move[:own] + move[partner[:own]])
+
+    def complete_target(self, wanted: "native.Target") -> "native.Target":
+        sign = mirror.compute_theta_sign(self.patch.mirror, self.patch.matrix, self.view.line_direction)
+        return mirror_target.mirror_target(wanted, sign)
+
+
+class CageFormulation(Formulation):
+    """A cage, whose vertices are the unknowns; symmetric where moves along the view keep it so."""
+    patch: CagePatch
+
+    @property
+    def is_symmetric(self) -> bool:
+        return self.patch.is_symmetric_for(self.view.view_direction)
+
+    @property
+    def is_alone(self) -> bool:
+        return False
+
+    def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.ShapeOptimizer":
+        return native.reflines.CageOptimizer(**self.patch.cage.build_arguments(self.is_symmetric),
+                                             **self.choose_directions(), progress=progress, border=border,
+                                             sparse=sparse, **self.patch.creases.build_cage_arguments())
+
+    def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
+        return self.patch.V + (optimizer.cage_positions - self.patch.cage.V)[self.patch.index]
+
+    def read_residual(self, optimizer: "native.ShapeOptimizer", target: "native.Target") -> np.ndarray:
+        """Reads the root mean square over the surface of each face, for all triangles of that face: #F."""
+        residual, faces = optimizer.residual(target), len(self.patch.cage.sizes)
+        squared, area = (np.bincount(optimizer.parent, values, faces)
+                         for values in (optimizer.area * residual**2, optimizer.area))
+        mean = np.sqrt(squared / np.maximum(area, 1e-300))
+        own = np.flatnonzero(self.patch.faces)
+        return np.repeat(mean[own], self.patch.cage.sizes[own] - 2)
+
+
+def choose_formulation(patch: Patch, view: View) -> Formulation:
+    """Chooses the formulation of a patch: by its kind, and by whether view and light are symmetric about its plane."""
+    if isinstance(patch, CagePatch):
+        return CageFormulation(patch, view)
+    plane = patch.mirror
+    if plane is None or not plane.is_whole or not mirror.is_symmetric_setup(
+            plane, patch.matrix, view.view_direction, view.line_direction):
+        return Formulation(patch, view)
+    return JoinedFormulation(patch, view) if plane.image else SymmetricFormulation(patch, view)

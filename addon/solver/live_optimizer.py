@@ -1,0 +1,72 @@
+"""The native optimizer of one patch, with what it was built from."""
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import native
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..model.view import View
+from .formulation import choose_formulation
+
+BuildTarget = Callable[["native.ShapeOptimizer"], "native.Target"]
+
+
+@dataclass(frozen=True)
+class LiveOptimizer:
+    """A native optimizer with what it was built from; it serves as long as nothing of that changes."""
+    patch: Patch
+    view: View
+    border: str
+    optimizer: "native.ShapeOptimizer"
+
+    def suits(self, patch: Patch, view: View, border: str) -> bool:
+        """Returns whether the optimizer serves this patch, view and border."""
+        return (self.border == border
+                and np.array_equal(self.view.view_direction, view.view_direction)
+                and np.array_equal(self.view.line_direction, view.line_direction)
+                and self.patch.same(patch))
+
+
+def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Progress | None" = None, *,
+                    to_follow: bool = False) -> LiveOptimizer:
+    """Builds the optimizer of a patch, which takes long. Refuses closed surfaces; raises the native module's errors.
+
+    `progress` goes on watching the optimizer. `to_follow` a drag, a cage is sampled more coarsely: several times faster
+    steps, and a shape that differs by a hundredth of the move.
+    """
+    optimizer = choose_formulation(patch, seen).build(border, progress, sparse=to_follow)
+    refuse_closed(patch.name, int(patch.faces.sum()), optimizer.region.closed)
+    return LiveOptimizer(patch, seen, border, optimizer)
+
+
+def build_target(live: LiveOptimizer, build: BuildTarget) -> "native.Target":
+    """Builds the target at the optimizer's present heights."""
+    return choose_formulation(live.patch, live.view).complete_target(build(live.optimizer))
+
+
+@contextmanager
+def convert_native_errors(patch: Patch) -> Generator[None, None, None]:
+    """Converts errors of the native module into refusals that name the object."""
+    try:
+        yield
+    except (native.InvalidInput, native.SolverFailure) as error:
+        raise Refusal(f"{patch.name}: {error}") from error
+
+
+def compute_image_frame(patch: Patch, seen: View) -> np.ndarray:
+    """Returns the axes of the image plane and the direction to the viewer: 3 x 3, rows, world space."""
+    try:
+        return native.reflines.image_plane(seen.view_direction, seen.line_direction)
+    except native.InvalidInput as error:
+        raise Refusal(f"{patch.name}: {error}") from error
+
+
+def refuse_closed(name: str, faces: int, closed: bool) -> None:
+    """Refuses a region that is all of a closed body. The solver could cut it at its silhouettes, but nobody means that.
+    """
+    if closed:
+        raise Refusal(f"{name}: the {faces} selected faces are all of a closed body, which has no border: "
+                      "select only the faces of the panel")

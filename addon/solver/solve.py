@@ -1,0 +1,78 @@
+"""One solve of one patch, from arrays to arrays; no state is kept, and Blender is not needed."""
+import numpy as np
+
+from .. import native
+from ..model.patch import Patch
+from ..model.solution import LastSolve, Solution, SolveSettings
+from . import live_optimizer, remarks
+from .formulation import choose_formulation
+from .live_optimizer import BuildTarget, LiveOptimizer
+
+AUTOMATIC_LENGTH = 1.0 / 6.0  # relative to the patch's diagonal
+SMALL_SHARE = 0.2  # of the wish: a solve that reaches less says why
+SMALL_WISH = 0.01  # of the lines' gradient: smaller ones are not missed
+
+
+def choose_length(patch: Patch, length: float) -> float:
+    """Returns the length below which detail counts as wobble: the given one, or for 0 a share of the patch's diagonal.
+    """
+    return length or AUTOMATIC_LENGTH * patch.diagonal
+
+
+def compute_vertex_values(solution: LastSolve) -> dict[str, np.ndarray]:
+    """Computes per-vertex values (#V each) of a solve: "deviation", the distance moved, and "residual", the mean of the
+    adjacent triangles', where it is known.
+    """
+    patch, corners = solution.patch, solution.patch.F.ravel()
+    moved = np.linalg.norm(solution.positions - patch.V, axis=1)
+    if len(solution.residual) != len(patch.F):
+        return {"deviation": moved}
+    count = np.maximum(np.bincount(corners, minlength=len(patch.V)), 1)
+    return {"deviation": moved,
+            "residual": np.bincount(corners, np.repeat(solution.residual, 3), minlength=len(patch.V)) / count}
+
+
+def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
+                progress: "native.Progress | None" = None) -> Solution:
+    """Builds the target, minimizes from the optimizer's present heights, and measures the result.
+
+    `progress` lets another thread watch and cancel.
+    """
+    optimizer, length = live.optimizer, choose_length(live.patch, settings.length)
+    score = optimizer.score(length)
+    target = live_optimizer.build_target(live, build_target)  # that of a fit moves the optimizer first
+    lacking = compute_rms_residual(optimizer, target)
+    report = optimizer.solve(target, progress=progress)
+    formulation = choose_formulation(live.patch, live.view)
+    positions, left = formulation.read_positions(optimizer), compute_rms_residual(optimizer, target)
+    short = falls_short(optimizer, target, lacking, left)
+    return Solution(live.patch, positions, report, target, formulation.read_residual(optimizer, target), lacking, left,
+                    length, score, optimizer.score(length),
+                    (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
+                     *optimizer.region.messages, *remarks.describe_mirror(formulation),
+                     *remarks.describe_far_move(live.patch, report.largest_move, live.border),
+                     *remarks.describe_turned_faces(live.patch, positions)),
+                    choose_length(live.patch, 0.0), "free" if short and live.border != "free" else "")
+
+
+def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lacking: float, left: float) -> bool:
+    """Returns whether less than SMALL_SHARE of a wish was reached. Wishes below SMALL_WISH do not count: lines that are
+    as wanted already lack as little.
+    """
+    if left <= (1.0 - SMALL_SHARE) * lacking:
+        return False
+    return lacking > SMALL_WISH * compute_rms(optimizer, target, np.linalg.norm(optimizer.field(), axis=1))
+
+
+def compute_rms_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:
+    """Returns the root mean square of the residual over the triangles that can change, by area and the target's weight.
+    """
+    return compute_rms(optimizer, target, optimizer.residual(target))
+
+
+def compute_rms(optimizer: "native.ShapeOptimizer", target: "native.Target", values: np.ndarray) -> float:
+    """Returns the root mean square of values (#F), weighted as the residual is."""
+    weight = optimizer.area * optimizer.changeable
+    if len(target.weight):
+        weight = weight * target.weight
+    return float(np.sqrt(weight @ values**2 / max(weight.sum(), 1e-300)))

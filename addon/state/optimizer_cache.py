@@ -1,0 +1,75 @@
+"""The cache of built optimizers, which can be rebuilt at any time from the mesh and the properties."""
+from collections.abc import Collection
+from dataclasses import replace
+
+import bpy
+
+from ..model.patch import Patch
+from ..model.solution import Solution, SolveSettings
+from ..model.view import View
+from ..solver import live_optimizer, solve
+from ..solver.live_optimizer import BuildTarget, LiveOptimizer
+
+KEPT_OPTIMIZERS = 2  # between operations: that of the patch at work and another; each holds the factors of a matrix
+
+_optimizers: dict[str, LiveOptimizer] = {}  # by the name of the object, the one used last at the end
+
+
+def take_optimizer(patch: Patch, seen: View, border: str) -> LiveOptimizer | None:
+    """Takes the cached optimizer out for exclusive use, reset to the heights of `patch`; None where none suits."""
+    live = _optimizers.pop(patch.name, None)
+    if live is None or not live.suits(patch, seen, border):
+        return None
+    live.optimizer.watch(None)
+    live.optimizer.reset()
+    return replace(live, patch=patch)  # the way back to the mesh may differ, such as the shape key
+
+
+def return_optimizer(live: LiveOptimizer) -> None:
+    """Puts an optimizer into the cache, as the one used last."""
+    _optimizers.pop(live.patch.name, None)
+    _optimizers[live.patch.name] = live
+
+
+def drop_surplus(names: Collection[str]) -> None:
+    """Drops optimizers beyond KEPT_OPTIMIZERS at the end of an operation.
+
+    Those named stay, however many: the redo panel may repeat the operation on all of them.
+    """
+    for gone in [name for name in _optimizers if bpy.data.objects.get(name) is None]:
+        del _optimizers[gone]
+    others = [name for name in _optimizers if name not in names]
+    for name in others[:max(len(_optimizers) - max(KEPT_OPTIMIZERS, len(names)), 0)]:
+        del _optimizers[name]
+
+
+def list_kept() -> tuple[str, ...]:
+    """Returns the names of the objects whose optimizers are cached, the one used last at the end."""
+    return tuple(_optimizers)
+
+
+def solve_with_cache(patch: Patch, seen: View, settings: SolveSettings, build_target: BuildTarget) -> Solution:
+    """Solves with the cached optimizer; builds one only where patch, view, light or border changed."""
+    with live_optimizer.convert_native_errors(patch):
+        return solve.solve_patch(ensure_optimizer(patch, seen, settings.border), build_target, settings)
+
+
+def ensure_optimizer(patch: Patch, seen: View, border: str) -> LiveOptimizer:
+    """Returns the cached optimizer at the heights of `patch`, or builds and caches one; raises the native errors."""
+    live = take_optimizer(patch, seen, border) or live_optimizer.build_optimizer(patch, seen, border)
+    return_optimizer(live)
+    return live
+
+
+@bpy.app.handlers.persistent
+def clear_cache(*_: object) -> None:
+    _optimizers.clear()
+
+
+def register() -> None:
+    bpy.app.handlers.load_pre.append(clear_cache)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_pre.remove(clear_cache)
+    clear_cache()

@@ -1,0 +1,58 @@
+"""Saving and loading of last solves with the .blend file, so that maps, Before and Re-solve survive it; and tracking of
+undo.
+"""
+import bpy
+from bpy.app.handlers import persistent
+
+from ..bridge import read_mesh, shape_keys, solve_record
+from ..model.solution import LastSolve
+from . import solve_history
+
+
+@persistent
+def save_solves(*_: object) -> None:
+    """Writes the last solve of every object into its properties, before the file is saved."""
+    for ob in bpy.data.objects:
+        stored, last = ob.reflection_lines, solve_history.find_last_solve(ob.name)
+        if ob.type != 'MESH' or last is None and not stored.last:
+            continue
+        if ob.mode == 'EDIT':
+            ob.update_from_editmode()
+        current = last is not None and read_mesh.read_shape_before(ob, last.patch, last.positions) is not None
+        stored.last = solve_record.encode_solve(last.patch, last.residual) if current else ""
+
+
+@persistent
+def load_solves(*_: object) -> None:
+    """Reads the last solves from the properties, after a file was opened."""
+    for ob in bpy.data.objects:
+        text = ob.reflection_lines.last
+        found = solve_record.decode_solve(ob, text) if text and ob.type == 'MESH' else None
+        if found is not None:
+            solve_history.remember_solve(LastSolve(*found))
+
+
+@persistent
+def note_undo(*_: object) -> None:
+    """Records after undo and redo in Edit Mode, which change the mesh but not the object's report, whether the solve is
+    undone.
+    """
+    for ob in bpy.data.objects:
+        last = solve_history.find_last_solve(ob.name)
+        if last is None or ob.mode != 'EDIT' or last.patch.key and not shape_keys.is_result_key_edited(ob):
+            continue
+        solve_history.mark_undone(ob, undone=read_mesh.is_undone(ob, last.patch, last.positions))
+
+
+def register() -> None:
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.append(note_undo)
+    bpy.app.handlers.save_pre.append(save_solves)
+    bpy.app.handlers.load_post.append(load_solves)
+
+
+def unregister() -> None:
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.remove(note_undo)
+    bpy.app.handlers.load_post.remove(load_solves)
+    bpy.app.handlers.save_pre.remove(save_solves)

@@ -1,0 +1,45 @@
+"""The solve history: the last solve of each object, and whether undo took it back."""
+import bpy
+
+from ..model.solution import LastSolve
+
+_solves: dict[str, LastSolve] = {}  # by the name of the object
+_undone: dict[str, float] = {}      # by the name of the object: the run time in the report of the solve taken back
+
+
+def remember_solve(last: LastSolve) -> None:
+    """Records a solve that was applied as the last one of its object."""
+    _solves[last.patch.name] = last
+
+
+def find_last_solve(name: str) -> LastSolve | None:
+    """Returns the last solve of the object with this name, None where there is none."""
+    return _solves.get(name)
+
+
+def mark_undone(ob: bpy.types.Object, *, undone: bool) -> None:
+    """Records whether undo took back the solve that the object's report describes."""
+    _undone.pop(ob.name, None)
+    if undone:
+        _undone[ob.name] = ob.reflection_lines.report.seconds
+
+
+def is_undone(ob: bpy.types.Object) -> bool:
+    """Returns whether undo took back the solve that the object's report describes; a later report has another run time.
+    """
+    return _undone.get(ob.name) == ob.reflection_lines.report.seconds
+
+
+@bpy.app.handlers.persistent
+def clear_history(*_: object) -> None:
+    _solves.clear()
+    _undone.clear()
+
+
+def register() -> None:
+    bpy.app.handlers.load_pre.append(clear_history)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_pre.remove(clear_history)
+    clear_history()

@@ -1,0 +1,1 @@
+"""What the artist sees beside the 3D view: properties, panels, menus, keys and preferences."""

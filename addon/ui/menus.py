@@ -1,0 +1,101 @@
+"""The tools in Blender's menus, in its context menus, and in two pie menus: one presses them, the other drags them."""
+import bpy
+
+# (operator, icon), in the order of the work.
+DRAGGED = (
+    ("reflines.smooth", 'MOD_SMOOTH'), ("reflines.direction", 'ALIGN_JUSTIFY'), ("reflines.untwist", 'LOOP_BACK'),
+    ("reflines.warp", 'MOD_LATTICE'), ("reflines.pattern", 'IMAGE_DATA'),
+)
+TOOLS = (*DRAGGED, ("reflines.fit", 'MOD_SHRINKWRAP'))
+SETUP = (
+    ("reflines.camera_from_view", 'VIEW_CAMERA'), ("reflines.add_view_camera", 'CAMERA_DATA'),
+    ("reflines.look_through", 'HIDE_OFF'), ("reflines.add_light_direction", 'EMPTY_SINGLE_ARROW'),
+    ("reflines.sweep_light", 'LIGHT_SUN'),
+    ("reflines.add_warp_lattice", 'LATTICE_DATA'),
+)
+BEFORE = "scene.reflection_lines.stripes.before"
+DRAG_PIE = "VIEW3D_MT_reflines_drag_pie"
+
+
+class VIEW3D_MT_reflines(bpy.types.Menu):
+    bl_label = "Reflection Lines"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        for name, icon in TOOLS:
+            layout.operator(name, icon=icon)
+        layout.menu("VIEW3D_MT_reflines_drag", icon='ARROW_LEFTRIGHT')
+        layout.separator()
+        for name, icon in SETUP:
+            layout.operator(name, icon=icon)
+        layout.separator()
+        stripes = context.scene.reflection_lines.stripes
+        layout.prop(stripes, "show", text="Show Zebra Stripes")
+        layout.prop(stripes, "before")
+        layout.prop_menu_enum(stripes, "mode")
+        layout.operator("reflines.freeze_eye", icon='FREEZE')
+        layout.operator("reflines.install_matcap", icon='MATSPHERE')
+        layout.operator("reflines.resolve", icon='FILE_REFRESH')
+        layout.operator("reflines.store_result", icon='SPREADSHEET')
+
+
+def draw_drags(layout: bpy.types.UILayout) -> None:
+    """Draws an entry for each tool that starts its drag."""
+    for name, icon in DRAGGED:
+        label = getattr(bpy.ops.reflines, name.partition(".")[2]).get_rna_type().name
+        layout.operator(name, text=f"Drag {label}", icon=icon).follow_mouse = True
+
+
+class VIEW3D_MT_reflines_drag(bpy.types.Menu):
+    bl_label = "Drag a Tool"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        draw_drags(self.layout)
+
+
+class VIEW3D_MT_reflines_drag_pie(bpy.types.Menu):
+    bl_label = "Drag a Tool"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        draw_drags(self.layout.menu_pie())
+
+
+class VIEW3D_MT_reflines_pie(bpy.types.Menu):
+    bl_label = "Reflection Lines"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Fills the slots in Blender's order: west, east, south, north, then the corners."""
+        pie = self.layout.menu_pie()
+        stripes = context.scene.reflection_lines.stripes
+        pie.operator("reflines.smooth", text="Smooth", icon='MOD_SMOOTH')
+        pie.operator("reflines.direction", text="Direction", icon='ALIGN_JUSTIFY')
+        pie.prop(stripes, "show", icon='SHADING_RENDERED')
+        pie.operator("wm.context_toggle", text="Before / After", icon='ARROW_LEFTRIGHT').data_path = BEFORE
+        pie.operator("reflines.untwist", text="Untwist", icon='LOOP_BACK')
+        pie.operator("reflines.warp", text="Warp", icon='MOD_LATTICE')
+        pie.operator("reflines.pattern", text="Image Pattern", icon='IMAGE_DATA')
+        pie.operator("wm.call_menu_pie", text="Drag a Tool", icon='ARROW_LEFTRIGHT').name = DRAG_PIE
+
+
+def draw_entry(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    self.layout.separator()
+    self.layout.menu("VIEW3D_MT_reflines", icon='SHADING_RENDERED')
+
+
+PLACES = ("VIEW3D_MT_edit_mesh", "VIEW3D_MT_edit_mesh_context_menu", "VIEW3D_MT_object",
+          "VIEW3D_MT_object_context_menu")
+CLASSES = (VIEW3D_MT_reflines_drag, VIEW3D_MT_reflines_drag_pie, VIEW3D_MT_reflines, VIEW3D_MT_reflines_pie)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    for place in PLACES:
+        getattr(bpy.types, place).append(draw_entry)
+
+
+def unregister() -> None:
+    for place in PLACES:
+        getattr(bpy.types, place).remove(draw_entry)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,293 @@
+"""The panels of the sidebar tab "Reflection", in the order of the work: view and light, region and border, tool,
+result.
+"""
+import textwrap
+
+import bpy
+
+from . import manual_links
+
+
+def draw_paragraph(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
+    """Draws a sentence over as many lines as the sidebar's width needs."""
+    letters = max(20, int((context.region.width - 60) / (6.5 * context.preferences.system.ui_scale)))
+    column = layout.column(align=True)
+    for number, line in enumerate(textwrap.wrap(text, letters)):
+        column.label(text=line, icon='BLANK1' if number else icon)
+
+
+class ReflinesPanel:
+    """The base of all panels of the tab."""
+    bl_space_type = 'VIEW_3D'
+    bl_region_type = 'UI'
+    bl_category = "Reflection"
+    manual = ""  # section of the manual that describes the panel
+
+    def draw_header_preset(self, _context: bpy.types.Context) -> None:
+        """Draws the help button at the right end of the header."""
+        button = self.layout.operator("wm.url_open", text="", icon='HELP', emboss=False)
+        button.url = manual_links.build_address(self.manual)
+
+
+class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
+    bl_label = "View and Light"
+    manual = "view-and-light"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reflection_lines
+        layout = self.layout
+        self.draw_problem(layout, context)
+        column = layout.column()
+        row = column.row(align=True)
+        row.prop(settings, "camera", text="", icon='CAMERA_DATA')
+        if settings.present(settings.camera):
+            through = context.window_manager.reflection_lines.is_looking_through(context)
+            row.operator("reflines.look_through", text="", icon='HIDE_OFF', depress=through)
+            row.operator("reflines.add_view_camera", text="", icon='ADD')
+            column.operator("reflines.camera_from_view", icon='VIEW_CAMERA')
+        else:
+            column.operator("reflines.add_view_camera", icon='ADD')
+        ob = context.view_layer.objects.active
+        if ob is not None and ob.reflection_lines.has_other_view(context.scene):
+            column.operator("reflines.use_panel_view", icon='LOOP_BACK')
+        if settings.is_perspective():
+            draw_paragraph(column, context, "Perspective camera: its direction to the panel's centre is used", 'INFO')
+        column = layout.column()
+        column.prop(settings, "light", text="", icon='EMPTY_SINGLE_ARROW')
+        if not settings.present(settings.light):
+            column.operator("reflines.add_light_direction", icon='ADD')
+        else:
+            self.draw_light(column, settings)
+
+    def draw_light(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+        row = layout.row()
+        row.enabled = not settings.explain_fixed_light()
+        row.prop(settings, "light_dial", text="")
+        column = row.column(align=True)
+        column.prop(settings, "light_turn")
+        column.prop(settings, "light_tilt")
+        column.operator("reflines.sweep_light", icon='LIGHT_SUN')
+
+    def draw_problem(self, layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+        session = context.window_manager.reflection_lines
+        if session.problem:
+            box = layout.box()
+            box.alert = True
+            draw_paragraph(box, context, session.problem, 'ERROR')
+            draw_paragraph(box, context, session.remedy, 'BLANK1')
+
+
+class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Region"
+    manual = "region"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.label(text=self.region_text(context.view_layer.objects.active), icon='FACESEL')
+        layout.use_property_split, layout.use_property_decorate = True, False
+        layout.prop(context.scene.reflection_lines, "result")
+        ob = context.view_layer.objects.active
+        if ob is not None and ob.type == 'MESH':
+            self.draw_creases(layout, ob.reflection_lines)
+        if ob is not None and ob.reflection_lines.is_cage():
+            layout.prop(context.scene.reflection_lines, "solve_for")
+            layout.operator("reflines.fit", icon='MOD_SHRINKWRAP')
+
+    def draw_creases(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+        layout.prop(settings, "creases")
+        if settings.creases != 'NONE':
+            layout.row(heading="Marks").prop(settings, "crease_marks", expand=True)
+
+    def region_text(self, ob: bpy.types.Object | None) -> str:
+        if ob is not None and ob.type == 'LATTICE' and ob.reflection_lines.panel is not None:
+            return f"Faces of {ob.reflection_lines.panel.name}"
+        if ob is None or ob.type != 'MESH':
+            return "Make the panel's mesh active"
+        if ob.mode == 'EDIT':
+            return f"{ob.data.total_face_sel} selected faces"
+        return "Faces of the last run" if ob.reflection_lines.report.termination else "Select faces in Edit Mode"
+
+
+class ToolPanel(ReflinesPanel):
+    """The base of panels with the settings and the button of one tool."""
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split, self.layout.use_property_decorate = True, False
+        self.draw_tool(self.layout, context, context.scene.reflection_lines)
+
+    def draw_buttons(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, name: str, icon: str) -> None:
+        """Draws the border, the tool's button, and beside it the handle that drags the tool in the 3D view."""
+        border = layout.row(align=True)
+        border.use_property_split = False
+        border.prop(settings, "border", expand=True)
+        row = layout.row(align=True)
+        row.operator(name, icon=icon)
+        row.operator(name, text="", icon='ARROW_LEFTRIGHT').follow_mouse = True
+
+    def draw_falloff(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup,
+                     curve: bpy.types.NodeTree | None) -> None:
+        layout.prop(settings, "centre")
+        if settings.centre == 'EVERYWHERE':
+            return
+        layout.prop(settings, "radius", text="Radius" if settings.radius else "Radius (automatic)")
+        layout.prop(settings, "shape")
+        if settings.shape == 'CURVE' and curve is not None and len(curve.nodes):
+            layout.template_curve_mapping(curve.nodes[0], "mapping")
+        layout.prop(settings, "emphasis")
+
+
+class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
+    bl_label = "Smooth Lines"
+    manual = "reflines.smooth"
+
+    def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
+                  settings: bpy.types.PropertyGroup) -> None:
+        layout.prop(settings, "length")
+        if not settings.length:
+            ob = context.view_layer.objects.active
+            layout.label(text=ob.reflection_lines.report.automatic() if ob is not None else "0: automatic")
+        layout.prop(settings, "strength")
+        layout.prop(settings, "directional")
+        automatic = layout.column()
+        automatic.active = not settings.length and not settings.directional
+        automatic.prop(settings, "lights")
+        automatic.prop(settings, "symmetric")
+        self.draw_buttons(layout, settings, "reflines.smooth", 'MOD_SMOOTH')
+
+
+class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
+    bl_label = "Direction and Density"
+    manual = "reflines.direction"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+        own = settings.direction
+        layout.prop(own, "direction")
+        if own.direction == 'ANGLE':
+            layout.prop(own, "angle")
+        elif own.direction == 'POINTS':
+            layout.operator("reflines.pick_direction", icon='EYEDROPPER')
+        layout.prop(own, "unit")
+        layout.prop(own, "density", text="At the Start" if own.axis != 'NONE' else "Value")
+        layout.prop(own, "axis")
+        if own.axis != 'NONE':
+            layout.prop(own, "density_end")
+        layout.prop(own, "strength")
+        self.draw_falloff(layout, own, settings.curve)
+        self.draw_buttons(layout, own, "reflines.direction", 'ALIGN_JUSTIFY')
+
+
+class VIEW3D_PT_reflines_untwist(ToolPanel, bpy.types.Panel):
+    bl_label = "Untwist Lines"
+    manual = "reflines.untwist"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+        layout.prop(settings.untwist, "angle")
+        self.draw_falloff(layout, settings.untwist, settings.curve)
+        self.draw_buttons(layout, settings.untwist, "reflines.untwist", 'LOOP_BACK')
+
+
+class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
+    bl_label = "Warp Lines"
+    manual = "reflines.warp"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
+                  settings: bpy.types.PropertyGroup) -> None:
+        own = settings.warp
+        layout.prop(own, "lattice")
+        layout.operator("reflines.add_warp_lattice", icon='ADD')
+        for name in ("amount", "fit", "cells"):
+            layout.prop(own, name)
+        if settings.live.panel is not None:
+            self.draw_live(layout.box(), context, settings.live)
+            return
+        layout.operator("reflines.start_live_warp", icon='PLAY')
+        if context.mode == 'EDIT_LATTICE':
+            draw_paragraph(layout, context, "Leave the lattice's Edit Mode to warp", 'INFO')
+        self.draw_buttons(layout, settings, "reflines.warp", 'MOD_LATTICE')
+
+    def draw_live(self, layout: bpy.types.UILayout, context: bpy.types.Context, live: bpy.types.PropertyGroup) -> None:
+        says = context.window_manager.reflection_lines.live
+        draw_paragraph(layout, context, f"{live.panel_name()} follows the lattice", 'PLAY')
+        if says:
+            draw_paragraph(layout, context, says, 'INFO')
+        row = layout.row(align=True)
+        row.operator("reflines.apply_live_warp", icon='CHECKMARK')
+        row.operator("reflines.discard_live_warp", icon='CANCEL')
+
+
+class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
+    bl_label = "Image Pattern"
+    manual = "reflines.pattern"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+        own = settings.pattern
+        layout.template_ID(own, "image", new="image.new", open="image.open")
+        for name in ("fit", "strength", "blur", "keep_lines"):
+            layout.prop(own, name)
+        layout.prop(own, "width", text="Width" if own.width else "Width (of the region)")
+        layout.prop(own, "angle")
+        layout.prop(own, "offset")
+        self.draw_buttons(layout, settings, "reflines.pattern", 'IMAGE_DATA')
+
+
+class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Result"
+    manual = "result"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = context.view_layer.objects.active
+        return ob is not None and ob.reflection_lines.report.termination != ""
+
+    def draw(self, context: bpy.types.Context) -> None:
+        ob = context.view_layer.objects.active
+        report, run = ob.reflection_lines.report, ob.reflection_lines.run
+        column = self.layout.column(align=True)
+        good = report.termination in {"converged", "already_optimal"} and not report.remedy
+        draw_paragraph(column, context, report.headline(), 'CHECKMARK' if good else 'INFO')
+        if context.window_manager.reflection_lines.is_undone(ob):
+            draw_paragraph(column, context, "The mesh is no longer as this solve left it", 'ERROR')
+        if report.fit:
+            draw_paragraph(column, context, report.fit, 'MOD_SHRINKWRAP')
+        for note in report.notes.splitlines():
+            draw_paragraph(column, context, note, 'ERROR')
+        keys = ob.data.shape_keys.key_blocks if ob.type == 'MESH' and ob.data.shape_keys is not None else {}
+        if run.key in keys:
+            self.layout.prop(keys[run.key], "value", text="Strength", slider=True)
+        if run.operator and ob.type == 'MESH' and ob.mode == 'OBJECT' and run.difference(ob.data):
+            draw_paragraph(self.layout, context, run.difference(ob.data), 'ERROR')
+        if report.remedy and run.operator:
+            remedy = self.layout.operator("reflines.resolve", text=f"Solve with Border {report.remedy.capitalize()}")
+            remedy.border = report.remedy
+        self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
+        self.layout.operator("reflines.store_result", icon='GROUP_VERTEX')
+
+
+class VIEW3D_PT_reflines_numbers(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Numbers"
+    bl_parent_id = "VIEW3D_PT_reflines_result"
+    bl_options = {'DEFAULT_CLOSED'}
+    manual = "result"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return VIEW3D_PT_reflines_result.poll.__func__(cls, context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        report = context.view_layer.objects.active.reflection_lines.report
+        column = self.layout.column(align=True)
+        column.label(text=report.termination.replace('_', ' ').capitalize())
+        column.label(text=f"{report.iterations} iterations, {report.seconds:.2f} s")
+        column.label(text=f"Wobble {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
+        column.label(text=f"Residual {report.residual_before:.3g} \u2192 {report.residual_after:.3g}")
+        column.label(text=f"Largest move {report.moved()}")
+
+
+register, unregister = bpy.utils.register_classes_factory([
+    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_direction,
+    VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
+    VIEW3D_PT_reflines_numbers])

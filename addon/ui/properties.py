@@ -1,0 +1,300 @@
+"""Properties saved in the .blend file: settings on the scene, the last result on the object."""
+import json
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
+from mathutils import Vector
+
+from ..bridge import light_angles, modifiers, scene_objects, units
+from ..model.solution import Solution
+from .stripe_properties import ReflinesSetups, ReflinesStripes
+from .tool_properties import ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings
+
+KINDS = (
+    ('CAGE', "Cage", "Below a Subdivision Surface: move the cage so that the subdivided surface reflects well"),
+    ('MESH', "Mesh", "Move the mesh's own faces, as if it were not subdivided"),
+)
+
+
+CREASES = (
+    ('AUTOMATIC', "Automatic", "Edges that bend far more than the surface beside them, and marked ones"),
+    ('MARKED', "Marked", "Only edges with one of the marks"),
+    ('NONE', "None", "No edge: the lines run across all of them"),
+)
+
+CREASE_MARKS = (
+    ('SHARP', "Sharp", "Edges marked as sharp"),
+    ('CREASE', "Crease", "Edges with a crease for the Subdivision Surface"),
+    ('SEAM', "Seam", "Edges marked as seams"),
+)
+
+RESULTS = (
+    ('MESH', "Mesh", "The vertices themselves move"),
+    ('SHAPE_KEY', "Shape Key", "Into the shape key Reflection Lines, whose value says how much of it is seen; the mesh "
+     "and its other keys stay as they are. Rename the key to keep it and begin another"),
+)
+
+
+def result_property(**options: object) -> object:
+    return EnumProperty(name="Result", items=RESULTS, default='MESH', **options,
+                        description="Where the moved vertices go")
+
+
+def solve_for_property(**options: object) -> object:
+    return EnumProperty(name="Solve for", items=KINDS, default='CAGE', **options,
+                        description="What moves where the object's last modifier that is shown is Subdivision Surface")
+
+
+class ReflinesReport(bpy.types.PropertyGroup):
+    """The report of the last solve of an object."""
+    termination: StringProperty(name="Termination")
+    message: StringProperty(name="Message")
+    notes: StringProperty(name="Notes", description="What was held fixed or left out, one sentence a line")
+    fit: StringProperty(name="Fit", description="How far a fitted cage is from the other mesh")
+    iterations: IntProperty(name="Iterations")
+    seconds: FloatProperty(name="Time", unit='NONE')
+    unknowns: IntProperty(name="Free Vertices")
+    length: FloatProperty(name="Length", unit='LENGTH', precision=4)
+    automatic_length: FloatProperty(name="Automatic Length", unit='LENGTH', precision=4)
+    score_before: FloatProperty(name="Wobble Before", description="Wobble of the reflection lines, in degrees")
+    score_after: FloatProperty(name="Wobble After", description="Wobble of the reflection lines, in degrees")
+    largest_move: FloatProperty(name="Largest Move", unit='LENGTH', precision=6)
+    residual_before: FloatProperty(name="Residual Before", description="What the lines' gradient lacked of the "
+                                   "wanted one: root mean square, radians per unit of length")
+    residual_after: FloatProperty(name="Residual After", description="What it still lacks")
+    remedy: StringProperty(name="Remedy", description="The border that would let a larger share of the wish be reached")
+
+    def fill(self, solution: Solution, notes: tuple[str, ...]) -> None:
+        """Copies the numbers of a finished solve."""
+        for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move"):
+            setattr(self, name, getattr(solution.report, name))
+        for name in ("length", "score_before", "score_after", "residual_before", "residual_after", "remedy",
+                     "automatic_length"):
+            setattr(self, name, getattr(solution, name))
+        self.notes, self.fit = "\n".join(notes), ""
+
+    def headline(self) -> str:
+        """Says what the solve did in an artist's words, the largest first."""
+        return f"{self.gain()}, moved at most {self.moved(2)}" if self.largest_move else "Nothing moved"
+
+    def gain(self) -> str:
+        """Says how much smoother a smoothing made the lines; of other tools, how much of the wish was reached."""
+        smoothed = self.id_data.reflection_lines.run.operator == "REFLINES_OT_smooth"
+        if smoothed and min(self.score_before, self.score_after) > 0.0:
+            ratio = self.score_before / self.score_after
+            times, word = (ratio, "smoother") if ratio >= 1.0 else (1.0 / ratio, "rougher")
+            return f"Lines {times:.{1 if times < 10.0 else 0}f} x {word}"
+        share = 1.0 - self.residual_after / self.residual_before if self.residual_before else 1.0
+        return f"{max(share, 0.0):.0%} of the wish reached"
+
+    def summary(self) -> str:
+        """Returns the headline, and after it the numbers of the solver: a status bar shows the beginning."""
+        return (f"{self.headline()}; {self.termination.replace('_', ' ')} after {self.iterations} iterations "
+                f"in {self.seconds:.2f} s, "
+                f"wobble {self.score_before:.4g} -> {self.score_after:.4g} degrees "
+                f"at length {units.format_length(self.length, bpy.context.scene)}, "
+                f"residual {self.residual_before:.4g} -> {self.residual_after:.4g}, largest move {self.moved()}")
+
+    def automatic(self) -> str:
+        """Says what the length 0 stands for: in the last region, where there was one."""
+        value = units.format_length(self.automatic_length, bpy.context.scene, precision=2)
+        return f"0: automatic, {value}" if self.automatic_length else "0: automatic"
+
+    def moved(self, precision: int = 5) -> str:
+        return units.format_length(self.largest_move, bpy.context.scene, precision)
+
+
+def is_mesh(_: object, ob: bpy.types.Object) -> bool:
+    return ob.type == 'MESH'
+
+
+def to_json_value(value: object) -> object:
+    """Converts a property's value for JSON: vectors become lists."""
+    return value if isinstance(value, str) or not hasattr(value, "__len__") else list(value)
+
+
+class ReflinesRun(bpy.types.PropertyGroup):
+    """The last run of a tool on an object, for Re-solve."""
+    operator: StringProperty(name="Operator", description="Its identifier")
+    settings: StringProperty(name="Settings", description="As JSON")
+    key: StringProperty(name="Shape Key", description="That the result went to; empty for the mesh")
+    vertices: IntProperty(name="Vertices")
+    faces: IntProperty(name="Faces")
+
+    def fill(self, operator: bpy.types.Operator, mesh: bpy.types.Mesh, key: str) -> None:
+        self.note(operator.bl_idname, {name: to_json_value(getattr(operator, name))
+                                       for name, about in operator.properties.bl_rna.properties.items()
+                                       if not about.is_readonly and not about.is_hidden}, mesh, key)
+
+    def note(self, operator: str, settings: dict[str, object], mesh: bpy.types.Mesh, key: str) -> None:
+        self.operator, self.settings, self.key = operator, json.dumps(settings), key
+        self.vertices, self.faces = len(mesh.vertices), len(mesh.polygons)
+
+    def difference(self, mesh: bpy.types.Mesh) -> str:
+        """Describes how the mesh's size differs from that after the run, as a sentence; empty where it is the same."""
+        vertices, faces = len(mesh.vertices) - self.vertices, len(mesh.polygons) - self.faces
+        if not vertices and not faces:
+            return ""
+        return (f"The mesh has changed since the last run: {vertices:+} vertices, {faces:+} faces; Re-solve takes the "
+                "faces of that run as they are now")
+
+
+class ReflinesObject(bpy.types.PropertyGroup):
+    report: PointerProperty(type=ReflinesReport)
+    creases: EnumProperty(name="Creases", items=CREASES, default='AUTOMATIC',
+                          description="Which edges of this object are held, with the lines solved on each side")
+    crease_marks: EnumProperty(name="Marks", items=CREASE_MARKS, default={'SHARP', 'CREASE'}, options={'ENUM_FLAG'},
+                               description="What marks an edge of this object as a crease")
+    panel: PointerProperty(name="Panel", type=bpy.types.Object, poll=is_mesh,
+                           description="The mesh that this lattice warps")
+    center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
+    run: PointerProperty(type=ReflinesRun)
+    camera: PointerProperty(name="View Camera", type=bpy.types.Object,
+                            description="That the panel was last worked on with")
+    light: PointerProperty(name="Light Direction", type=bpy.types.Object,
+                           description="That the panel was last worked on with")
+    last: StringProperty(name="Last Solve", description="As saved with the file, see bridge/solve_record.py",
+                         options={'HIDDEN'})
+
+    def is_cage(self) -> bool:
+        """Returns whether the tools can solve for a cage."""
+        return modifiers.is_cage(self.id_data)
+
+    def keep_view(self, scene: bpy.types.Scene) -> None:
+        """Keeps the scene's view camera and light as those of this panel."""
+        self.camera, self.light = scene.reflection_lines.camera, scene.reflection_lines.light
+
+    def has_other_view(self, scene: bpy.types.Scene) -> bool:
+        """Returns whether the panel was worked on with a view camera or light that the scene has but does not use."""
+        now = scene.reflection_lines
+        return any(now.present(kept) and kept != used for kept, used in
+                   ((self.camera, now.camera), (self.light, now.light)))
+
+
+class ReflinesLive(bpy.types.PropertyGroup):
+    """The scene's live warp, none where `panel` is empty; bridge/live_warp_start.py keeps where it began with the mesh.
+    """
+    panel: PointerProperty(type=bpy.types.Object, poll=is_mesh)
+    solve_for: solve_for_property()
+    result: result_property()
+
+    def panel_name(self) -> str:
+        """Returns the name of the warped mesh; empty where there is no live warp."""
+        return self.panel.name if self.panel is not None else ""
+
+    def obstacle(self, ob: bpy.types.Object) -> str:
+        """Returns why no other tool can run on an object, as a sentence; empty where they can."""
+        return f"{ob.name} follows its warp lattice: apply or discard the live warp first" if self.panel == ob else ""
+
+
+def is_camera(_: object, ob: bpy.types.Object) -> bool:
+    return ob.type == 'CAMERA'
+
+
+def is_empty(_: object, ob: bpy.types.Object) -> bool:
+    return ob.type == 'EMPTY'
+
+
+class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
+    camera: PointerProperty(name="View Camera", type=bpy.types.Object, poll=is_camera,
+                            description="The view that the reflection lines are judged from")
+    light: PointerProperty(name="Light Direction", type=bpy.types.Object, poll=is_empty,
+                           description="An empty whose local Z axis is the direction of the line lights")
+    light_turn: FloatProperty(name="Turn", subtype='ANGLE', get=lambda self: self.read_light_angles()[0],
+                              set=lambda self, value: self.turn_light(value, self.light_tilt),
+                              description="Of the light in the view camera's picture, counter-clockwise from the "
+                              "horizontal")
+    light_tilt: FloatProperty(name="Tilt", subtype='ANGLE', min=-light_angles.TILT_LIMIT, max=light_angles.TILT_LIMIT,
+                              get=lambda self: self.read_light_angles()[1],
+                              set=lambda self, value: self.turn_light(self.light_turn, value),
+                              description="Of the light out of the picture, towards the viewer")
+    light_dial: FloatVectorProperty(name="Light", subtype='DIRECTION', get=lambda self: self.read_light_dial(),
+                                    set=lambda self, value: self.point_light(value),
+                                    description="Drag the ball to turn the light, in any mode: as the view camera sees "
+                                    "it, right, up, and towards the viewer")
+    solve_for: solve_for_property()
+    result: result_property()
+    direction: PointerProperty(type=ReflinesDirection)
+    untwist: PointerProperty(type=ReflinesUntwist)
+    warp: PointerProperty(type=ReflinesWarp)
+    live: PointerProperty(type=ReflinesLive)
+    pattern: PointerProperty(type=ReflinesPattern)
+    curve: PointerProperty(type=bpy.types.NodeTree, description="Holds the artist's own fall-off curve")
+    stripes: PointerProperty(type=ReflinesStripes)
+    setups: PointerProperty(type=ReflinesSetups)
+
+    def missing(self) -> str:
+        """Returns what is missing before any tool can run, as a sentence; empty where nothing is."""
+        if not self.present(self.camera):
+            return self.describe_absent(self.camera) or (
+                "No view camera: press Add View Camera, or pick one in the sidebar's Reflection tab")
+        return self.missing_light()
+
+    def missing_light(self) -> str:
+        """Returns that the light is missing, as a sentence; empty where it is there."""
+        if self.present(self.light):
+            return ""
+        return self.describe_absent(self.light) or (
+            "No light direction: press Add Light Direction, or pick an empty in the sidebar's Reflection tab")
+
+    def describe_absent(self, ob: bpy.types.Object | None) -> str:
+        """Returns which other scene an object is in, as a sentence; empty where it is in none."""
+        scenes = ob.users_scene if ob is not None else ()
+        if not scenes:
+            return ""
+        return (f"{ob.name} is in the scene {scenes[0].name}, not in this one: link it to this scene (Object > "
+                "Link/Transfer Data), or pick another")
+
+    def present(self, ob: bpy.types.Object | None) -> bool:
+        """Returns whether the object is in the scene: properties may still point at deleted ones."""
+        return ob is not None and scene_objects.contains_object(self.id_data.objects, ob)
+
+    def picture_camera(self) -> bpy.types.Object | None:
+        """Returns the view camera, None where there is none."""
+        return self.camera if self.present(self.camera) else None
+
+    def explain_fixed_light(self) -> str:
+        """Returns why the light cannot be turned, as a sentence; empty where it can."""
+        missing = self.missing_light()
+        if missing:
+            return missing
+        return f"{self.light.name} is linked from another file: make it local" if self.light.library else ""
+
+    def read_light_angles(self) -> tuple[float, float]:
+        """Returns turn and tilt of the light, radians; zeros where there is none."""
+        present = self.present(self.light)
+        return light_angles.read_light_angles(self.picture_camera(), self.light) if present else (0.0, 0.0)
+
+    def read_light_dial(self) -> tuple[float, float, float]:
+        """Returns the light direction as the view camera sees it."""
+        if not self.present(self.light):
+            return 1.0, 0.0, 0.0
+        return tuple(light_angles.read_light_direction(self.picture_camera(), self.light))
+
+    def turn_light(self, turn: float, tilt: float) -> None:
+        if not self.explain_fixed_light():
+            light_angles.turn_light(self.picture_camera(), self.light, turn, tilt)
+
+    def point_light(self, direction: tuple[float, float, float]) -> None:
+        if not self.explain_fixed_light():
+            light_angles.point_light(self.picture_camera(), self.light, Vector(direction))
+
+    def is_perspective(self) -> bool:
+        return self.present(self.camera) and self.camera.data.type != 'ORTHO'
+
+
+CLASSES = (ReflinesReport, ReflinesRun, ReflinesObject, ReflinesLive, ReflinesScene)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.reflection_lines = PointerProperty(type=ReflinesScene)
+    bpy.types.Object.reflection_lines = PointerProperty(type=ReflinesObject)
+
+
+def unregister() -> None:
+    del bpy.types.Object.reflection_lines
+    del bpy.types.Scene.reflection_lines
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

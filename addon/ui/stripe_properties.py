@@ -1,0 +1,116 @@
+"""Properties of the stripes' look: the scene's present settings, and named set-ups that are copies of them."""
+import bpy
+from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
+                       PointerProperty)
+
+MODES = (
+    ('REFLECTION', "Reflection Lines", "Parallel line lights as the panel mirrors them: what the solver optimizes"),
+    ('HIGHLIGHT', "Highlight Lines", "Where the surface's normals meet the line lights: they stay as you look around"),
+    ('ISOPHOTE', "Isophotes", "Lines of equal angle between the surface's normals and the light direction"),
+    ('IMAGE', "Environment Image", "An image all around the panel (as a World's Environment Texture), mirrored by it"),
+    ('RESIDUAL', "Residual Map", "Where the last solve could not give the lines the wanted direction and density"),
+    ('DEVIATION', "Deviation Map", "How far the last solve moved the panel, with its sign: outwards or inwards"),
+)
+EYES = (
+    ('CAMERA', "View Camera", "Stripes as the solver sees them: from the view camera's direction"),
+    ('VIEWPORT', "This View", "The lights stand in the world; stripes slide over the panel as you orbit around it"),
+    ('FROZEN', "Frozen Eye", "From where this view stood when it was frozen"),
+)
+SCOPES = (
+    ('OBJECT', "Active Object", "On the active mesh; they stay on it while the light or camera is active"),
+    ('SELECTION', "Selection", "On the selected faces in Edit Mode, on the selected objects in Object Mode"),
+    ('COLLECTION', "Collection", "On all meshes of a collection"),
+    ('VISIBLE', "All Visible", "On all visible meshes"),
+)
+NOT_COPIED = {"rna_type", "name", "show", "before"}
+
+
+def color_property(name: str, default: tuple[float, float, float, float]) -> object:
+    return FloatVectorProperty(name=name, subtype='COLOR', size=4, min=0.0, max=1.0, default=default)
+
+
+class ReflinesStripes(bpy.types.PropertyGroup):
+    show: BoolProperty(name="Show Stripes", description="Draw the reflection of line lights over the mesh")
+    before: BoolProperty(name="Before Last Solve",
+                         description="Show the reflections that the panel had before its last solve")
+    mode: EnumProperty(name="Mode", items=MODES, default='REFLECTION')
+    eye: EnumProperty(name="Seen From", items=EYES, default='CAMERA',
+                      update=lambda self, context: self.freeze_if_asked(context))
+    per_point: BoolProperty(name="Per Point",
+                            description="With a perspective view camera: from every point towards it, as renders show "
+                            "it. Off: one direction for the whole panel, as the solver takes it")
+    frozen_eye: FloatVectorProperty(name="Frozen Eye", size=4,
+                                    description="Place, and 1; of a view without perspective the direction, and 0")
+    scope: EnumProperty(name="On", items=SCOPES, default='OBJECT')
+    collection: PointerProperty(name="Collection", type=bpy.types.Collection)
+    image: PointerProperty(name="Image", type=bpy.types.Image,
+                           description="Equirectangular, like the images of World environments")
+    image_rotation: FloatProperty(name="Rotation", subtype='ANGLE', description="Turns the image around the world's Z")
+    map_range: FloatProperty(name="Full Colour at", min=0.0, precision=5,
+                             description="Value with the last colour of the map; 0 takes the largest")
+    cage_on_top: BoolProperty(name="Cage on Top", default=True,
+                              description="In Edit Mode, draw edges and what is selected over the stripes; edges of a "
+                              "few pixels fade away, unless few are selected")
+    count: IntProperty(name="Count", default=60, min=1, soft_max=200, max=2000,
+                       description="Line lights in a full turn around the light direction")
+    width: FloatProperty(name="Width", default=0.5, min=0.0, max=1.0, subtype='FACTOR',
+                         description="Share of the distance between two line lights that is light")
+    softness: FloatProperty(name="Soft Edge", default=0.1, min=0.0, max=1.0, subtype='FACTOR',
+                            description="Blur of the edges of the stripes, as a share of their width")
+    color: color_property("Light", (0.9, 0.93, 1.0, 1.0))
+    gap_color: color_property("Gap", (0.01, 0.012, 0.016, 1.0))
+    opacity: FloatProperty(name="Opacity", default=0.9, min=0.0, max=1.0, subtype='FACTOR')
+
+    def freeze_if_asked(self, context: bpy.types.Context) -> None:
+        region_3d = getattr(context.space_data, "region_3d", None)
+        if self.eye == 'FROZEN' and region_3d is not None:
+            self.freeze(region_3d)
+
+    def freeze(self, region_3d: bpy.types.RegionView3D) -> None:
+        back = region_3d.view_matrix.inverted_safe()
+        perspective = region_3d.is_perspective
+        self.frozen_eye = (*(back.translation if perspective else back.col[2].to_3d()), float(perspective))
+
+    def take(self, other: "ReflinesStripes") -> None:
+        """Copies all settings but the switches, which are no part of a set-up."""
+        for one in self.bl_rna.properties:
+            if one.identifier not in NOT_COPIED:
+                setattr(self, one.identifier, getattr(other, one.identifier))
+
+
+class ReflinesSetups(bpy.types.PropertyGroup):
+    """Named set-ups. The scene's stripes show the picked one, and changes go into it."""
+    entries: CollectionProperty(type=ReflinesStripes)
+    index: IntProperty(name="Set-up", update=lambda self, _: self.pick(), description="The set-up that is shown")
+    shown: IntProperty(default=-1)
+
+    def stripes(self) -> ReflinesStripes:
+        return self.id_data.reflection_lines.stripes
+
+    def keep(self) -> None:
+        if 0 <= self.shown < len(self.entries):
+            self.entries[self.shown].take(self.stripes())
+
+    def pick(self) -> None:
+        if self.index == self.shown or not 0 <= self.index < len(self.entries):
+            return
+        self.keep()
+        self.shown = self.index
+        self.stripes().take(self.entries[self.index])
+
+    def add(self, name: str) -> None:
+        """Adds a copy of the present settings and picks it."""
+        self.keep()
+        new = self.entries.add()
+        new.take(self.stripes())
+        new.name = name
+        self.shown = self.index = len(self.entries) - 1
+
+    def remove(self) -> None:
+        self.entries.remove(self.index)
+        self.shown = -1
+        self.index = max(0, self.index - 1)
+
+
+
+register, unregister = bpy.utils.register_classes_factory([ReflinesStripes, ReflinesSetups])

@@ -1,0 +1,88 @@
+"""The panel of the stripes' look in the sidebar tab."""
+import bpy
+
+from . import stripe_presets
+from .panels import ReflinesPanel, draw_paragraph
+
+BANDS = {'REFLECTION', 'HIGHLIGHT', 'ISOPHOTE'}
+MAPS = {'RESIDUAL', 'DEVIATION'}
+
+
+class REFLINES_UL_stripes(bpy.types.UIList):
+    def draw_item(self, _context: bpy.types.Context, layout: bpy.types.UILayout, _data: object,
+                  item: bpy.types.PropertyGroup, _icon: int, _active_data: object, _active_property: str) -> None:
+        layout.prop(item, "name", text="", emboss=False, icon='SHADING_RENDERED')
+
+
+class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Stripes"
+    manual = "stripes"
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        stripe_presets.VIEW3D_PT_reflines_stripe_presets.draw_panel_header(self.layout)
+        super().draw_header_preset(context)
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.scene.reflection_lines.stripes, "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reflection_lines
+        stripes = settings.stripes
+        layout = self.layout
+        why = context.window_manager.reflection_lines.explain_stripes(context)
+        if why:
+            draw_paragraph(layout, context, why, 'INFO')
+        layout.active = stripes.show
+        if settings.setups.entries:
+            self.draw_setups(layout, settings.setups)
+        else:
+            layout.operator("reflines.add_stripes", text="Keep as Set-up", icon='ADD')
+        layout.use_property_split, layout.use_property_decorate = True, False
+        layout.prop(stripes, "mode")
+        layout.prop(stripes, "scope")
+        if stripes.scope == 'COLLECTION':
+            layout.prop(stripes, "collection")
+        if stripes.mode in MAPS:
+            self.draw_map(layout, context.view_layer.objects.active)
+        else:
+            self.draw_eye(layout, settings)
+            layout.prop(stripes, "before")
+        if stripes.mode == 'IMAGE':
+            self.draw_image(layout, stripes)
+        for name in self.look(stripes.mode):
+            layout.prop(stripes, name)
+        if stripes.mode == 'REFLECTION':
+            layout.operator("reflines.install_matcap", icon='MATSPHERE')
+
+    def draw_setups(self, layout: bpy.types.UILayout, setups: bpy.types.PropertyGroup) -> None:
+        row = layout.row()
+        row.template_list("REFLINES_UL_stripes", "", setups, "entries", setups, "index", rows=2)
+        buttons = row.column(align=True)
+        buttons.operator("reflines.add_stripes", text="", icon='ADD')
+        buttons.operator("reflines.remove_stripes", text="", icon='REMOVE')
+
+    def draw_eye(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+        layout.prop(settings.stripes, "eye")
+        if settings.stripes.eye == 'CAMERA' and settings.is_perspective():
+            layout.prop(settings.stripes, "per_point")
+        elif settings.stripes.eye == 'FROZEN':
+            layout.operator("reflines.freeze_eye", icon='FREEZE')
+
+    def draw_map(self, layout: bpy.types.UILayout, ob: bpy.types.Object | None) -> None:
+        if ob is None or not ob.reflection_lines.report.termination:
+            draw_paragraph(layout, bpy.context, "Run a tool: the map shows what its solve did", 'INFO')
+
+    def draw_image(self, layout: bpy.types.UILayout, stripes: bpy.types.PropertyGroup) -> None:
+        column = layout.column()
+        column.use_property_split = False
+        column.template_ID(stripes, "image", open="image.open")
+        if stripes.image is None:
+            draw_paragraph(column, bpy.context, "Open an equirectangular image, as World environments use", 'INFO')
+
+    def look(self, mode: str) -> tuple[str, ...]:
+        bands = ("count", "width", "softness", "color", "gap_color") if mode in BANDS else ()
+        own = {'IMAGE': ("image_rotation",), 'RESIDUAL': ("map_range",), 'DEVIATION': ("map_range",)}.get(mode, ())
+        return (*bands, *own, "opacity", "cage_on_top")
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_UL_stripes, VIEW3D_PT_reflines_stripes])

@@ -1,0 +1,176 @@
+"""Settings of each tool. The scene holds one set for the sidebar, operators another for the redo panel.
+
+Operators do not remember values from run to run (SKIP_SAVE): what is not given is taken from the scene.
+"""
+from math import radians
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
+
+from ..bridge import falloff_curve
+
+CENTRES = (
+    ('EVERYWHERE', "Everywhere", "The tool acts on the whole region alike"),
+    ('CURSOR', "3D Cursor", "Fully at the 3D cursor, less with the distance from it"),
+    ('ACTIVE', "Active Vertex", "Fully at the vertex selected last, less with the distance from it"),
+    ('REGION', "Region Centre", "Fully at the middle of the region, less with the distance from it"),
+)
+SHAPES = (
+    ('SMOOTH', "Smooth", "Flat at the centre and at the radius"),
+    ('LINEAR', "Linear", "Evenly down from the centre to the radius"),
+    ('SPHERE', "Sphere", "Full for long, then steeply down"),
+    ('SHARP', "Sharp", "Steeply down at the centre, then flat"),
+    ('CURVE', "Curve", "Your own curve, from the centre on the left to the radius on the right"),
+)
+DIRECTIONS = (
+    ('MEAN', "Keep Mean", "The mean direction of the lines as they are"),
+    ('ANGLE', "Angle", "An angle in the view camera's picture"),
+    ('POINTS', "Two Points", "From one picked point to another"),
+)
+UNITS = (
+    ('RELATIVE', "Relative", "A factor of the present mean density"),
+    ('LINES', "Lines per Unit", "Stripes a unit of length, counted as the stripes are drawn"),
+)
+AXES = (
+    ('NONE', "Constant", "The same density everywhere"),
+    ('ALONG', "Along the Lines", "From one end of the lines to the other"),
+    ('ACROSS', "Across the Lines", "From the first line to the last"),
+)
+SPLINES = (
+    ('KEY_LINEAR', "Linear", "Straight between control points"),
+    ('KEY_CARDINAL', "Cardinal", "Through the control points"),
+    ('KEY_CATMULL_ROM', "Catmull-Rom", "Through the control points, softly"),
+    ('KEY_BSPLINE', "BSpline", "Near the control points, smoothest"),
+)
+FITS = (
+    ('GRADIENT', "Direction and Density", "The lines run as wanted, wherever each of them lies"),
+    ('VALUE', "Place of Each Line", "Each line lies where it is wanted. A border limits that: clamped, the two "
+     "outermost rows of vertices stay, fixed the outermost one, and the lines there too; only a free border follows"),
+)
+LIGHTS = (
+    ('CROSSED', "Crossed", "The light and the same turned by 90 degrees in the camera's picture: what one of them does "
+     "not show cannot pay for the other"),
+    ('SINGLE', "This Light", "Only the light as it is"),
+)
+SAVED = {'options': {'SKIP_SAVE'}}
+BORDERS = (
+    ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly"),
+    ('fixed', "Fixed", "Border vertices stay; the slope across the border may change"),
+    ('free', "Free", "Border vertices may move along the view, as the rest does"),
+)
+
+
+def border_property(default: str = 'clamped') -> object:
+    """Defines the setting of a tool's border. A tool that changes the mean of the lines over the region needs it free:
+    held at its border the sample plate does 0 to 12 % of a turn by 0.2 rad, free within its fall-off 66 %.
+    """
+    return EnumProperty(name="Border", items=BORDERS, default=default, **SAVED,
+                        description="What happens at the border of the region")
+
+
+def ensure_curve(settings: "FalloffSettings", context: bpy.types.Context) -> None:
+    if settings.shape == 'CURVE':
+        context.scene.reflection_lines.curve = falloff_curve.ensure_curve()
+
+
+class FalloffSettings:
+    border: border_property('free')
+    centre: EnumProperty(name="Acts", items=CENTRES, default='REGION', **SAVED)
+    radius: FloatProperty(name="Radius", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
+                          description="How far the tool reaches from its centre; 0: a third of the region's diagonal, "
+                          "at most half its width")
+    shape: EnumProperty(name="Fall-off", items=SHAPES, default='SMOOTH', update=ensure_curve, **SAVED)
+    emphasis: FloatProperty(name="Emphasis", default=10.0, min=1.0, soft_max=100.0, max=1e6, **SAVED,
+                            description="How many times more the lines at the centre count than those where the tool "
+                            "does not act; 1 treats all alike")
+
+
+class SmoothSettings:
+    border: border_property()
+    length: FloatProperty(name="Length", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
+                          description="Detail of the lines finer than this is removed. 0, automatic: noise, ripples, "
+                          "round dents and differences of the halves go, and the design stays")
+    strength: FloatProperty(name="Strength", default=1.0, min=0.0, max=1.0, subtype='FACTOR', **SAVED,
+                            description="How much of that detail is removed: 0 leaves the panel as it is")
+    directional: BoolProperty(name="Along the Lines", **SAVED,
+                              description="Smooth only along the lines: they become straight, their spacing stays")
+    lights: EnumProperty(name="Lights", items=LIGHTS, default='CROSSED', **SAVED,
+                         description="Whose lines the automatic length smooths")
+    symmetric: BoolProperty(name="Symmetric", default=True, **SAVED,
+                            description="With the automatic length, what one half of a symmetric panel has and the "
+                            "other has not is a flaw")
+
+
+class DirectionSettings(FalloffSettings):
+    direction: EnumProperty(name="Direction", items=DIRECTIONS, default='MEAN', **SAVED)
+    angle: FloatProperty(name="Angle", subtype='ANGLE', **SAVED,
+                         description="Of the lines, counter-clockwise from the horizontal of the camera's picture")
+    start: FloatVectorProperty(name="From", subtype='XYZ', unit='LENGTH', **SAVED, description="In world space")
+    end: FloatVectorProperty(name="To", subtype='XYZ', unit='LENGTH', **SAVED, description="In world space")
+    unit: EnumProperty(name="Density", items=UNITS, default='RELATIVE', **SAVED)
+    density: FloatProperty(name="Density", default=1.0, min=0.0, soft_max=10.0, precision=3, **SAVED,
+                           description="How close together the lines are")
+    axis: EnumProperty(name="Varies", items=AXES, default='NONE', **SAVED)
+    density_end: FloatProperty(name="At the End", default=1.0, min=0.0, soft_max=10.0, precision=3, **SAVED,
+                               description="Density at the far end")
+    strength: FloatProperty(name="Strength", default=1.0, min=0.0, max=1.0, subtype='FACTOR', **SAVED,
+                            description="0 leaves the panel as it is")
+
+
+class UntwistSettings(FalloffSettings):
+    angle: FloatProperty(name="Angle", subtype='ANGLE', default=radians(10.0), **SAVED,
+                         description="How far the lines are turned, counter-clockwise in the camera's picture")
+
+
+class FitSettings:
+    fit: EnumProperty(name="Fit", items=FITS, default='GRADIENT', **SAVED)
+
+
+class WarpSettings(FitSettings):
+    amount: FloatProperty(name="Amount", default=100.0, min=0.0, soft_max=100.0, max=1000.0, subtype='PERCENTAGE',
+                          precision=1, **SAVED, description="How far of the way that the lattice's control points went "
+                          "the lines go")
+    cells: IntProperty(name="Raster", default=128, min=4, soft_max=512, max=2048, **SAVED,
+                       description="Cells a side of the grid on which the lattice's map is sampled")
+
+
+class PatternSettings(FitSettings):
+    strength: FloatProperty(name="Strength", subtype='ANGLE', default=0.1, soft_min=-1.0, soft_max=1.0, **SAVED,
+                            description="Turn of the reflected light from black to white; 0 leaves the panel as it is")
+    blur: FloatProperty(name="Blur", default=2.0, min=0.0, soft_max=50.0, subtype='PIXEL', **SAVED,
+                        description="Standard deviation in pixels; edges too sharp for any surface are not reached")
+    keep_lines: FloatProperty(name="Keep Lines", default=1.0, min=0.0, max=1.0, subtype='FACTOR', **SAVED,
+                        description="Share of the present lines that stays below the pattern; 0: none")
+    width: FloatProperty(name="Width", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
+                         description="Of the picture; 0 covers the region")
+    angle: FloatProperty(name="Rotation", subtype='ANGLE', **SAVED,
+                         description="Counter-clockwise in the camera's picture")
+    offset: FloatVectorProperty(name="Offset", size=2, subtype='XYZ', unit='LENGTH', **SAVED,
+                                description="Of the picture's middle from the region's, right and up for the camera")
+
+
+class ReflinesDirection(DirectionSettings, bpy.types.PropertyGroup):
+    """The scene's settings of Direction and Density."""
+
+
+class ReflinesUntwist(UntwistSettings, bpy.types.PropertyGroup):
+    """The scene's settings of Untwist."""
+
+
+def is_lattice(_: object, ob: bpy.types.Object) -> bool:
+    return ob.type == 'LATTICE'
+
+
+class ReflinesWarp(WarpSettings, bpy.types.PropertyGroup):
+    """The scene's settings of Warp."""
+    lattice: PointerProperty(name="Lattice", type=bpy.types.Object, poll=is_lattice,
+                             description="Its control points say where the lines go")
+
+
+class ReflinesPattern(PatternSettings, bpy.types.PropertyGroup):
+    """The scene's settings of Image Pattern."""
+    image: PointerProperty(name="Image", type=bpy.types.Image, description="Its grey values say how the lines bend")
+
+
+register, unregister = bpy.utils.register_classes_factory([
+    ReflinesDirection, ReflinesUntwist, ReflinesWarp, ReflinesPattern])

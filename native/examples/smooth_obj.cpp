@@ -1,0 +1,81 @@
+// Smooths the reflection lines of a triangle mesh: reads a Wavefront OBJ, solves, writes it with the moved vertices.
+//
+//   smooth_obj INPUT.obj OUTPUT.obj LENGTH
+//
+// The view looks down the z axis (towards the side that the view direction +z points to), the light lines run along y,
+// and the border keeps its position. Detail of the lines finer than LENGTH, in the mesh's unit of length, is smoothed.
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "reflines/errors.h"
+#include "reflines/shape_optimizer.h"
+#include "reflines/smooth_target.h"
+
+namespace {
+
+struct Mesh {
+  reflines::Positions V;
+  reflines::Triangles F;
+};
+
+// Reads the `v` and triangular `f` lines; other lines, and texture and normal indices, are skipped.
+Mesh read_obj(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw reflines::InvalidInput(path + " cannot be read.");
+  std::vector<double> positions;
+  std::vector<int> corners;
+  for (std::string line, kind, corner; std::getline(file, line);) {
+    std::istringstream words(line);
+    words >> kind;
+    if (kind == "v") {
+      for (double x; words >> x;) positions.push_back(x);
+    } else if (kind == "f") {
+      while (words >> corner) corners.push_back(std::stoi(corner) - 1);
+    }
+    kind.clear();
+  }
+  if (positions.size() % 3 != 0 || corners.size() % 3 != 0) {
+    throw reflines::InvalidInput(path + " holds other faces than triangles, or vertices without 3 coordinates.");
+  }
+  return {Eigen::Map<reflines::Positions>(positions.data(), static_cast<int>(positions.size()) / 3, 3),
+          Eigen::Map<reflines::Triangles>(corners.data(), static_cast<int>(corners.size()) / 3, 3)};
+}
+
+void write_obj(const std::string& path, const reflines::Positions& V, const reflines::Triangles& F) {
+  std::ofstream file(path);
+  file.precision(17);
+  for (const auto& v : V.rowwise()) file << "v " << v << '\n';
+  for (const auto& f : F.rowwise()) file << "f " << (f.array() + 1) << '\n';
+}
+
+void smooth_obj(const std::string& input, const std::string& output, double length) {
+  const Mesh mesh = read_obj(input);
+  reflines::ShapeOptions options;
+  options.border.assign(mesh.V.rows(), reflines::Border::kFixed);
+  reflines::ShapeOptimizer optimizer(mesh.V, mesh.F, reflines::Vector3::UnitZ(), {reflines::Vector3::UnitY()}, options);
+  const reflines::Target target =
+      reflines::build_smooth_target(optimizer.field(0), optimizer.smoother(0), {length}, 1.0, 0);
+  const double before = optimizer.score(length, 0);
+  const reflines::Report report = optimizer.solve({target});
+  std::cout << report.message << "\nwobble " << before << " -> " << optimizer.score(length, 0) << " degrees\n";
+  write_obj(output, optimizer.positions(), mesh.F);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 4) {
+    std::cerr << "usage: smooth_obj INPUT.obj OUTPUT.obj LENGTH\n";
+    return 2;
+  }
+  try {
+    smooth_obj(arguments[1], arguments[2], std::stod(arguments[3]));
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

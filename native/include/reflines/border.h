@@ -1,0 +1,13 @@
+// The condition at the border of a region.
+#pragma once
+
+namespace reflines {
+
+// The condition at the border of a region; of a subdivision surface it is meant on the limit surface.
+enum class Border : signed char {
+  kFree = 0,     // border vertices move like any other
+  kFixed = 1,    // positions stay
+  kClamped = 2,  // positions and tangents stay: of a mesh, border vertices and those one edge away
+};
+
+}  // namespace reflines

@@ -1,0 +1,18 @@
+// Finds the pairs of vertices that lie in each other's mirror image.
+#pragma once
+
+#include "reflines/types.h"
+
+namespace reflines {
+
+struct MirrorPlane {
+  Vector3 point;
+  Vector3 normal;  // any length
+};
+
+// #V: the vertex where a vertex's mirror image lies, within `tolerance` (a length): itself on the plane, -1 where there
+// is none. Partners are mutual. Of vertices in one place the first are paired with the first. Throws InvalidInput: a
+// normal of length 0.
+IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double tolerance);
+
+}  // namespace reflines

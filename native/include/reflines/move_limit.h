@@ -1,0 +1,20 @@
+// How far a solve may move vertices along the view, from the heights that the optimizer was built with.
+#pragma once
+
+#include "reflines/types.h"
+
+namespace reflines {
+
+// No vertex of ShapeOptimizer::positions is beyond it, by no bit.
+struct MoveLimit {
+  Vector lowest, highest;  // #V each, lowest <= 0 <= highest, infinite where there is none; empty: no limit
+
+  bool exists() const { return highest.size() > 0; }
+
+  static MoveLimit none() { return {}; }
+  static MoveLimit within(double length, int vertex_count) {  // either way
+    return {Vector::Constant(vertex_count, -length), Vector::Constant(vertex_count, length)};
+  }
+};
+
+}  // namespace reflines

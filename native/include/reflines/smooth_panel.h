@@ -1,0 +1,62 @@
+// One press of Smooth with all its automatic rules: flaws are healed, the design stays.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reflines/progress.h"
+#include "reflines/report.h"
+#include "reflines/shape_optimizer.h"
+#include "reflines/types.h"
+
+namespace reflines {
+
+enum class Lights {
+  kCrossed,  // the light lines given, and the same turned by 90 degrees in the image plane
+  kSingle,   // those given only
+};
+
+struct SmoothPanelOptions {
+  std::vector<Border> border;  // #V, or empty: clamped everywhere
+  Mask held;                   // #V, or empty: vertices that stay
+  Lights lights = Lights::kCrossed;
+  double length = 0.0;                 // size of the flaws, in units of V; 0: the diagonal / 14
+  double strength = 1.0;               // share of the move that is made, 0 to 1
+  double limit = 0.0;                  // no vertex moves further along the view, in units of V; 0: length / 20
+  bool symmetric = true;               // what one half of a symmetric panel has and the other has not is a flaw
+  std::shared_ptr<Progress> progress;  // or none
+};
+
+struct SmoothPanelReport {
+  Report solve;                      // of the last solve
+  double length = 0.0, limit = 0.0;  // those used
+  double largest_move = 0.0;         // along the view, in units of V
+  int limited = 0;                   // vertices that the limit holds back
+  int bumps = 0;                     // round dents and bumps that were taken away
+  int mirrored = 0;                  // vertices of a symmetric panel; 0: it is not symmetric
+  int held_faces = 0;                // triangles that would have turned by more than 45 degrees and were held instead
+  std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
+  bool applied = true;                // false: some light would have become worse, and nothing was moved
+  std::vector<std::string> messages;  // sentences for the user, the most important first
+};
+
+struct SmoothPanelResult {
+  Positions positions;  // #V x 3; vertices that did not move carry the bits they came with
+  SmoothPanelReport report;
+};
+
+// Takes flaws out of a panel V (#V x 3), F (#F x 3) seen along `view_direction` under `line_direction`:
+//  1. what one half of a symmetric panel has and the other has not is a flaw (restoration/mirror_evidence.h);
+//  2. so are round dents and bumps with good surface around them (restoration/bump_search.h);
+//  3. the fields of the lines are smoothed up to their creases (restoration/crease_preserving_smoother.h); where that
+//     changes them much more than elsewhere they are kept, for that is design; and the shape with these lines is solved
+//     for, within the limit.
+// A result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far the
+// lines stray from their smoothed selves within one length, in degrees, root mean square over the region; the creases
+// are those of the start before and after. Where it rises in a light by more than 1 %, nothing is applied. Throws
+// InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
+SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
+                               const Vector3& line_direction, const SmoothPanelOptions& options = {});
+
+}  // namespace reflines

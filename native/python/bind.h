@@ -1,0 +1,19 @@
+// What each binding file adds to the module `reflines`. The Python names, shapes and units are in reflines.pyi.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace reflines {
+
+void bind_errors(pybind11::module_& module);
+void bind_geometry(pybind11::module_& module);
+void bind_subdivision(pybind11::module_& module);
+void bind_turn(pybind11::module_& module);
+void bind_target(pybind11::module_& module);
+void bind_builders(pybind11::module_& module);
+void bind_report(pybind11::module_& module);
+void bind_smooth_panel(pybind11::module_& module);
+void bind_optimizer(pybind11::module_& module);
+void bind_cage_optimizer(pybind11::module_& module);
+
+}  // namespace reflines

@@ -1,0 +1,18 @@
+// Borders as Python gives them: one name for all vertices, or a code for each.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "python/index_arrays.h"
+#include "reflines/shape_optimizer.h"
+
+namespace reflines {
+
+using Codes = std::variant<std::string, Indices>;
+
+// #V borders of "free", "fixed" or "clamped", or of #V codes 0, 1, 2. Throws InvalidInput for others.
+std::vector<Border> border_codes(const Codes& border, Eigen::Index vertex_count);
+
+}  // namespace reflines

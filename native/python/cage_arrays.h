@@ -1,0 +1,28 @@
+// Converts cages and the options of their subdivision from numpy arrays and names.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <string>
+#include <vector>
+
+#include "python/index_arrays.h"
+#include "reflines/subdivision.h"
+#include "reflines/types.h"
+
+namespace reflines {
+
+using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+// What a cage and its subdivision are called in Python; empty arrays where there are no creases or corners.
+struct CageArrays {
+  Indices face_offsets, face_vertices, creases;
+  Numbers crease_sharpness;
+  Indices corners;
+  Numbers corner_sharpness;
+};
+
+Cage cage_of(const CageArrays& arrays, int vertices);
+SubdivisionOptions subdivision_options(int level, const std::string& scheme, const std::string& boundary, bool limit);
+
+}  // namespace reflines

@@ -1,0 +1,108 @@
+#include <pybind11/eigen.h>
+
+#include <memory>
+#include <utility>
+
+#include "geometry/crease.h"
+#include "geometry/crease_split.h"
+#include "geometry/mesh.h"
+#include "geometry/normal_fit.h"
+#include "python/bind.h"
+#include "python/exclusive_use.h"
+#include "python/gil_handover.h"
+#include "python/index_arrays.h"
+#include "reflection/reflection_function.h"
+#include "reflines/errors.h"
+#include "reflines/image_plane.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+Eigen::Matrix3d image_plane(const Vector3& view_direction, const Vector3& line_direction) {
+  const ImagePlane frame(view_direction, line_direction);
+  Eigen::Matrix3d rows;
+  rows << frame.x().transpose(), frame.y().transpose(), frame.z().transpose();
+  return rows;
+}
+
+double theta_of_normal(const ImagePlane& frame, const ReflectionFunction& reflection, const Vector3& normal) {
+  const Vector3 n = frame.to_frame(normal);
+  return reflection.theta(-n.x() / n.z(), -n.y() / n.z());
+}
+
+Vector theta(const Positions& normals, const Positions& views, const Vector3& line_direction) {
+  if (views.rows() != 1 && views.rows() != normals.rows()) {
+    throw InvalidInput("There are " + std::to_string(views.rows()) + " view directions for " +
+                       std::to_string(normals.rows()) + " normals; give one, or one for each.");
+  }
+  Vector result(normals.rows());
+  for (Eigen::Index k = 0; k < normals.rows(); ++k) {
+    const Vector3 view = views.row(views.rows() == 1 ? 0 : k);
+    const ImagePlane frame(view, line_direction);
+    result(k) = theta_of_normal(frame, ReflectionFunction(frame, view, line_direction), normals.row(k));
+  }
+  return result;
+}
+
+std::unique_ptr<NormalFit> make_fit(const Positions& V, const Indices& F, double refit_angle) {
+  const Triangles triangles = triangles_of(F);
+  const ReleaseGil release;
+  return std::make_unique<NormalFit>(V, triangles, refit_angle);
+}
+
+// (F, vertex): see split_at_creases.
+std::pair<Triangles, Eigen::VectorXi> split(const Positions& V, const Indices& F, double angle) {
+  const Triangles triangles = triangles_of(F);
+  const ReleaseGil release;
+  const SplitSurface result = split_at_creases(V, triangles, angle);
+  return {result.F, Eigen::Map<const Eigen::VectorXi>(result.vertex.data(), result.vertex.size())};
+}
+
+// #E x 2: see crease_edges.
+Edges creases(const Positions& V, const Indices& F, double angle) {
+  const Triangles triangles = triangles_of(F);
+  const ReleaseGil release;
+  check_surface(V, triangles);
+  const Triangles neighbors = edge_neighbors(triangles);
+  const EdgeMask crease = crease_edges(V, triangles, neighbors, {.angle = angle});
+  Edges result(crease.count() / 2, 2);
+  int count = 0;
+  for (int t = 0; t < triangles.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (crease(t, i) && neighbors(t, i) > t) {
+        result.row(count++) << triangles(t, (i + 1) % 3), triangles(t, (i + 2) % 3);
+      }
+    }
+  }
+  return result;
+}
+
+NormalFit copy(const NormalFit& fit) {
+  const NativeCall call(fit, ExclusiveUse::Use::kReads);
+  return fit;
+}
+
+}  // namespace
+
+void bind_geometry(py::module_& module) {
+  module.def("image_plane", &image_plane, py::arg("view_direction"), py::arg("line_direction"));
+  module.def("theta", &theta, py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
+  module.def(
+      "theta",
+      [](const Positions& normals, const Vector3& view, const Vector3& line) {
+        return theta(normals, view.transpose(), line);
+      },
+      py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
+  module.def("crease_edges", &creases, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("angle") = kCreaseAngle);
+  module.def("split_at_creases", &split, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("angle") = kCreaseAngle);
+  py::class_<NormalFit>(module, "NormalFit", py::module_local())
+      .def(py::init(&make_fit), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("refit_angle") = 0.35)
+      .def("copy", &copy)
+      .def("kept_normals", release_gil(&NormalFit::kept_normals), py::arg("V"))
+      .def("normals", release_gil(&NormalFit::normals), py::arg("V"))
+      .def_property_readonly("refit_count", &NormalFit::refit_count);
+}
+
+}  // namespace reflines

@@ -1,0 +1,48 @@
+// Whole numbers from Python: triangles, faces, partners, codes. numpy's own casts would cut fractions off and wrap what
+// is too large for an int, both in silence: another vertex than the one that was meant.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <string>
+
+#include "reflines/types.h"
+
+namespace reflines {
+
+class Indices : public pybind11::array_t<int, pybind11::array::c_style> {
+  using pybind11::array_t<int, pybind11::array::c_style>::array_t;
+};
+
+// Any array of integers, of any shape; an empty one may be of any numbers. Throws InvalidInput: numbers of another
+// kind, numbers that are no int.
+Indices indices_of(const pybind11::array& array);
+
+IndexVector index_vector(const Indices& indices);
+
+// InvalidInput where they are not #F x 3.
+Triangles triangles_of(const Indices& indices);
+
+// InvalidInput where they are not #E x 2.
+Edges edges_of(const Indices& indices);
+
+}  // namespace reflines
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<reflines::Indices> {
+  PYBIND11_TYPE_CASTER(reflines::Indices, const_name("numpy.ndarray[int]"));
+
+  bool load(handle source, bool) {
+    if (isinstance<str>(source)) return false;
+    const array any = array::ensure(source);
+    if (!any) return false;
+    value = reflines::indices_of(any);
+    return true;
+  }
+
+  static handle cast(const reflines::Indices& source, return_value_policy, handle) { return source.inc_ref(); }
+};
+
+}  // namespace pybind11::detail

@@ -1,0 +1,298 @@
+"""reflines: shape optimization using reflection lines. numpy in, numpy out, no Blender needed.
+
+Names and shapes: V (#V x 3) vertex positions, F (#F x 3) triangles of the region to optimize, view_direction v (3, from the
+surface towards the viewer), line_direction a (3, along the line lights). Angles are radians, lengths are those of V.
+"""
+from typing import Literal, Sequence
+import numpy as np
+
+Border = Literal["free", "fixed", "clamped"]
+Stencil = Literal["averaged", "quadratic", "hybrid", "consistent"]
+CreaseRule = Literal["automatic", "marked", "none"]
+Strategy = Literal["adaptive", "linearized", "gauss_newton", "newton"]
+LinearSolver = Literal["cholmod", "umfpack"]
+Scheme = Literal["catmull_clark", "loop"]
+Boundary = Literal["all", "preserve_corners"]
+
+class InvalidInput(ValueError):
+    """The arrays cannot be used. The text is one sentence: what, how many, what to do."""
+
+class SolverFailure(RuntimeError):
+    """A numerical breakdown; nothing was changed."""
+
+class Cancelled(Exception):
+    """A watching Progress was cancelled while something was made: there is no result. A solve reports it instead."""
+
+class Progress:
+    """Shared by the thread that solves and the thread that watches. Thread safe."""
+    fraction: float  # read only, 0..1
+    stage: str       # read only, e.g. "factorizing"
+    cancelled: bool  # read only
+    def __init__(self) -> None: ...
+    def cancel(self) -> None:
+        """Asks the work that this watches to stop at its next step. Thread safe, and final."""
+
+class PythonTurn:
+    """A hand-over of Python's lock (GIL) between an owner's thread and one worker's. In between the worker is in native code, where
+    every call of a worker ends with waiting for its turn, or rests."""
+    wanted: bool  # read only: the worker waits for its turn
+    def __init__(self) -> None: ...
+    def lend(self, seconds: float) -> None:
+        """Owner: waits while the worker runs Python, until it rests, or is in native code when the seconds are over."""
+    def give_away(self) -> None:
+        """Owner: from now on the worker runs Python whenever it wants; then its thread can be joined."""
+    def take(self) -> None:
+        """Worker: its first call. Waits for its turn."""
+    def rest(self) -> None:
+        """Worker: nothing to do; waits for its next turn."""
+
+class Region:
+    """What became of the faces and vertices that were handed in. Counts; `messages` are sentences for the user."""
+    triangles: int
+    free: int
+    fixed: int
+    clamped: int
+    pieces: int        # height-field pieces, each solved on its own
+    silhouettes: int   # triangles with |n.v| < 0.2 (12 degrees), their vertices held
+    turned_away: int   # triangles with n.v <= 0, their vertices held
+    unused_pieces: int # pieces without a free vertex
+    creases: int       # edges held as creases
+    marked_creases: int  # those of them that were marked
+    features: int      # triangles whose lines are kept: strong bends that run on for more than the smoothing length, or,
+                       # before any smoothing and for the other tools, than a sixth of the region's diagonal
+    hidden: int        # triangles of less weight: the reflected ray is nearly parallel to the lines
+    closed: bool       # the region has no border edge
+    messages: list[str]
+
+class Target:
+    """One wanted gradient of theta and one weight per triangle, for one family of lines. Each array that is read is a copy:
+    assign the changed one to change it."""
+    gradient: np.ndarray  # #F x 2, image plane, radians / length
+    weight: np.ndarray    # #F, >= 0
+    theta: np.ndarray     # #F wanted theta for a value fit (eq. 3), empty for a gradient fit (eq. 4). The gradient then
+                          # only keeps the surface smooth at the scale of the triangles, and may be 0 x 2
+    family: int           # which of the optimizer's line directions
+    reachable_only: bool  # asks for the part that heights can reach; the builders of new lines set it, `smooth` does not
+    def __init__(self, gradient: np.ndarray, weight: np.ndarray | None = None, *, theta: np.ndarray | None = None,
+                 family: int = 0, reachable_only: bool = False) -> None: ...
+
+class Report:
+    """How a solve ended, and what it cost."""
+    termination: str   # "converged", "already_optimal", "no_progress", "iteration_limit", "cancelled"
+    converged: bool
+    message: str       # one sentence with the numbers compared
+    strategy: str
+    linear_solver: str
+    iterations: int
+    evaluations: int
+    assemblies: int
+    analyses: int
+    factorizations: int
+    solves: int
+    energy_before: float
+    energy_after: float
+    gradient_before: float
+    gradient_after: float
+    seconds: float
+    unknowns: int
+    put_back: int         # vertices beyond the limit at the start, by a solve before: put back to it before anything else
+    limited: int          # vertices that touch the limit
+    limited_share: float  # of the free vertices
+    largest_move: float   # along the view direction, scene units
+    residual_rms: float   # rms of |grad theta - target| over the triangles that can change, radians / length
+
+class ShapeOptimizer:
+    """The live optimizer of one region seen from one view. Expensive to build, cheap to step.
+
+    Raises InvalidInput for data that cannot be used; never changes the arrays handed in. Its work lets other threads run, but
+    is for one thread at a time: what another one asks of it meanwhile (a builder of targets, too) raises InvalidInput at once,
+    but for what never changes (frame, free, active, changeable, xy, centers, area). Any number may read it at once.
+    """
+    region: Region
+    frame: np.ndarray      # 3 x 3, rows: image-plane x, y and z = view_direction, in world coordinates
+    heights: np.ndarray    # #V current heights along the view
+    positions: np.ndarray  # #V x 3; vertices that cannot move carry the bits they came with
+    at_limit: np.ndarray   # #V: -1 or 1 where the last solve's limit holds a vertex at its lowest or highest move, else 0
+    free: np.ndarray       # #V bool
+    xy: np.ndarray         # #V x 2, in the image plane
+    centers: np.ndarray    # #F x 2, the triangles' centroids in the image plane
+    area: np.ndarray       # #F, in the image plane; 0 where not active
+    active: np.ndarray     # #F bool: triangles that belong to a height-field piece
+    changeable: np.ndarray # #F bool: those of them with a vertex that can move
+    def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
+                 line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
+                 border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped (border vertices)
+                 fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
+                 stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
+                 crease_rule: CreaseRule = "automatic",          # creases are held, no stencil reaches across
+                 marked_creases: np.ndarray = ...,               # #M x 2 vertices of edges; used unless the rule is "none"
+                 crease_angle: float = 0.5236,                   # radians: sharper edges are creases unless round about
+                 proximity: float = -1.0,                        # weight of staying near the start; -1: default
+                 progress: Progress | None = None,               # watches from the start, see `watch`
+                 ) -> None: ...
+    def theta(self, family: int = 0) -> np.ndarray:
+        """The reflection function of every triangle (#F), radians in (-pi, pi]."""
+    def field(self, family: int = 0) -> np.ndarray:
+        """The gradient of theta in every triangle (#F x 2), in the image plane, radians / length."""
+    def energy(self, target: Target | list[Target]) -> float:
+        """The energy that `solve` minimises, at the current heights; for several targets the sum of theirs."""
+    def residual(self, target: Target) -> np.ndarray:
+        """|grad theta - target| of every triangle (#F), radians / length."""
+    def score(self, length: float, family: int = 0) -> float:
+        """The wobble of the lines in degrees: how far, within one `length`, they stray from their own smooth course."""
+    def solve(self, target: Target | list[Target], *, strategy: Strategy = "adaptive", gradient_tolerance: float = 1e-6,
+              max_iterations: int = 100, limit: float | np.ndarray | None = None, progress: Progress | None = None) -> Report:
+        """Moves the heights to a minimum of the energy, from where they are. Not converging is no error: see
+        Report.termination. A cancelled solve or one that raises SolverFailure leaves the heights as they were.
+
+        `limit`: no vertex moves further along the view than this length from the heights the optimizer was built with, or,
+        of #V x 2, beyond its lowest (<= 0) and highest (>= 0) move; infinity is no limit. It holds to the bit, for
+        `positions` too, until the next solve or a reset. Not for cages (InvalidInput)."""
+    def watch(self, progress: Progress | None) -> None:
+        """Tells `progress` between the steps of building, of smoothing and of the score, and raises Cancelled there where it
+        asks to stop. A solve looks at its own."""
+    def reset(self) -> None:
+        """Takes the heights back to those that it was built with."""
+
+class SmoothPanelReport:
+    """What `smooth_panel` did."""
+    solve: Report              # of the last solve
+    length: float              # the size of the flaws that was used
+    limit: float               # no vertex moved further than this
+    largest_move: float        # along the view direction
+    limited: int               # vertices that the limit holds back
+    bumps: int                 # round dents and bumps that were taken away
+    mirrored: int              # vertices of a symmetric panel; 0: it is not symmetric
+    held_faces: int            # triangles that would have turned by more than 45 degrees and were held instead
+    unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
+    unevenness_after: list[float]   # length, degrees, root mean square; the creases are those of the start in both
+    applied: bool              # False: some light would have become worse, and nothing was moved
+    messages: list[str]        # sentences for the user, the most important first
+
+def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
+                 border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped
+                 fixed: np.ndarray | None = None,                   # #V bool: held whatever the border says
+                 lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
+                 length: float | None = None,                       # size of the flaws; None: the diagonal / 14
+                 strength: float = 1.0,                             # share of the move that is made, 0 to 1
+                 limit: float | None = None,                        # largest move along the view; None: length / 20
+                 symmetric: bool = True,                            # what one half of a symmetric panel has alone is a flaw
+                 progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
+    """Takes flaws (noise, ripples, dents) out of a panel and leaves its design alone: the whole press of Smooth, with all its
+    automatic rules. Returns the positions (#V x 3; vertices that did not move carry the bits they came with) and a report.
+
+    Raises InvalidInput, SolverFailure, and Cancelled where `progress` was cancelled."""
+
+class CageOptimizer(ShapeOptimizer):
+    """The optimizer of a region of a subdivision surface whose unknowns are the heights of its cage; see
+    native/cage_optimizer.h. The surface, cut into triangles, is the region of ShapeOptimizer: every builder of targets takes
+    it. Faces, creases, corners, scheme and boundary are those of Subdivision; `level` says how finely the surface is sampled.
+    """
+    cage_positions: np.ndarray  # #V x 3; vertices that did not move carry the bits they came with
+    cage_free: np.ndarray       # #V bool
+    triangles: np.ndarray       # #F x 3 of the region's vertices, those of `positions`
+    parent: np.ndarray          # #F: the cage's face
+    refined: np.ndarray         # #region vertices: which of Subdivision's refined vertices each is
+    def __init__(self, V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
+                 view_direction: Sequence[float], line_direction: Sequence[float] | np.ndarray,
+                 region: np.ndarray | None = None,    # #faces bool: those that may change; default all
+                 border: Border = "clamped",          # of the region, on the surface: its limit position and tangents stay
+                 fixed: np.ndarray | None = None,     # #V bool: held whatever the border says
+                 partner: np.ndarray | None = None,   # #V of mirror_pairs, mutual, -1: none. Partners rise alike
+                 level: int = 2, scheme: Scheme = "catmull_clark", boundary: Boundary = "all",
+                 creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
+                 corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit: bool = True,
+                 sparse: bool = False,                # for drags: from level 3 on, few of the triangles count for all
+                 stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
+                 crease_rule: CreaseRule = "automatic", crease_angle: float = 1.0472,
+                 proximity: float = -1.0, progress: Progress | None = None) -> None: ...
+    def fit(self, heights: np.ndarray, weight: np.ndarray) -> None:
+        """Moves the cage so that its surface is nearest to these heights along the view (#region vertices), by least squares;
+        `weight` is the area each speaks for, 0 where there is no such height. Later solves are drawn to the heights."""
+
+def mirror_pairs(V: np.ndarray, *, point: Sequence[float], normal: Sequence[float], tolerance: float) -> np.ndarray:
+    """#V: the vertex in the place of each one's mirror image, itself on the plane, -1 where there is none."""
+
+# Builders of targets. `family` says which light lines; `weight` (#F, >= 0) multiplies each triangle's share of the energy;
+# `influence` (#F in [0, 1]) blends from the current field, 0 keeps it bit for bit. Directions and positions with two
+# coordinates are in the image plane: (p @ optimizer.frame[0], p @ optimizer.frame[1]) of a world point or direction p.
+
+def smooth(optimizer: ShapeOptimizer, *, length: float, strength: float = 1.0, directional: bool = False,
+           family: int = 0, weight: np.ndarray | None = None) -> Target:
+    """The current field without its detail finer than `length` (scene units); see native/src/reflection/line_smoother.h."""
+
+def uniform(optimizer: ShapeOptimizer, *, direction: Sequence[float] = (0, 0), density: float = 1.0, relative: bool = True,
+            density_end: float = -1.0, axis: Sequence[float] = (0, 0), influence: np.ndarray | None = None,
+            weight: np.ndarray | None = None, family: int = 0) -> Target:
+    """Lines of one direction ((0, 0): that of the region's mean) and density (a factor of the mean's, or |grad theta| in
+    radians / length); along `axis` the density goes linearly from density to density_end."""
+
+def turn(optimizer: ShapeOptimizer, *, angle: float, influence: np.ndarray | None = None, weight: np.ndarray | None = None,
+         family: int = 0) -> Target:
+    """The current gradients turned by `angle` radians, counter-clockwise in the image plane, times the influence."""
+
+def falloff(optimizer: ShapeOptimizer, *, centre: Sequence[float], radius: float, curve: np.ndarray) -> np.ndarray:
+    """#F: the curve, tabulated at equal steps from 0 to radius, at each triangle's distance from `centre`."""
+
+def warp(optimizer: ShapeOptimizer, *, low: Sequence[float], high: Sequence[float], columns: int, rows: int,
+         position: np.ndarray, by_value: bool = False, family: int = 0) -> tuple[Target, int]:
+    """Lines carried along by a map of the image plane: `position` ((rows + 1) * (columns + 1) x 2, x fastest) is where the nodes
+    of a regular grid over low .. high go. Also the number of triangles that would show lines from outside the region."""
+
+def pattern(optimizer: ShapeOptimizer, *, image: np.ndarray, strength: float = 1.0, blur: float = 0.0, keep: float = 1.0,
+            centre: Sequence[float] = (0, 0), width: float = 1.0, angle: float = 0.0, by_value: bool = False,
+            weight: np.ndarray | None = None, family: int = 0) -> Target:
+    """`strength` radians of theta between black and white of a grey image (#rows x #columns, first row at the bottom), added
+    to `keep` times the current lines; by value each line is asked to lie where the image puts it, not only to run so (eq. 3);
+    see native/include/reflines/pattern_target.h."""
+
+def match_dense(optimizer: ShapeOptimizer, dense: ShapeOptimizer, *, family: int = 0
+                ) -> tuple[Target, np.ndarray, np.ndarray, np.ndarray]:
+    """The lines of another mesh as a target, with weight 0 where the view meets none of it; theta there (#F), its heights at
+    the region's vertices (#V), and the area each speaks for: what CageOptimizer.fit takes. Both have the same view and lines."""
+
+def crease_edges(V: np.ndarray, F: np.ndarray, *, angle: float = 0.5236) -> np.ndarray:
+    """#E x 2: the edges whose bend jumps against the surface across them, as crease_rule "automatic" finds them. InvalidInput
+    for what can be no surface."""
+
+def split_at_creases(V: np.ndarray, F: np.ndarray, *, angle: float = 0.5236) -> tuple[np.ndarray, np.ndarray]:
+    """(F, vertex): the same triangles (#F x 3) of vertices that are split where edges bend by more than `angle` (radians), and
+    the vertex that each was (#S, the first #V themselves). Normals of V[vertex] are then those of each side of a crease."""
+
+class NormalFit:
+    """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""
+    def __init__(self, V: np.ndarray, F: np.ndarray, *, refit_angle: float = 0.35) -> None: ...
+    def normals(self, V: np.ndarray) -> np.ndarray:
+        """Unit normals (#V x 3) for the positions V; vertices without a triangle get (0, 0, 1)."""
+    def kept_normals(self, V: np.ndarray) -> np.ndarray:
+        """The same without fitting any vertex anew: changes nothing, so any number of threads may call it at once."""
+    def copy(self) -> "NormalFit":
+        """An independent copy of the fit, with its kept coefficients."""
+
+class Subdivision:
+    """A cage under a Subdivision Surface, with the modifier's rules: refined vertices are a matrix S times the cage's vertices.
+
+    Face f has the vertices face_vertices[face_offsets[f]:face_offsets[f + 1]]. Sharpness is 0 (smooth) to 10 (sharp): a crease
+    c of Blender is 10 c^2. The first refined vertices are the cage's own in their order; see native/include/reflines/subdivision.h.
+    """
+    faces: np.ndarray        # #refined faces x 4 (loop: x 3)
+    face_parent: np.ndarray  # #refined faces: the cage's face
+    def __init__(self, face_offsets: np.ndarray, face_vertices: np.ndarray, *, vertices: int, level: int = 2,
+                 scheme: Scheme = "catmull_clark", boundary: Boundary = "all",    # boundary: Blender's boundary_smooth
+                 creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,   # #C x 2 vertices of edges, #C
+                 corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,   # #K vertices, #K
+                 limit: bool = True) -> None: ...                                 # on the limit surface, or refined only
+    def positions(self, V: np.ndarray) -> np.ndarray:
+        """The refined vertices (#refined x 3) of a cage's (#V x 3)."""
+    def normals(self, V: np.ndarray) -> np.ndarray:
+        """Unit normals of the limit surface at the refined vertices (#refined x 3)."""
+    def matrix(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """S as compressed rows: data, column indices, row starts."""
+
+def image_plane(view_direction: Sequence[float], line_direction: Sequence[float]) -> np.ndarray:
+    """3 x 3, rows a_perp, a_v, v. InvalidInput where the two directions are parallel."""
+
+def theta(normals: np.ndarray, view_direction: np.ndarray, line_direction: Sequence[float]) -> np.ndarray:
+    """theta of #N x 3 normals (any length); view_direction is 3 or #N x 3."""
+
+__version__: str

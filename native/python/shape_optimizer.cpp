@@ -1,0 +1,148 @@
+#include "reflines/shape_optimizer.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <variant>
+
+#include "python/bind.h"
+#include "python/border_codes.h"
+#include "python/exclusive_use.h"
+#include "python/gil_handover.h"
+#include "python/index_arrays.h"
+#include "python/line_directions.h"
+#include "python/option_names.h"
+#include "reflines/errors.h"
+#include "reflines/progress.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+using Limit = std::variant<double, PlanePositions>;  // one length either way, or the lowest and highest of each vertex
+using Targets = std::variant<Target, std::vector<Target>>;
+
+const std::map<std::string, Strategy> kStrategies = {{"adaptive", Strategy::kAdaptive},
+                                                     {"linearized", Strategy::kLinearized},
+                                                     {"gauss_newton", Strategy::kGaussNewton},
+                                                     {"newton", Strategy::kNewton}};
+
+std::vector<Target> list_targets(const Targets& targets) {
+  if (std::holds_alternative<Target>(targets)) return {std::get<Target>(targets)};
+  return std::get<std::vector<Target>>(targets);
+}
+
+std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Indices& F, const Vector3& view_direction,
+                                     const Eigen::MatrixXd& line_direction, const Codes& border,
+                                     const std::optional<Mask>& fixed, const std::string& stencil,
+                                     const std::string& linear_solver, const std::string& crease_rule,
+                                     const Indices& marked_creases, double crease_angle, double proximity,
+                                     std::shared_ptr<Progress> progress) {
+  ShapeOptions options;
+  options.border = border_codes(border, V.rows());
+  if (fixed) options.held = *fixed;
+  options.stencil = find_named(kStencils, stencil, "stencil");
+  options.linear_solver = find_named(kSolvers, linear_solver, "linear solver");
+  options.creases = {find_named(kCreaseRules, crease_rule, "rule of creases"), crease_angle, edges_of(marked_creases)};
+  options.proximity = proximity;
+  options.progress = std::move(progress);
+  const std::vector<Vector3> lines = read_line_directions(line_direction);
+  const Triangles triangles = triangles_of(F);
+  const ReleaseGil release;
+  return std::make_unique<ShapeOptimizer>(V, triangles, view_direction, lines, options);
+}
+
+MoveLimit move_limit(const std::optional<Limit>& limit, const ShapeOptimizer& optimizer) {
+  if (!limit) return MoveLimit::none();
+  if (std::holds_alternative<double>(*limit)) {
+    return MoveLimit::within(std::get<double>(*limit), static_cast<int>(optimizer.xy().rows()));
+  }
+  const PlanePositions& ends = std::get<PlanePositions>(*limit);
+  return {ends.col(0), ends.col(1)};
+}
+
+Report solve(ShapeOptimizer& optimizer, const Targets& targets, const std::string& strategy, double gradient_tolerance,
+             int max_iterations, const std::optional<Limit>& limit, const std::shared_ptr<Progress>& progress) {
+  MinimizerOptions options;
+  options.strategy = find_named(kStrategies, strategy, "strategy");
+  options.gradient_tolerance = gradient_tolerance;
+  options.max_iterations = max_iterations;
+  const std::vector<Target> list = list_targets(targets);
+  const NativeCall call(optimizer);
+  return optimizer.solve(list, options, progress.get(), move_limit(limit, optimizer));
+}
+
+Eigen::Matrix3d frame_rows(const ShapeOptimizer& optimizer) {
+  Eigen::Matrix3d rows;
+  rows << optimizer.frame().x().transpose(), optimizer.frame().y().transpose(), optimizer.frame().z().transpose();
+  return rows;
+}
+
+int checked_family(const ShapeOptimizer& optimizer, int family) {
+  if (family >= 0 && family < optimizer.family_count()) return family;
+  throw InvalidInput("There is no family " + std::to_string(family) + " of light lines; there are " +
+                     std::to_string(optimizer.family_count()) + ".");
+}
+
+Vector theta(const ShapeOptimizer& optimizer, int family) {
+  const NativeCall call(optimizer, ExclusiveUse::Use::kReads);
+  return optimizer.theta(checked_family(optimizer, family));
+}
+
+PlaneVectors field(const ShapeOptimizer& optimizer, int family) {
+  const NativeCall call(optimizer, ExclusiveUse::Use::kReads);
+  return optimizer.field(checked_family(optimizer, family));
+}
+
+double energy(ShapeOptimizer& optimizer, const Targets& targets) {
+  const std::vector<Target> list = list_targets(targets);
+  const NativeCall call(optimizer);
+  return optimizer.energy(list);
+}
+
+double score(ShapeOptimizer& optimizer, double length, int family) {
+  const NativeCall call(optimizer);
+  return optimizer.score(length, checked_family(optimizer, family));
+}
+
+}  // namespace
+
+void bind_optimizer(py::module_& module) {
+  const MinimizerOptions minimizer;
+  const ShapeOptions shape;
+  using Shape = ShapeOptimizer;
+  using Release = py::call_guard<ReleaseGil>;
+  py::class_<ShapeOptimizer>(module, "ShapeOptimizer", py::module_local())
+      .def(py::init(&make), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
+           py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
+           py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
+           py::arg("crease_rule") = "automatic", py::arg("marked_creases") = Indices(),
+           py::arg("crease_angle") = shape.creases.angle, py::arg("proximity") = shape.proximity,
+           py::arg("progress") = py::none())
+      .def_property_readonly("region", py::cpp_function(release_gil(&Shape::region)))
+      .def_property_readonly("frame", &frame_rows)
+      .def_property_readonly("heights", py::cpp_function(release_gil(&Shape::heights)))
+      .def_property_readonly("positions", py::cpp_function(release_gil(&Shape::positions)))
+      .def_property_readonly("at_limit", py::cpp_function(release_gil(&Shape::at_limit)))
+      .def_property_readonly("free", py::cpp_function(&ShapeOptimizer::free, Release()))
+      .def_property_readonly("active", py::cpp_function(&ShapeOptimizer::active, Release()))
+      .def_property_readonly("changeable", py::cpp_function(&ShapeOptimizer::changeable, Release()))
+      .def_property_readonly("xy", py::cpp_function(&ShapeOptimizer::xy, Release()))
+      .def_property_readonly("centers", py::cpp_function(&ShapeOptimizer::centers, Release()))
+      .def_property_readonly("area", py::cpp_function(&ShapeOptimizer::area, Release()))
+      .def("theta", &theta, py::arg("family") = 0)
+      .def("field", &field, py::arg("family") = 0)
+      .def("energy", &energy, py::arg("target"))
+      .def("residual", release_gil(&Shape::residual), py::arg("target"))
+      .def("score", &score, py::arg("length"), py::arg("family") = 0)
+      .def("solve", &solve, py::arg("target"), py::kw_only(), py::arg("strategy") = to_string(minimizer.strategy),
+           py::arg("gradient_tolerance") = minimizer.gradient_tolerance,
+           py::arg("max_iterations") = minimizer.max_iterations, py::arg("limit") = py::none(),
+           py::arg("progress") = py::none())
+      .def("watch", release_gil(&Shape::watch), py::arg("progress"))
+      .def("reset", release_gil(&Shape::reset));
+}
+
+}  // namespace reflines

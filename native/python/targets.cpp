@@ -1,0 +1,124 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+
+#include "python/bind.h"
+#include "python/exclusive_use.h"
+#include "reflines/errors.h"
+#include "reflines/pattern_target.h"
+#include "reflines/shape_optimizer.h"
+#include "reflines/smooth_target.h"
+#include "reflines/uniform_target.h"
+#include "reflines/warp_target.h"
+#include "targets/dense_heights.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+using Maybe = std::optional<Vector>;
+
+Target set_weight(Target target, const Maybe& weight) {
+  if (weight) target.weight = *weight;
+  return target;
+}
+
+Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family,
+              const Maybe& weight) {
+  const NativeCall call(optimizer);
+  return set_weight(
+      build_smooth_target(optimizer.field(family), optimizer.smoother(family), {length, directional}, strength, family),
+      weight);
+}
+
+Target uniform(ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative, double density_end,
+               const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
+  const UniformOptions options{direction, density, relative, density_end, axis};
+  const NativeCall call(optimizer);
+  return set_weight(build_uniform_target(optimizer.region_field(family), options, influence.value_or(Vector())),
+                    weight);
+}
+
+Target turn(ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
+  const NativeCall call(optimizer);
+  return set_weight(build_turned_target(optimizer.region_field(family), angle, influence.value_or(Vector())), weight);
+}
+
+Vector falloff_at(ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
+  const NativeCall call(optimizer);
+  return falloff(optimizer.region_field(0), centre, radius, curve);
+}
+
+py::tuple warp(ShapeOptimizer& optimizer, const Vector2& low, const Vector2& high, int columns, int rows,
+               const PlanePositions& position, bool by_value, int family) {
+  WarpResult result;
+  {
+    const NativeCall call(optimizer);
+    result = build_warp_target(optimizer.region_field(family), {low, high, columns, rows, position}, by_value);
+  }
+  return py::make_tuple(result.target, result.outside);
+}
+
+Target pattern(ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double strength, double blur, double keep,
+               const Vector2& centre, double width, double angle, bool by_value, const Maybe& weight, int family) {
+  const PatternOptions options{strength, blur, keep, centre, width, angle, by_value};
+  const NativeCall call(optimizer);
+  return set_weight(build_pattern_target(optimizer.region_field(family), image, options), weight);
+}
+
+// The dense panel is looked up where the region has its vertices, in the image plane of both.
+void check_same_view(const ImagePlane& one, const ImagePlane& other) {
+  constexpr double kSame = 1e-9;
+  if ((one.z() - other.z()).norm() < kSame && (one.x() - other.x()).norm() < kSame) return;
+  throw InvalidInput(
+      "The optimizer and that of the dense mesh have different views or line directions; give both the same.");
+}
+
+py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int family) {
+  DenseHeights wanted;
+  ShapeOptimizer::Lines lines;
+  {
+    const NativeCall call(optimizer);
+    std::optional<ExclusiveUse> dense_use;
+    if (&dense != &optimizer) dense_use.emplace(dense, ExclusiveUse::Use::kChanges);
+    check_same_view(optimizer.frame(), dense.frame());
+    wanted = sample_dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());
+    lines = optimizer.lines_of(wanted.height, wanted.area, family);
+  }
+  return py::make_tuple(lines.target, lines.theta, wanted.height, wanted.area);
+}
+
+void bind_image_tools(py::module_& module) {
+  const PatternOptions pattern_defaults;
+  module.def("warp", &warp, py::arg("optimizer"), py::kw_only(), py::arg("low"), py::arg("high"), py::arg("columns"),
+             py::arg("rows"), py::arg("position"), py::arg("by_value") = false, py::arg("family") = 0);
+  module.def("pattern", &pattern, py::arg("optimizer"), py::kw_only(), py::arg("image"),
+             py::arg("strength") = pattern_defaults.strength, py::arg("blur") = pattern_defaults.blur,
+             py::arg("keep") = pattern_defaults.keep, py::arg("centre") = pattern_defaults.centre,
+             py::arg("width") = pattern_defaults.width, py::arg("angle") = pattern_defaults.angle,
+             py::arg("by_value") = pattern_defaults.by_value, py::arg("weight") = py::none(), py::arg("family") = 0);
+  module.def("match_dense", &match_dense, py::arg("optimizer"), py::arg("dense"), py::kw_only(), py::arg("family") = 0);
+}
+
+}  // namespace
+
+void bind_builders(py::module_& module) {
+  const UniformOptions uniform_defaults;
+  module.def("smooth", &smooth, py::arg("optimizer"), py::kw_only(), py::arg("length"), py::arg("strength") = 1.0,
+             py::arg("directional") = SmoothOptions().directional, py::arg("family") = 0,
+             py::arg("weight") = py::none());
+  module.def("uniform", &uniform, py::arg("optimizer"), py::kw_only(),
+             py::arg("direction") = uniform_defaults.direction, py::arg("density") = uniform_defaults.density,
+             py::arg("relative") = uniform_defaults.relative, py::arg("density_end") = uniform_defaults.density_end,
+             py::arg("axis") = uniform_defaults.axis, py::arg("influence") = py::none(), py::arg("weight") = py::none(),
+             py::arg("family") = 0);
+  module.def("turn", &turn, py::arg("optimizer"), py::kw_only(), py::arg("angle"), py::arg("influence") = py::none(),
+             py::arg("weight") = py::none(), py::arg("family") = 0);
+  module.def("falloff", &falloff_at, py::arg("optimizer"), py::kw_only(), py::arg("centre"), py::arg("radius"),
+             py::arg("curve"));
+  bind_image_tools(module);
+}
+
+}  // namespace reflines

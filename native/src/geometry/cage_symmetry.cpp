@@ -1,0 +1,138 @@
+#include "geometry/cage_symmetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "reflines/errors.h"
+
+namespace reflines {
+namespace {
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+constexpr double kSameMark = 1e-12;  // sums of weights that differ by rounding; the marks of 1e5 rows lie 1e-5 apart
+constexpr double kNoMark = 1e3;
+
+// Numbers between 0 and 1 without any order.
+double mark(int index) {
+  const double x = 43758.5453 * std::sin(12.9898 * (index + 1));
+  return x - std::floor(x);
+}
+
+// The first vertex without a partner within the tolerance of a place, nearest first; -1 where there is none.
+int nearest(const Positions& V, const std::vector<int>& by_x, const IndexVector& partner, const Vector3& place,
+            double tolerance) {
+  const auto left = [&](int vertex, double x) { return V(vertex, 0) < x; };
+  int best = -1;
+  double best_distance = tolerance;
+  for (auto it = std::lower_bound(by_x.begin(), by_x.end(), place.x() - tolerance, left); it != by_x.end(); ++it) {
+    if (V(*it, 0) > place.x() + tolerance) break;
+    const double distance = (V.row(*it).transpose() - place).norm();
+    const bool closer = distance < best_distance || (distance == best_distance && (best < 0 || *it < best));
+    if (partner[*it] >= 0 || !closer) continue;
+    best = *it;
+    best_distance = distance;
+  }
+  return best;
+}
+
+}  // namespace
+
+IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double tolerance) {
+  if (plane.normal.norm() == 0) throw InvalidInput("The mirror plane's normal has length 0: give its direction.");
+  const Vector3 normal = plane.normal.normalized();
+  const Vector side = (V.rowwise() - plane.point.transpose()) * normal;
+  std::vector<int> by_x(V.rows());
+  std::iota(by_x.begin(), by_x.end(), 0);
+  std::stable_sort(by_x.begin(), by_x.end(), [&](int a, int b) { return V(a, 0) < V(b, 0); });
+  IndexVector partner = IndexVector::Constant(V.rows(), -1);
+  for (int v = 0; v < V.rows(); ++v) {
+    if (std::abs(side[v]) <= tolerance / 2) partner[v] = v;  // its image is within the tolerance of itself
+  }
+  for (int v = 0; v < V.rows(); ++v) {
+    if (partner[v] >= 0) continue;
+    const Vector3 image = V.row(v).transpose() - 2 * side[v] * normal;
+    const int other = nearest(V, by_x, partner, image, tolerance);
+    if (other < 0 || other == v) continue;
+    partner[v] = other;
+    partner[other] = v;
+  }
+  return partner;
+}
+
+SparseMatrix cage_unknowns(const Mask& held, const IndexVector& partner) {
+  std::vector<Eigen::Triplet<double>> entries;
+  int unknowns = 0;
+  for (int v = 0; v < held.size(); ++v) {
+    const int other = partner.size() > 0 && partner[v] >= 0 ? partner[v] : v;
+    if (other < v || held[v] || held[other]) continue;
+    entries.emplace_back(v, unknowns, 1.0);
+    if (other != v) entries.emplace_back(other, unknowns, 1.0);
+    ++unknowns;
+  }
+  SparseMatrix B(held.size(), unknowns);
+  B.setFromTriplets(entries.begin(), entries.end());
+  return B;
+}
+
+IndexVector refined_partners(const SparseMatrix& S, const IndexVector& partner) {
+  Positions marks(S.cols(), 3), image = Positions::Constant(S.cols(), 3, kNoMark);
+  for (int v = 0; v < S.cols(); ++v) marks.row(v) << mark(3 * v), mark(3 * v + 1), mark(3 * v + 2);
+  for (int v = 0; v < S.cols(); ++v) {
+    if (partner[v] >= 0) image.row(v) = marks.row(partner[v]);
+  }
+  const Positions own = S * marks, other = S * image;
+  std::vector<int> by_first(own.rows());
+  std::iota(by_first.begin(), by_first.end(), 0);
+  std::stable_sort(by_first.begin(), by_first.end(), [&](int a, int b) { return own(a, 0) < own(b, 0); });
+  const auto left = [&](int row, double x) { return own(row, 0) < x; };
+  IndexVector result = IndexVector::Constant(own.rows(), -1);
+  for (int row = 0; row < own.rows(); ++row) {
+    const double low = other(row, 0) - kSameMark;
+    for (auto it = std::lower_bound(by_first.begin(), by_first.end(), low, left); it != by_first.end(); ++it) {
+      if (own(*it, 0) > low + 2 * kSameMark) break;
+      if ((own.row(*it) - other.row(row)).cwiseAbs().maxCoeff() < kSameMark) result[row] = *it;
+    }
+  }
+  return result;
+}
+
+SparseMatrix symmetrized(const SparseMatrix& S, const IndexVector& partner, const IndexVector& refined_partner) {
+  const RowMatrix rows = S;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(S.nonZeros());
+  for (int row = 0; row < rows.rows(); ++row) {
+    const int other = refined_partner[row], source = other >= 0 && other < row ? other : row;
+    for (RowMatrix::InnerIterator it(rows, source); it; ++it) {
+      const int column = static_cast<int>(it.col());
+      const double weight = other == row ? 0.5 * (it.value() + rows.coeff(row, partner[column])) : it.value();
+      entries.emplace_back(row, source == row ? column : partner[column], weight);
+    }
+  }
+  SparseMatrix result(S.rows(), S.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+Positions symmetric_positions(const SparseMatrix& S, const IndexVector& partner, const IndexVector& refined_partner,
+                              const Positions& V) {
+  const RowMatrix rows = S;
+  Positions result = Positions::Zero(S.rows(), 3);
+  for (int row = 0; row < rows.rows(); ++row) {
+    const int other = refined_partner[row], source = other >= 0 && other < row ? other : row;
+    for (RowMatrix::InnerIterator it(rows, source); it; ++it) {
+      const int column = static_cast<int>(it.col()), image = other >= 0 ? partner[column] : column;
+      if (other == row && image < column) continue;  // added together with its partner: what leaves the plane cancels
+      if (other == row && image != column) {
+        result.row(row) += it.value() * (V.row(column) + V.row(image));
+      } else {
+        result.row(row) += it.value() * V.row(source == row ? column : image);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace reflines

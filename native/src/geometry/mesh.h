@@ -1,0 +1,39 @@
+// The connectivity of a triangle mesh, and the checks that it is a manifold surface of finite, non-degenerate
+// triangles.
+#pragma once
+
+#include <vector>
+
+#include "reflines/types.h"
+
+namespace reflines {
+
+// Lists of varying length stored one behind the other: the entries of list i are items[begin(i)] .. items[end(i) - 1].
+struct Incidence {
+  std::vector<int> offset;
+  std::vector<int> items;
+
+  int begin(int i) const { return offset[i]; }
+  int end(int i) const { return offset[i + 1]; }
+  int size() const { return static_cast<int>(offset.size()) - 1; }
+};
+
+// Throws InvalidInput where a triangle names a vertex that is not one of V (#V x 3).
+void check_indices(const Positions& V, const Triangles& F);
+
+// Throws InvalidInput where V (#V x 3) and F (#F x 3) cannot be a surface: no triangle at all, an index out of range,
+// coordinates that are not finite, triangles without area in space, doubled triangles, an edge with more than two
+// triangles.
+void check_surface(const Positions& V, const Triangles& F);
+
+// #F x 3: the triangle across the edge opposite corner i, or -1 on the border. F must have passed check_surface.
+Triangles edge_neighbors(const Triangles& F);
+
+// For every vertex 0 .. vertex_count - 1 the triangles that touch it, ascending.
+Incidence vertex_triangles(const Triangles& F, int vertex_count);
+
+// The border of F as closed loops of vertices, each in the order of its triangles' orientation; empty for a closed
+// surface.
+std::vector<std::vector<int>> border_loops(const Triangles& F, const Triangles& neighbors);
+
+}  // namespace reflines

@@ -1,0 +1,40 @@
+// Point location in a plane triangle mesh by a uniform grid of bins.
+#pragma once
+
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "reflines/types.h"
+
+namespace reflines {
+
+struct Location {
+  int triangle = -1;                      // -1: outside the mesh
+  Vector3 barycentric = Vector3::Zero();  // of the triangle's corners
+};
+
+class TriangleLocator {
+ public:
+  // xy (#V x 2), F (#F x 3), kept by reference; triangles counter-clockwise. Build O(#F), a query O(1) on sane meshes;
+  // bins hold at most 64 #F entries on any mesh, and only triangles that reach into them.
+  TriangleLocator(const PlanePositions& xy, const Triangles& F);
+
+  // The triangle of smallest index that holds `point`, its border included (to 1e-12 of barycentric rounding).
+  Location locate(const Vector2& point) const;
+
+ private:
+  Vector3 barycentric(int t, const Vector2& point) const;
+  int bin(const Vector2& point) const;
+  template <class Take>
+  void for_each_row(int t, const Take& take) const;
+  double count_entries() const;
+  void fill();
+
+  const PlanePositions& xy_;
+  const Triangles& F_;
+  Vector2 low_, extent_, cell_;
+  int columns_ = 1, rows_ = 1;
+  Incidence triangles_of_bin_;
+};
+
+}  // namespace reflines

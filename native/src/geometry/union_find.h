@@ -1,0 +1,31 @@
+// Disjoint sets of the numbers 0 .. n - 1 (union-find with path halving), each named by its smallest member.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace reflines {
+
+class UnionFind {
+ public:
+  // Each of 0 .. size - 1 in a set of its own.
+  explicit UnionFind(Eigen::Index size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  // The smallest member of the set that holds `member`.
+  int find(int member) {
+    while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
+    return member;
+  }
+
+  void unite(int first, int second) {
+    const int a = find(first), b = find(second);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+}  // namespace reflines

@@ -1,0 +1,51 @@
+// The affine map z = B x + c from unknowns to heights. Fixed vertices, symmetry pairs and subdivision cages are all of
+// this form.
+#pragma once
+
+#include <vector>
+
+#include "reflines/types.h"
+
+namespace reflines {
+
+class AffineMap {
+ public:
+  // A selection: one unknown for every vertex whose `is_free` (#V) is set, in order; the others keep their height in z
+  // (#V).
+  static AffineMap select_vertices(const Mask& is_free, const Vector& z);
+
+  // Any B (#V x n) with the start x (n) that gives the heights z (#V): c = z - B x.
+  AffineMap(const SparseMatrix& B, Vector x, const Vector& z);
+
+  int size() const { return static_cast<int>(start_.size()); }
+  const Vector& start() const { return start_; }
+  bool is_selection() const { return moving_transposed_.size() == 0; }
+
+  // #V: the number of a vertex among those that move, 0 .. moving_count() - 1 in order, or -1. Of a selection of
+  // vertices it is the unknown that is the vertex's height.
+  const std::vector<int>& moving_index() const { return moving_index_; }
+  int moving_count() const { return moving_count_; }
+
+  // Empty for a selection, else B^T over the moving vertices, n x #moving.
+  const SparseMatrix& moving_transposed() const { return moving_transposed_; }
+
+  // Writes z = B x + c; heights that no unknown moves keep their bits.
+  void apply(const Vector& x, Vector& z) const;
+  // Writes the gradient with respect to x, B^T g, of a gradient g with respect to z.
+  void pull_back(const Vector& along_z, Vector& along_x) const;
+
+ private:
+  AffineMap() = default;
+
+  // One orientation for each product: Eigen runs products whose sums lie in a row of memory on all cores, and each sum
+  // on one of them.
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows_;        // B, #V x n; empty for a selection
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> transposed_;  // B^T
+  SparseMatrix moving_transposed_;
+  std::vector<int> moving_index_;
+  int moving_count_ = 0;
+  Vector start_;   // n
+  Vector offset_;  // #V: c, or for a selection the heights of the fixed vertices
+};
+
+}  // namespace reflines

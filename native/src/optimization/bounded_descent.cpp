@@ -1,0 +1,294 @@
+#include "optimization/bounded_descent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "optimization/descent.h"
+#include "optimization/wording.h"
+
+namespace reflines {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr int kMaxTrials = 40;
+
+// What a step with the kept factor may leave of the projected gradient because other unknowns are to be held now.
+constexpr double kWorthwhile = 0.1;
+
+// The model is solved to this share of the projected gradient: the energy is no quadratic function.
+constexpr double kModelTolerance = 0.01;
+
+// A step by a model that leaves more of the projected gradient asks for a matrix of the new place.
+constexpr double kTrusted = 0.1;
+
+}  // namespace
+
+BoundedDescent::BoundedDescent(Problem& problem, const Bounds& bounds, const MinimizerOptions& options,
+                               Progress* progress, Workspace& workspace)
+    : problem_(problem),
+      bounds_(bounds),
+      options_(options),
+      progress_(progress),
+      work_(workspace),
+      factor_(workspace.solver) {
+  report_.strategy = options.strategy;
+  report_.linear_solver = workspace.solver.kind();
+  report_.unknowns = problem.size();
+}
+
+Report BoundedDescent::run(Vector& x) {
+  evaluate_start(x);
+  if (may_move() && (has_factor() || start_near_free_minimum())) descend();
+  finish(x);
+  return report_;
+}
+
+void BoundedDescent::descend() {
+  while (!is_cancelled() && !gradient_is_small() && !iterations_are_used_up()) {
+    if (!choose_destination()) break;
+    if (find_step()) {
+      take_step();
+    } else if (!blame_model()) {
+      break;
+    }
+  }
+}
+
+void BoundedDescent::evaluate_start(const Vector& x) {
+  check_start(x.size(), problem_.size());
+  work_.resize(x.size());
+  work_.x = bounds_.nearest(x);
+  report_.put_back = static_cast<int>((work_.x.array() != x.array()).count());
+  moved_ = report_.put_back > 0;
+  current_.energy = problem_.evaluate(work_.x, &work_.gradient);
+  norm_ = bounds_.projected_norm(work_.x, work_.gradient);
+  ++report_.evaluations;
+  check_start(current_.energy, work_.gradient.norm());
+  report_.energy_before = current_.energy;
+  report_.gradient_before = norm_;
+  wanted_norm_ = options_.gradient_tolerance * norm_;
+  if (!has_factor()) return;
+  measure_rounding();
+  policy_.start(norm_, std::max(wanted_norm_, rounding_));
+}
+
+bool BoundedDescent::may_move() {
+  for (int k = 0; k < work_.x.size(); ++k) {
+    if (!bounds_.is_point(k)) return true;
+  }
+  stop(report_.put_back > 0 ? Termination::kConverged : Termination::kAlreadyOptimal,
+       "Nothing may move: the limit is 0 at every vertex that could.");
+  return false;
+}
+
+// False where the run ends with it.
+bool BoundedDescent::start_near_free_minimum() {
+  const Vector start = work_.x;
+  Vector minimum = start;
+  Report free = Descent(problem_, options_, progress_, work_).run(minimum);
+  free.put_back = report_.put_back;
+  free.evaluations += report_.evaluations;
+  work_.x = start;
+  report_ = free;
+  report_.gradient_before = norm_;
+  if (free.termination == Termination::kCancelled) return false;
+  if (bounds_.nearest(minimum) == minimum) {
+    work_.x = minimum;
+    moved_ = true;
+    current_.energy = free.energy_after;
+    norm_ = free.gradient_after;
+    return false;
+  }
+  report_.iterations = 0;
+  start_on_the_way_to(minimum);
+  return true;
+}
+
+// As far as all can go together: without the kinks that each going as far as it can would leave.
+void BoundedDescent::start_on_the_way_to(const Vector& minimum) {
+  const Vector way = minimum - work_.x;
+  double step = 1.0;
+  for (int k = 0; k < way.size(); ++k) {
+    if (way(k) > 0) step = std::min(step, (bounds_.high(k) - work_.x(k)) / way(k));
+    if (way(k) < 0) step = std::min(step, (bounds_.low(k) - work_.x(k)) / way(k));
+  }
+  work_.trial = bounds_.nearest(work_.x + step * way);
+  const double energy = problem_.evaluate(work_.trial, &work_.trial_gradient);
+  ++report_.evaluations;
+  work_.held = bounds_.touched_by(minimum);
+  if (energy < current_.energy) {
+    work_.x = work_.trial;
+    current_.energy = energy;
+    moved_ = true;
+  }
+  problem_.evaluate(work_.x, &work_.gradient);
+  norm_ = bounds_.projected_norm(work_.x, work_.gradient);
+  model_failed_ = true;
+}
+
+bool BoundedDescent::model_is_outdated() const {
+  if (model_failed_ || work_.matrix.rows() != work_.x.size()) return true;
+  if (model_is_fresh()) return false;
+  switch (options_.strategy) {
+    case Strategy::kAdaptive:
+      return policy_.is_too_slow();
+    case Strategy::kLinearized:
+      return assembled_at_ < 0;
+    case Strategy::kGaussNewton:
+    case Strategy::kNewton:
+      break;
+  }
+  return true;
+}
+
+bool BoundedDescent::choose_destination() {
+  if (model_is_outdated()) return renew_model() && solve_model();
+  return kept_factor_leads_on() || solve_model();
+}
+
+bool BoundedDescent::renew_model() {
+  tell("assembling");
+  work_.matrix = problem_.hessian(work_.x, model_of(options_.strategy));
+  ++report_.assemblies;
+  measure_rounding();
+  report_.analyses += work_.analyze(work_.matrix, problem_);
+  work_.factored_model = model_of(options_.strategy);
+  assembled_at_ = report_.iterations;
+  model_failed_ = false;
+  return !is_cancelled() && !gradient_is_small();
+}
+
+void BoundedDescent::measure_rounding() {
+  rounding_ = kEpsilon * problem_.rounding_weight(work_.matrix).cwiseProduct(work_.x).norm();
+}
+
+// A step with the factor at hand, unless it leaves too much to unknowns that it holds or lets go wrongly.
+bool BoundedDescent::kept_factor_leads_on() {
+  tell("iterating");
+  const Bounds room = bounds_.seen_from(work_.x);
+  const Vector at_bounds = room.ends(work_.held);
+  work_.direction = -work_.gradient;
+  if (!at_bounds.isZero(0)) work_.direction = -model().gradient_at(at_bounds);
+  if (learns_from_steps()) work_.memory.before_solve(work_.direction);
+  factor_.solve(work_.held, work_.direction);
+  ++report_.solves;
+  if (learns_from_steps()) work_.memory.after_solve(work_.direction);
+  work_.direction += at_bounds;
+  if (missed_norm(model(), room, work_.held, work_.direction) > kWorthwhile * norm_) return false;
+  destination_ = bounds_.nearest(work_.x + work_.direction);
+  return true;
+}
+
+bool BoundedDescent::solve_model() {
+  tell("factorizing");
+  Vector d;
+  const double wanted = std::max(kModelTolerance * norm_, 0.3 * wanted_norm_);
+  BoundedQuadratic quadratic(factor_, report_, progress_);
+  if (!quadratic.minimize(model(), bounds_.seen_from(work_.x), wanted, work_.held, d)) return is_cancelled(), false;
+  work_.memory.clear();
+  policy_.start(norm_, std::max(wanted_norm_, rounding_));
+  destination_ = bounds_.nearest(work_.x + d);
+  for (int k = 0; k < d.size(); ++k) {
+    if (work_.held[k] != Side::kBetween) destination_(k) = bounds_.end(k, work_.held[k]);
+  }
+  return true;
+}
+
+bool BoundedDescent::find_step() {
+  work_.direction = destination_ - work_.x;
+  current_.slope = work_.gradient.dot(work_.direction);
+  if (!(current_.slope < 0.0)) return false;
+  try_step(1.0);
+  for (int trial = 1; trial < kMaxTrials; ++trial) {
+    if (lowers_energy_enough(current_, trial_)) return true;
+    try_step(shorter_step(current_, trial_));
+  }
+  return false;
+}
+
+void BoundedDescent::try_step(double step) {
+  work_.trial = step == 1.0 ? destination_ : bounds_.nearest(work_.x + step * work_.direction);
+  trial_.step = step;
+  trial_.energy = problem_.evaluate(work_.trial, &work_.trial_gradient);
+  trial_.slope = work_.trial_gradient.dot(work_.direction);
+  ++report_.evaluations;
+}
+
+void BoundedDescent::take_step() {
+  if (learns_from_steps()) {
+    Vector step = work_.trial - work_.x, change = work_.trial_gradient - work_.gradient;
+    bool held_move = false;
+    for (int k = 0; k < step.size(); ++k) {
+      if (work_.held[k] == Side::kBetween) continue;
+      held_move = held_move || step(k) != 0.0;
+      change(k) = 0.0;
+    }
+    if (!held_move) work_.memory.learn(step, change);
+  }
+  work_.x.swap(work_.trial);
+  work_.gradient.swap(work_.trial_gradient);
+  current_.energy = trial_.energy;
+  const double before = std::exchange(norm_, bounds_.projected_norm(work_.x, work_.gradient));
+  policy_.observe(norm_);
+  model_failed_ = model_is_fresh() && norm_ > kTrusted * before;
+  ++report_.iterations;
+  moved_ = true;
+}
+
+bool BoundedDescent::blame_model() {
+  model_failed_ = !model_is_fresh();
+  if (model_failed_) return true;
+  stop(Termination::kNoProgress,
+       sentence("No step lowers the energy any further: the projected gradient is %.3g where %.3g was wanted.", norm_,
+                wanted_norm_));
+  return false;
+}
+
+void BoundedDescent::finish(Vector& x) {
+  const bool moved = moved_ && report_.termination != Termination::kCancelled;
+  report_.energy_after = moved ? current_.energy : report_.energy_before;
+  report_.gradient_after = moved ? norm_ : report_.gradient_before;
+  if (moved) x = work_.x;
+}
+
+bool BoundedDescent::is_cancelled() {
+  if (progress_ == nullptr || !progress_->cancelled()) return false;
+  return stop(Termination::kCancelled,
+              sentence("Cancelled after %.0f steps with the projected gradient at %.3g; nothing was changed.",
+                       report_.iterations, norm_));
+}
+
+bool BoundedDescent::gradient_is_small() {
+  const bool small = norm_ <= wanted_norm_ && moved_;
+  if (!small && norm_ > rounding_) return false;
+  return stop(
+      moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
+      sentence("The projected gradient is down to %.3g; %.3g was wanted.", norm_, std::max(wanted_norm_, rounding_)));
+}
+
+bool BoundedDescent::iterations_are_used_up() {
+  if (report_.iterations < options_.max_iterations) return false;
+  return stop(Termination::kIterationLimit,
+              sentence(("The limit of " + std::to_string(options_.max_iterations) +
+                        " steps was reached with the projected gradient at %.3g where %.3g was wanted.")
+                           .c_str(),
+                       norm_, wanted_norm_));
+}
+
+bool BoundedDescent::stop(Termination termination, const std::string& message) {
+  report_.termination = termination;
+  report_.message = message;
+  return true;
+}
+
+void BoundedDescent::tell(const char* stage) {
+  if (progress_ == nullptr) return;
+  const double digits = std::log(report_.gradient_before / norm_);
+  const double digits_wanted = std::log(report_.gradient_before / std::max(wanted_norm_, rounding_));
+  const double fraction = digits_wanted > 0.0 ? std::clamp(digits / digits_wanted, 0.0, 1.0) : 0.0;
+  progress_->report(std::max(fraction, progress_->fraction()), stage);
+}
+
+}  // namespace reflines

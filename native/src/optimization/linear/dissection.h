@@ -1,0 +1,14 @@
+// Computes a fill-reducing elimination order by geometric nested dissection (George 1973), for unknowns in a plane.
+#pragma once
+
+#include <vector>
+
+#include "reflines/types.h"
+
+namespace reflines {
+
+// The order in which to eliminate the unknowns of a symmetric matrix (lower triangle, n x n), first to last. `places`
+// (n x 2) are read as hints: any values give a valid order, those of a surface's vertices a good one.
+std::vector<int> dissection_order(const SparseMatrix& matrix, const PlanePositions& places);
+
+}  // namespace reflines

@@ -1,0 +1,354 @@
+#include "optimization/linear/linear_solver.h"
+
+#include <cblas.h>
+#include <cholmod.h>
+#include <omp.h>
+#include <umfpack.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "optimization/linear/page_prefault.h"
+#include "reflines/errors.h"
+
+namespace reflines {
+
+namespace {
+
+// A Gauss-Newton matrix is semi-definite on paper and may lose its last digits to rounding: 1e-12 of the diagonal is
+// above the rounding of a sum of some thousand terms and changes a Newton step in its twelfth digit only; 1e-9 is for
+// meshes with very thin triangles. The same shares of the mean diagonal entry are for unknowns that no term of the
+// energy constrains. The last two shorten the steps, and are for free borders around faces seen nearly edge on (a roof
+// of the DrivAer body with a piece of 593 unknowns).
+constexpr double kDiagonalShifts[] = {0.0, 1e-12, 1e-9, 1e-6, 1e-3};
+
+// A pivot with a smaller share of its own diagonal entry is rounding noise: the solution would have no correct digit.
+// The ratio of pivots to each other says nothing: triangles seen nearly edge on make it 1e-17 in systems that lose no
+// more than nine digits (35,040 triangles of a car body seen from above).
+constexpr double kSmallestPivotShare = 1e-15;
+
+// Seconds on one core to analyse, factor and solve once; L's entries; operations of the factorization:
+//   100k unknowns: AMD 0.12 / 0.90 / 0.032, 15 M, 7 G;    METIS 0.91 / 0.53 / 0.028, 13 M, 4 G
+//     1M unknowns: AMD 2.5 / 17 / 0.5, 236 M, 345 G;      METIS 11 / 11 / 0.4, 173 M, 153 G
+// METIS pays where a second factor is likely or memory counts: from somewhere between these two sizes on. Where the
+// unknowns lie in a plane, straight cuts (see dissection_order) need neither: 0.10 / 0.29 / 0.030, 13 M, 4 G and
+// 1.5 / 10 / 0.4, 182 M, 151 G.
+constexpr Eigen::Index kNestedDissection = 300000;
+
+// OpenBLAS splits its sums by the number of its threads, so that factors made with one and two threads differ in their
+// last bits (measured at 10k and 100k unknowns). The fronts of a surface mesh are small: a second thread gained nothing
+// in the factorization and doubled the time of a solve. One thread, then, from the first use on: the number is the
+// whole process's, and setting it back while another thread solves would pull the pool from under that solve.
+void keep_blas_to_one_thread() {
+  static std::once_flag flag;
+  std::call_once(flag, [] { openblas_set_num_threads(1); });
+}
+
+// CHOLMOD's own loops ask for four threads whatever the machine has. On two cores they take as long as one thread, and
+// each team of another size makes OpenMP end and start threads: some milliseconds in each factorization of a small
+// system. The setting is the calling thread's; before GCC 12 it was the process's, so that a thread of a team, whose
+// loops are serial anyway, leaves it alone.
+class SerialLoops {
+ public:
+  SerialLoops() : active_levels_(omp_get_max_active_levels()) { set(0); }
+  ~SerialLoops() { set(active_levels_); }
+  SerialLoops(const SerialLoops&) = delete;
+  SerialLoops& operator=(const SerialLoops&) = delete;
+
+ private:
+  static void set(int active_levels) {
+    if (!omp_in_parallel()) omp_set_max_active_levels(active_levels);
+  }
+
+  int active_levels_;
+};
+
+void require_memory(bool enough, const char* stage, Eigen::Index n) {
+  if (enough) return;
+  throw SolverFailure("Memory ran out while " + std::string(stage) + " a system of " + std::to_string(n) +
+                      " unknowns; optimize a smaller region.");
+}
+
+Vector with_diagonal_shifted(const SparseMatrix& matrix, double shift) {
+  Vector values = Eigen::Map<const Vector>(matrix.valuePtr(), matrix.nonZeros());
+  const double mean = matrix.diagonal().mean();
+  for (int column = 0; column < matrix.cols(); ++column) {
+    double& entry = values[matrix.outerIndexPtr()[column]];
+    entry += shift * (entry + mean);
+  }
+  return values;
+}
+
+}  // namespace
+
+const char* to_string(LinearSolverKind kind) { return kind == LinearSolverKind::kCholmod ? "cholmod" : "umfpack"; }
+
+// What the two libraries have in common. `factorize` returns false where a pivot is not positive.
+class LinearSolver::Backend {
+ public:
+  virtual ~Backend() = default;
+  virtual void analyze(const SparseMatrix& matrix, const std::vector<int>& order) = 0;
+  virtual void allocate() {}  // what a factor needs, on all cores
+  virtual bool factorize(const SparseMatrix& matrix, const double* values) = 0;
+  virtual void solve(Vector& x) = 0;
+};
+
+// 32-bit indices: they carry 2^31 entries of L, about eight million unknowns, at less memory than 64-bit ones.
+class LinearSolver::Cholmod final : public Backend {
+ public:
+  Cholmod() {
+    cholmod_start(&common_);
+    common_.print = 0;
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.nmethods = 1;
+    common_.postorder = 1;
+  }
+  ~Cholmod() override {
+    for (cholmod_dense* dense : {solution_, y_, e_}) cholmod_free_dense(&dense, &common_);
+    cholmod_free_factor(&factor_, &common_);
+    cholmod_finish(&common_);
+  }
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+
+  void analyze(const SparseMatrix& matrix, const std::vector<int>& order) override {
+    cholmod_free_factor(&factor_, &common_);
+    cholmod_sparse view = view_of(matrix, matrix.valuePtr());
+    common_.method[0].ordering = !order.empty()                      ? CHOLMOD_GIVEN
+                                 : matrix.rows() < kNestedDissection ? CHOLMOD_AMD
+                                                                     : CHOLMOD_METIS;
+    factor_ = cholmod_analyze_p(&view, const_cast<int*>(order.data()), nullptr, 0, &common_);
+    require_memory(factor_ != nullptr, "ordering", matrix.rows());
+  }
+
+  // CHOLMOD would allocate the factor itself, and clear it on one thread.
+  void allocate() override {
+    if (factor_->xtype != CHOLMOD_PATTERN) return;
+    const int done = cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_);
+    require_memory(done != 0, "factorizing", static_cast<Eigen::Index>(factor_->n));
+    provide_pages(factor_->x, factor_->xsize * sizeof(double));
+  }
+
+  bool factorize(const SparseMatrix& matrix, const double* values) override {
+    cholmod_sparse view = view_of(matrix, values);
+    cholmod_factorize(&view, factor_, &common_);
+    require_memory(common_.status >= CHOLMOD_OK, "factorizing", matrix.rows());
+    return common_.status == CHOLMOD_OK && smallest_pivot_share(matrix, values) > kSmallestPivotShare;
+  }
+
+  void solve(Vector& x) override {
+    cholmod_dense right_side{};
+    right_side.nrow = right_side.nzmax = right_side.d = static_cast<std::size_t>(x.size());
+    right_side.ncol = 1;
+    right_side.x = x.data();
+    right_side.xtype = CHOLMOD_REAL;
+    right_side.dtype = CHOLMOD_DOUBLE;
+    const int done = cholmod_solve2(CHOLMOD_A, factor_, &right_side, nullptr, &solution_, nullptr, &y_, &e_, &common_);
+    require_memory(done != 0, "solving", x.size());
+    std::copy_n(static_cast<const double*>(solution_->x), x.size(), x.data());
+  }
+
+ private:
+  // The smallest L_jj^2 / A_jj. Columns of a supernode lie one below the other, each as high as the first.
+  double smallest_pivot_share(const SparseMatrix& matrix, const double* values) const {
+    const auto* first_column = static_cast<const int*>(factor_->super);
+    const auto* rows = static_cast<const int*>(factor_->pi);
+    const auto* start = static_cast<const int*>(factor_->px);
+    const auto* order = static_cast<const int*>(factor_->Perm);
+    const auto* L = static_cast<const double*>(factor_->x);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < factor_->nsuper; ++s) {
+      const std::size_t height = static_cast<std::size_t>(rows[s + 1] - rows[s]);
+      for (int j = first_column[s]; j < first_column[s + 1]; ++j) {
+        const double root =
+            L[static_cast<std::size_t>(start[s]) + static_cast<std::size_t>(j - first_column[s]) * (height + 1)];
+        smallest = std::min(smallest, root * root / values[matrix.outerIndexPtr()[order[j]]]);
+      }
+    }
+    return smallest;
+  }
+
+  // CHOLMOD reads Eigen's arrays where they are.
+  static cholmod_sparse view_of(const SparseMatrix& matrix, const double* values) {
+    cholmod_sparse view{};
+    view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
+    view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+    view.p = const_cast<int*>(matrix.outerIndexPtr());
+    view.i = const_cast<int*>(matrix.innerIndexPtr());
+    view.x = const_cast<double*>(values);
+    view.stype = -1;
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = view.packed = 1;
+    return view;
+  }
+
+  cholmod_common common_{};
+  cholmod_factor* factor_ = nullptr;
+  cholmod_dense* solution_ = nullptr;
+  cholmod_dense* y_ = nullptr;
+  cholmod_dense* e_ = nullptr;
+};
+
+// 64-bit indices: the 32-bit interface overflows its work space at one million unknowns.
+class LinearSolver::Umfpack final : public Backend {
+ public:
+  Umfpack() {
+    umfpack_dl_defaults(control_);
+    control_[UMFPACK_PRL] = 0;
+    control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+    control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+    control_[UMFPACK_IRSTEP] = 0;  // refinement makes a solve four times slower and a Newton step no better
+    control_[UMFPACK_SYM_PIVOT_TOLERANCE] =
+        0;  // diagonal pivots are stable for a definite matrix, and their signs tell
+    control_[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;  // row scaling would make the matrix unsymmetric
+  }
+  ~Umfpack() override {
+    umfpack_dl_free_numeric(&numeric_);
+    umfpack_dl_free_symbolic(&symbolic_);
+  }
+  Umfpack(const Umfpack&) = delete;
+  Umfpack& operator=(const Umfpack&) = delete;
+
+  void analyze(const SparseMatrix& matrix, const std::vector<int>&) override {
+    umfpack_dl_free_numeric(&numeric_);
+    umfpack_dl_free_symbolic(&symbolic_);
+    mirror_pattern(matrix);
+    const auto n = static_cast<SuiteSparse_long>(matrix.rows());
+    const auto status = umfpack_dl_symbolic(n, n, starts_.data(), rows_.data(), nullptr, &symbolic_, control_, info_);
+    require_memory(status == UMFPACK_OK, "ordering", matrix.rows());
+    right_side_.resize(matrix.rows());
+    work_.resize(matrix.rows());
+    index_work_.resize(static_cast<std::size_t>(n));
+    pivots_.resize(matrix.rows());
+    column_of_pivot_.resize(static_cast<std::size_t>(n));
+  }
+
+  bool factorize(const SparseMatrix& matrix, const double* values) override {
+    umfpack_dl_free_numeric(&numeric_);
+    for (std::size_t k = 0; k < source_.size(); ++k) values_[k] = values[source_[k]];
+    const auto status =
+        umfpack_dl_numeric(starts_.data(), rows_.data(), values_.data(), symbolic_, &numeric_, control_, info_);
+    require_memory(status >= UMFPACK_OK, "factorizing", matrix.rows());
+    if (status != UMFPACK_OK) return false;
+    umfpack_dl_get_numeric(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, column_of_pivot_.data(),
+                           pivots_.data(), nullptr, nullptr, numeric_);
+    for (Eigen::Index k = 0; k < pivots_.size(); ++k) {
+      const double whole = values[matrix.outerIndexPtr()[column_of_pivot_[static_cast<std::size_t>(k)]]];
+      if (!(pivots_[k] > kSmallestPivotShare * whole)) return false;
+    }
+    return true;
+  }
+
+  void solve(Vector& x) override {
+    right_side_ = x;
+    umfpack_dl_wsolve(UMFPACK_A, starts_.data(), rows_.data(), values_.data(), x.data(), right_side_.data(), numeric_,
+                      control_, info_, index_work_.data(), work_.data());
+  }
+
+ private:
+  // UMFPACK wants both triangles; source_ says which value of the lower one each entry repeats.
+  void mirror_pattern(const SparseMatrix& lower) {
+    const int n = static_cast<int>(lower.cols());
+    starts_.assign(static_cast<std::size_t>(n) + 1, 0);
+    for (int column = 0; column < n; ++column) {
+      for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {
+        ++starts_[entry.row() + 1];
+        if (entry.row() != column) ++starts_[column + 1];
+      }
+    }
+    for (int column = 0; column < n; ++column) starts_[column + 1] += starts_[column];
+    rows_.resize(static_cast<std::size_t>(starts_[n]));
+    source_.resize(rows_.size());
+    values_.resize(rows_.size());
+    std::vector<SuiteSparse_long> next(starts_.begin(), starts_.end() - 1);
+    // Columns in ascending order leave every column of the mirror sorted: first its rows above, then those below.
+    for (int column = 0; column < n; ++column) {
+      for (int k = lower.outerIndexPtr()[column]; k < lower.outerIndexPtr()[column + 1]; ++k) {
+        place(next, lower.innerIndexPtr()[k], column, k);
+      }
+    }
+  }
+
+  void place(std::vector<SuiteSparse_long>& next, int row, int column, int source) {
+    const SuiteSparse_long below = next[column]++;
+    rows_[below] = row;
+    source_[below] = source;
+    if (row == column) return;
+    const SuiteSparse_long above = next[row]++;
+    rows_[above] = column;
+    source_[above] = source;
+  }
+
+  double control_[UMFPACK_CONTROL];
+  double info_[UMFPACK_INFO];
+  void* symbolic_ = nullptr;
+  void* numeric_ = nullptr;
+  std::vector<SuiteSparse_long> starts_, rows_, index_work_, column_of_pivot_;
+  std::vector<int> source_;
+  std::vector<double> values_;
+  Vector right_side_, work_, pivots_;
+};
+
+struct LinearSolver::Pattern {
+  std::vector<int> starts, rows;
+};
+
+LinearSolver::LinearSolver(LinearSolverKind kind) : kind_(kind), pattern_(std::make_unique<Pattern>()) {
+  if (kind == LinearSolverKind::kCholmod) backend_ = std::make_unique<Cholmod>();
+  if (kind == LinearSolverKind::kUmfpack) backend_ = std::make_unique<Umfpack>();
+}
+
+LinearSolver::~LinearSolver() = default;
+
+LinearSolverKind LinearSolver::kind() const { return kind_; }
+bool LinearSolver::has_factor() const { return has_factor_; }
+double LinearSolver::diagonal_shift() const { return diagonal_shift_; }
+
+bool LinearSolver::has_pattern_of(const SparseMatrix& matrix) const {
+  const int* starts = matrix.outerIndexPtr();
+  const int* rows = matrix.innerIndexPtr();
+  return std::equal(pattern_->starts.begin(), pattern_->starts.end(), starts, starts + matrix.outerSize() + 1) &&
+         std::equal(pattern_->rows.begin(), pattern_->rows.end(), rows, rows + matrix.nonZeros());
+}
+
+void LinearSolver::analyze(const SparseMatrix& matrix, const std::vector<int>& order) {
+  keep_blas_to_one_thread();
+  const SerialLoops serial_loops;
+  has_factor_ = false;
+  pattern_->starts.clear();
+  backend_->analyze(matrix, order);
+  pattern_->starts.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
+  pattern_->rows.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+}
+
+void LinearSolver::factorize(const SparseMatrix& matrix) {
+  keep_blas_to_one_thread();
+  has_factor_ = false;
+  backend_->allocate();
+  const SerialLoops serial_loops;
+  Vector shifted;
+  for (const double shift : kDiagonalShifts) {
+    if (shift > 0.0) shifted = with_diagonal_shifted(matrix, shift);
+    diagonal_shift_ = shift;
+    has_factor_ = backend_->factorize(matrix, shift > 0.0 ? shifted.data() : matrix.valuePtr());
+    if (has_factor_) return;
+  }
+  throw SolverFailure(
+      "The system of " + std::to_string(matrix.rows()) +
+      " unknowns is singular or not positive definite, also with 1e-3 of its diagonal added; hold more of "
+      "the border (Fixed or Clamped).");
+}
+
+void LinearSolver::solve(Vector& x) {
+  keep_blas_to_one_thread();
+  const SerialLoops serial_loops;
+  backend_->solve(x);
+}
+
+}  // namespace reflines

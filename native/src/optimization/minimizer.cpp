@@ -1,0 +1,50 @@
+#include "optimization/minimizer.h"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "optimization/bounded_descent.h"
+#include "optimization/descent.h"
+#include "optimization/workspace.h"
+#include "reflines/errors.h"
+
+namespace reflines {
+namespace {
+
+void check(const MinimizerOptions& options) {
+  if (!(options.gradient_tolerance >= 0) || !std::isfinite(options.gradient_tolerance)) {
+    throw InvalidInput("The gradient tolerance is " + std::to_string(options.gradient_tolerance) +
+                       "; give the share of the gradient that may be left, 0 or more.");
+  }
+  if (options.max_iterations < 0) {
+    throw InvalidInput("The limit of steps is " + std::to_string(options.max_iterations) + "; give 0 or more.");
+  }
+}
+
+template <typename Run>
+Report timed(const Run& run) {
+  const auto start = std::chrono::steady_clock::now();
+  Report report = run();
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace
+
+Minimizer::Minimizer(LinearSolverKind kind) : workspace_(std::make_unique<Workspace>(kind)) {}
+
+Minimizer::~Minimizer() = default;
+
+Report Minimizer::minimize(Problem& problem, Vector& x, const MinimizerOptions& options, Progress* progress) {
+  check(options);
+  return timed([&] { return Descent(problem, options, progress, *workspace_).run(x); });
+}
+
+Report Minimizer::minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options,
+                           Progress* progress) {
+  check(options);
+  return timed([&] { return BoundedDescent(problem, bounds, options, progress, *workspace_).run(x); });
+}
+
+}  // namespace reflines

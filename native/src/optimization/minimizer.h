@@ -1,0 +1,40 @@
+// Finds a local minimum of a Problem by a quasi-Newton or Newton method with a line search.
+#pragma once
+
+#include <memory>
+
+#include "optimization/bounds.h"
+#include "optimization/linear/linear_solver.h"
+#include "optimization/problem.h"
+#include "reflines/minimizer_options.h"
+#include "reflines/progress.h"
+#include "reflines/report.h"
+
+namespace reflines {
+
+struct Workspace;
+
+// Keeps the symbolic analysis, the last factor and its work space between solves, so that the next target of a dragged
+// handle costs a few back substitutions. A changed size or pattern of the Hessian is noticed and analysed anew.
+class Minimizer {
+ public:
+  explicit Minimizer(LinearSolverKind kind = LinearSolverKind::kCholmod);
+  ~Minimizer();
+  Minimizer(const Minimizer&) = delete;
+  Minimizer& operator=(const Minimizer&) = delete;
+
+  // Moves x (n, the start) to a minimum. Not converging is a value of Report::termination. x keeps its bits when the
+  // solve is cancelled, already optimal, or throws (InvalidInput: a start that is not finite or of the wrong length,
+  // options out of range;
+  // SolverFailure). `progress` may be null.
+  Report minimize(Problem& problem, Vector& x, const MinimizerOptions& options = {}, Progress* progress = nullptr);
+
+  // The same within bounds, where x ends to the bit (see BoundedDescent); a start outside is first moved into them.
+  Report minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options = {},
+                  Progress* progress = nullptr);
+
+ private:
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace reflines

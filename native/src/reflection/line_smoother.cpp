@@ -1,0 +1,116 @@
+#include "reflection/line_smoother.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "reflection/hessian_assembly.h"
+#include "reflines/errors.h"
+
+namespace reflines {
+namespace {
+
+// What directional smoothing keeps of the isotropic one: without it nothing couples a line with its neighbours, and the
+// system is singular wherever a line crosses fewer than three triangles.
+constexpr double kAcrossLines = 1e-3;
+
+// Fraction of the data term that compares each corner, not only the triangle's mean, with the triangle's gradient. A
+// triangle that hangs on one vertex has two corners more than means; without this fraction they are undetermined and
+// the system is singular. Linear fields are bent by it at the border, by this fraction at most.
+constexpr double kCornerFraction = 1e-4;
+
+Vector corner_weights(const HeightField& field, const Vector& weight) {
+  Vector result = Vector::Zero(field.vertex_count());
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) result(field.F(t, i)) += kCornerFraction * weight(t) / 3.0;
+  }
+  return result;
+}
+
+// Weight of a feature's data against 1: it fixes the smoothed field where nothing else does, and bends nothing around
+// it.
+constexpr double kFeatureWeight = 1e-3;
+
+// What is not to be trusted at all still fixes the smoothed field where nothing else does.
+constexpr double kLeastTrust = 1e-6;
+
+PlaneVectors shortened(const PlaneVectors& gradient, double longest) {
+  if (!std::isfinite(longest)) return gradient;
+  const Vector factor = (longest / gradient.rowwise().norm().array().max(longest)).matrix();
+  return factor.asDiagonal() * gradient;
+}
+
+Vector data_weights(const HeightField& field, const Vector& trust, const Mask& features) {
+  const Vector weight = trust.cwiseMax(kLeastTrust).cwiseProduct(field.area);
+  return (weight.array() * features.select(Vector::Constant(weight.size(), kFeatureWeight).array(), 1.0)).matrix();
+}
+
+// The region's stencils with the mean over the triangle in the place of f_x, and nothing in that of f_y.
+Stencils with_means(Stencils stencils) {
+  stencils.gradient.setZero();
+  for (int i = 0; i < 3; ++i) stencils.gradient.col(2 * i).setConstant(1.0 / 3.0);
+  return stencils;
+}
+
+// |f_xx|^2 + 2 |f_xy|^2 + |f_yy|^2, or the square of the second derivative along the level lines of `gradient`.
+Eigen::Matrix3d second_order_energy(bool directional, const Vector2& gradient) {
+  const Eigen::Matrix3d isotropic = Vector3(1, 2, 1).asDiagonal();
+  if (!directional || gradient.norm() == 0) return isotropic;
+  const Vector2 along = Vector2(-gradient.y(), gradient.x()).normalized();
+  const Vector3 c(along.x() * along.x(), 2 * along.x() * along.y(), along.y() * along.y());
+  return c * c.transpose() + kAcrossLines * isotropic;
+}
+
+Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& options, const PlaneVectors& along,
+                                 const Vector& weight) {
+  const double stiffness = std::pow(options.length / (2 * std::numbers::pi), 4);
+  Energy::ElementHessians result = Energy::ElementHessians::Zero(field.triangle_count(), 15);
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    const Eigen::Matrix3d K =
+        field.area(t) * stiffness *
+        second_order_energy(options.directional, options.directional ? Vector2(along.row(t)) : Vector2());
+    // Upper triangle of a 5 x 5 matrix row by row: 0 is the mean's, 9 .. 14 are those of f_xx, f_xy, f_yy.
+    result(t, 0) = (1.0 - kCornerFraction) * weight(t);
+    result.row(t).tail<6>() << K(0, 0), K(0, 1), K(0, 2), K(1, 1), K(1, 2), K(2, 2);
+  }
+  return result;
+}
+
+}  // namespace
+
+LineSmoother::LineSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
+                           const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize)
+    : field_(field),
+      longest_(options.longest),
+      features_(std::move(features)),
+      weight_(data_weights(field, trust, features_)) {
+  if (!(options.length > 0) || !std::isfinite(options.length)) {
+    throw InvalidInput("The smoothing length must be a positive length in scene units, not " +
+                       std::to_string(options.length) + ".");
+  }
+  const Stencils means = with_means(stencils);
+  const StencilEntries entries(means, field.vertex_count());
+  std::vector<int> column(field.vertex_count());
+  std::iota(column.begin(), column.end(), 0);
+  HessianAssembly assembly(means, entries, column, field.vertex_count());
+  solve_ = factorize(assembly.assemble(elements(field, options, along, weight_), corner_weights(field, weight_)));
+}
+
+PlaneVectors LineSmoother::smooth(const PlaneVectors& gradient) const {
+  PlaneVectors result(field_.triangle_count(), 2);
+  const PlaneVectors data = shortened(gradient, longest_);
+  for (int component = 0; component < 2; ++component) {
+    Vector G = Vector::Zero(field_.vertex_count());
+    for (int t = 0; t < field_.triangle_count(); ++t) {
+      for (int i = 0; i < 3; ++i) G(field_.F(t, i)) += weight_(t) / 3.0 * data(t, component);
+    }
+    solve_(G);
+    for (int t = 0; t < field_.triangle_count(); ++t) {
+      const double mean = (G(field_.F(t, 0)) + G(field_.F(t, 1)) + G(field_.F(t, 2))) / 3.0;
+      result(t, component) = features_(t) ? gradient(t, component) : mean;
+    }
+  }
+  return gradient + shortened(result - gradient, longest_);
+}
+
+}  // namespace reflines

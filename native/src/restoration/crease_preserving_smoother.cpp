@@ -1,0 +1,198 @@
+#include "restoration/crease_preserving_smoother.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/mesh.h"
+#include "optimization/linear/linear_solver.h"
+
+namespace reflines {
+namespace {
+
+constexpr double kLeastTrust = 1e-6;
+constexpr double kCornerWeight = 1e-4;  // see LineSmoother: undetermined corners of triangles that hang on one vertex
+
+constexpr int kTriangleProducts = 6, kEdgeProducts = 10;  // of the lower triangles of 3 x 3 and 4 x 4 matrices
+
+// Gradients of the barycentric coordinates of a triangle, a row a corner.
+Eigen::Matrix<double, 3, 2> barycentric_gradients(const PlanePositions& xy, const Triangles& F, int t) {
+  const Vector2 a = xy.row(F(t, 0)), b = xy.row(F(t, 1)), c = xy.row(F(t, 2));
+  const Vector2 opposite[3] = {c - b, a - c, b - a};
+  const double doubled = opposite[0].x() * opposite[1].y() - opposite[0].y() * opposite[1].x();
+  Eigen::Matrix<double, 3, 2> result;
+  for (int i = 0; i < 3; ++i) result.row(i) << -opposite[i].y() / doubled, opposite[i].x() / doubled;
+  return result;
+}
+
+double median(Vector values) {
+  if (values.size() == 0) return 0.0;
+  double* middle = values.data() + values.size() / 2;
+  std::nth_element(values.data(), middle, values.data() + values.size());
+  return *middle;
+}
+
+int entry_index(const SparseMatrix& A, int i, int j) {
+  const int row = std::max(i, j), column = std::min(i, j);
+  const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
+  const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+  return static_cast<int>(std::lower_bound(begin, end, row) - A.innerIndexPtr());
+}
+
+}  // namespace
+
+CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, const Triangles& F, const Vector& area,
+                                                   double length, const SmootherOptions& options)
+    : stiffness_(std::pow(length / (2 * std::numbers::pi), 4)), options_(options), F_(F), area_(area) {
+  corner_ = Vector::Constant(xy.rows(), 1e-12 * area.mean());
+  for (int t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) corner_(F(t, i)) += kCornerWeight * area(t) / 3.0;
+  }
+  add_edges(xy, F, area);
+  build_pattern(static_cast<int>(xy.rows()));
+}
+
+void CreasePreservingSmoother::add_edges(const PlanePositions& xy, const Triangles& F, const Vector& area) {
+  const Triangles neighbors = edge_neighbors(F);
+  for (int t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int other = neighbors(t, i);
+      if (other < t || area(t) <= 0 || area(other) <= 0) continue;
+      const int a = F(t, (i + 1) % 3), b = F(t, (i + 2) % 3);
+      const Vector2 along = (xy.row(b) - xy.row(a)).transpose();
+      const double both = area(t) + area(other), length = along.norm();
+      if (!(length > 0)) continue;
+      const Vector2 normal = Vector2(-along.y(), along.x()) / length;
+      Edge edge{{F(t, i), a, b, 0}, {}, 1.5 * length * length / both, 2.0 / 3.0 * both / length};
+      const Eigen::Matrix<double, 3, 2> own = barycentric_gradients(xy, F, t),
+                                        far = barycentric_gradients(xy, F, other);
+      for (int k = 0; k < 3; ++k) edge.jump[k] = own.row((i + k) % 3).dot(normal);
+      for (int k = 0; k < 3; ++k) {
+        const double part = far.row(k).dot(normal);
+        if (F(other, k) == a) {
+          edge.jump[1] -= part;
+        } else if (F(other, k) == b) {
+          edge.jump[2] -= part;
+        } else {
+          edge.vertex[3] = F(other, k);
+          edge.jump[3] = -part;
+        }
+      }
+      edges_.push_back(edge);
+    }
+  }
+}
+
+void CreasePreservingSmoother::build_pattern(int vertex_count) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int i, int j) { entries.emplace_back(std::max(i, j), std::min(i, j), 0.0); };
+  for (int v = 0; v < vertex_count; ++v) add(v, v);
+  for (int t = 0; t < F_.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) add(F_(t, i), F_(t, (i + 1) % 3));
+  }
+  for (const Edge& edge : edges_) add(edge.vertex[0], edge.vertex[3]);
+  pattern_.resize(vertex_count, vertex_count);
+  pattern_.setFromTriplets(entries.begin(), entries.end());
+  for (int t = 0; t < F_.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j <= i; ++j) triangle_entries_.push_back(entry_index(pattern_, F_(t, i), F_(t, j)));
+    }
+  }
+  for (const Edge& edge : edges_) {
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j <= i; ++j) edge_entries_.push_back(entry_index(pattern_, edge.vertex[i], edge.vertex[j]));
+    }
+  }
+}
+
+void CreasePreservingSmoother::assemble(const Vector& trust, SparseMatrix& A) const {
+  A = pattern_;
+  double* value = A.valuePtr();
+  for (int v = 0; v < A.cols(); ++v) value[A.outerIndexPtr()[v]] += corner_(v);
+  for (int t = 0; t < F_.rows(); ++t) {
+    for (int k = 0; k < kTriangleProducts; ++k) value[triangle_entries_[kTriangleProducts * t + k]] += area_(t) / 9.0;
+  }
+  for (size_t e = 0; e < edges_.size(); ++e) {
+    const double weight = stiffness_ * edges_[e].weight * trust(static_cast<Eigen::Index>(e));
+    const int* entry = edge_entries_.data() + kEdgeProducts * e;
+    for (int i = 0, k = 0; i < 4; ++i) {
+      for (int j = 0; j <= i; ++j, ++k) value[entry[k]] += weight * edges_[e].jump[i] * edges_[e].jump[j];
+    }
+  }
+}
+
+Vector CreasePreservingSmoother::measure_jumps(const TriangleFields& U) const {
+  Vector result(static_cast<Eigen::Index>(edges_.size()));
+#pragma omp parallel for schedule(static) if (result.size() > kWorthThreads)
+  for (Eigen::Index e = 0; e < result.size(); ++e) {
+    const Edge& edge = edges_[e];
+    Eigen::RowVectorXd jump = edge.jump[0] * U.row(edge.vertex[0]);
+    for (int i = 1; i < 4; ++i) jump += edge.jump[i] * U.row(edge.vertex[i]);
+    result(e) = jump.norm() / edge.distance;
+  }
+  return result;
+}
+
+TriangleFields CreasePreservingSmoother::right_hand_side(const TriangleFields& g) const {
+  TriangleFields result = TriangleFields::Zero(corner_.size(), g.cols());
+  for (int t = 0; t < F_.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) result.row(F_(t, i)) += area_(t) / 3.0 * g.row(t);
+  }
+  return result;
+}
+
+// The factored system of one set of weights.
+class CreasePreservingSmoother::System {
+ public:
+  explicit System(const CreasePreservingSmoother& owner) : owner_(owner), solver_(LinearSolverKind::kCholmod) {
+    solver_.analyze(owner.pattern_);
+  }
+  TriangleFields solve(const Vector& trust, const TriangleFields& rhs) {
+    owner_.assemble(trust, A_);
+    solver_.factorize(A_);
+    TriangleFields U = rhs;
+    for (Eigen::Index k = 0; k < rhs.cols(); ++k) {
+      Vector x = rhs.col(k);
+      solver_.solve(x);
+      U.col(k) = x;
+    }
+    return U;
+  }
+
+ private:
+  const CreasePreservingSmoother& owner_;
+  LinearSolver solver_;
+  SparseMatrix A_;
+};
+
+TriangleFields CreasePreservingSmoother::mean_over_triangles(const TriangleFields& U, const TriangleFields& g) const {
+  TriangleFields result = g;
+  for (int t = 0; t < F_.rows(); ++t) {
+    if (area_(t) > 0) result.row(t) = (U.row(F_(t, 0)) + U.row(F_(t, 1)) + U.row(F_(t, 2))) / 3.0;
+  }
+  return result;
+}
+
+TriangleFields CreasePreservingSmoother::smooth(const TriangleFields& g, Progress* progress, Vector* creases) const {
+  System system(*this);
+  const TriangleFields rhs = right_hand_side(g);
+  Vector trust = Vector::Ones(static_cast<Eigen::Index>(edges_.size()));
+  TriangleFields U;
+  for (int round = 0; round < options_.rounds; ++round) {
+    if (progress) progress->enter(static_cast<double>(round) / options_.rounds, "smoothing the lines");
+    if (round > 0) {
+      const Vector jump = measure_jumps(U);
+      const double scale = options_.crease_jump * median(jump) + 1e-300;
+      trust = ((1.0 + (jump.array() / scale).square()).square().inverse() + kLeastTrust).matrix();
+    }
+    U = system.solve(trust, rhs);
+  }
+  if (creases) *creases = trust;
+  return mean_over_triangles(U, g);
+}
+
+TriangleFields CreasePreservingSmoother::smooth_with(const Vector& creases, const TriangleFields& g) const {
+  return mean_over_triangles(System(*this).solve(creases, right_hand_side(g)), g);
+}
+
+}  // namespace reflines

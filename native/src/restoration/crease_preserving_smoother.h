@@ -1,0 +1,65 @@
+// Smoothing of the lines' field that keeps its creases: the second-order smoother of a vertex field with iteratively
+// reweighted least squares (IRLS; Geman-McClure weights, Black & Rangarajan 1996) on the jumps of its normal
+// derivative.
+#pragma once
+
+#include <vector>
+
+#include "reflines/progress.h"
+#include "reflines/types.h"
+
+namespace reflines {
+
+// One row a triangle, one column a component of the lines' field: 2 for each family of lights.
+using TriangleFields = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The smoothed field U lives at the vertices and minimises
+//   sum_T A_T |mean of U over T - g_T|^2 + l^4 sum_e w_e (3 |e|^2 / (A_1 + A_2) / 2) |jump of dU/dn across e|^2,
+// l = length / 2 pi. The second sum is a discrete thin-plate energy: it vanishes for linear fields, at the border too,
+// and a wave of wavelength w keeps 1 / (1 + (length / w)^4) of its amplitude. Where a design changes its curvature
+// along a line (a fillet's edge, a character line), the jumps are many times the median; their weight w_e falls to
+// nothing, and the field is smoothed on both sides of the line but not across it.
+struct SmootherOptions {
+  double crease_jump;  // times the median: jumps of this size have a quarter of the full weight
+  int rounds;          // of reweighting; the weights settle to 2 % within six
+};
+
+class CreasePreservingSmoother {
+ public:
+  // xy (#V x 2), F (#F x 3), area (#F, projected; triangles of area 0 are left out). `length` > 0, in units of xy.
+  CreasePreservingSmoother(const PlanePositions& xy, const Triangles& F, const Vector& area, double length,
+                           const SmootherOptions& options);
+
+  // The smoothed field (#F x m) of g (#F x m): means of U over triangles, g itself where the area is 0. The last
+  // weights w_e (#inner edges) are put into `creases` where it is not null. `progress` may be null; throws Cancelled.
+  TriangleFields smooth(const TriangleFields& g, Progress* progress, Vector* creases = nullptr) const;
+
+  // The same in one step, with weights that an earlier smoothing found.
+  TriangleFields smooth_with(const Vector& creases, const TriangleFields& g) const;
+
+ private:
+  // An inner edge: its four vertices, how the normal derivative of a P1 field jumps across it, its weight in the
+  // energy, and the distance of the two centroids, which makes a second derivative of the jump.
+  struct Edge {
+    int vertex[4];
+    double jump[4];
+    double weight, distance;
+  };
+  void add_edges(const PlanePositions& xy, const Triangles& F, const Vector& area);
+  void build_pattern(int vertex_count);
+  void assemble(const Vector& trust, SparseMatrix& A) const;
+  class System;
+  TriangleFields mean_over_triangles(const TriangleFields& U, const TriangleFields& g) const;
+  Vector measure_jumps(const TriangleFields& U) const;
+  TriangleFields right_hand_side(const TriangleFields& g) const;
+
+  double stiffness_;  // l^4
+  SmootherOptions options_;
+  Triangles F_;
+  Vector area_, corner_;  // #F; #V: what keeps vertices without data and isolated triangles determined
+  std::vector<Edge> edges_;
+  SparseMatrix pattern_;                              // lower triangle, values zero
+  std::vector<int> triangle_entries_, edge_entries_;  // where their products add up in the values
+};
+
+}  // namespace reflines

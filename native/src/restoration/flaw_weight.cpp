@@ -1,0 +1,57 @@
+#include "restoration/flaw_weight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "restoration/disk_mean.h"
+
+namespace reflines {
+namespace {
+
+// Radians over the length. Changes up to this are taken for flaws wherever they are. Dents of 0.6 per mille of a
+// panel's diagonal change the lines by 0.3. Of 0.2, 0.3, 0.43 and 0.7, on 20 panels of six cars: harm to clean ones
+// 0.13, 0.15, 0.17, 0.21 degrees in the median.
+constexpr double kShallow = 0.35;
+
+// So are changes up to this many times the region's median. Of 3, 4, 5 and 6: 0.65, 0.57, 0.55, 0.53 left of noise, and
+// no more harm.
+constexpr double kTypical = 5.0;
+
+// Radians over the length: a typical change beyond it is no noise. Vertex noise of 1 % of an edge makes 0.1 to 0.6,
+// clean panels have 0.02 to 0.25; where a selection is features all over (half a car body: 3 to 6) the median tells
+// nothing, and without this bound such selections were changed by 5 degrees.
+constexpr double kFeaturesAllOver = 1.1;
+
+// Of the length: over which changes are averaged, so that noise does not decide by itself what is noise.
+constexpr double kAveraged = 0.28;
+
+double geman_mcclure(double x) { return 1.0 / ((1.0 + x * x) * (1.0 + x * x)); }
+
+}  // namespace
+
+double weighted_median(const Vector& values, const Vector& weight) {
+  std::vector<int> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return std::pair(values(i), i) < std::pair(values(j), j); });
+  const double half = 0.5 * weight.sum();
+  double below = 0;
+  for (const int k : order) {
+    below += weight(k);
+    if (below >= half) return values(k);
+  }
+  return values(order.back());
+}
+
+Vector flaw_weight(const TriangleFields& change, const PlanePositions& centers, const Vector& area, double length) {
+  const DiskMean mean(centers, area, kAveraged * length);
+  const Vector size = length * mean.of(change.rowwise().squaredNorm()).cwiseSqrt();
+  const double typical = weighted_median(size, area);
+  const double largest = std::max(kShallow, kTypical * typical * geman_mcclure(typical / kFeaturesAllOver));
+  return (size / largest).unaryExpr(&geman_mcclure);
+}
+
+}  // namespace reflines

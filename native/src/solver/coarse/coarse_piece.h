@@ -1,0 +1,28 @@
+// The coarse problem of a piece: heights moved by B-splines, the energy sampled on a few triangles, and the gradient
+// corrected to that of the fine problem at the start (first-order coherence as in MG/OPT, Nash 2000).
+#pragma once
+
+#include "optimization/problem.h"
+#include "solver/coarse/sampled_energy.h"
+#include "solver/coarse/spline_basis.h"
+
+namespace reflines {
+
+class CoarsePiece final : public CoarseProblem {
+ public:
+  // Around the heights z (#V), where the energy's gradient over the free vertices is `gradient`.
+  CoarsePiece(const HeightField& field, const Energy& energy, SplineBasis modes, const Vector& z,
+              const Vector& gradient);
+
+  int size() const override { return modes_.count; }
+  double evaluate(const Vector& c, Vector* gradient) override;
+  const SparseMatrix& hessian(const Vector& c, HessianModel model) override { return energy_.hessian(c, model); }
+  void move(const Vector& c, Vector& x) const override { modes_.move(c, x); }
+
+ private:
+  SplineBasis modes_;
+  SampledEnergy energy_;
+  Vector correction_;  // the fine gradient at c = 0 minus the sampled one
+};
+
+}  // namespace reflines

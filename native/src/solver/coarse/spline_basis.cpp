@@ -1,0 +1,171 @@
+#include "solver/coarse/spline_basis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflines {
+namespace {
+
+// Sum of a spline's values over the vertices, of that of one far from all borders, below which it hardly moves any
+// (a free corner of the region inside its rim): no sample would say what it does.
+constexpr double kSmallestSupport = 0.03;
+
+// Samples along a cell's side. Nine a cell are eighteen equations for each spline.
+constexpr int kSamplesAlong = 3;
+
+Vector2 in_cells(const KnotGrid& grid, const Vector2& xy) { return (xy - grid.origin) / grid.step; }
+
+KnotGrid grid_over(const HeightField& field, double spacing) {
+  KnotGrid grid;
+  grid.step = spacing * std::sqrt(field.area.sum() / std::max(1, field.vertex_count()));
+  grid.origin = field.xy.colwise().minCoeff();
+  const Vector2 cells = (field.xy.colwise().maxCoeff().transpose() - grid.origin) / grid.step;
+  grid.columns = static_cast<int>(cells.x()) + 4;
+  grid.rows = static_cast<int>(cells.y()) + 4;
+  return grid;
+}
+
+// The four uniform cubic B-splines that are not zero at t in [0, 1) of a cell; a row each for the value and the first
+// and second derivative.
+using Splines = Eigen::Matrix<double, 3, 4>;
+Splines cubic_splines(double t) {
+  const double s = 1 - t;
+  Splines result;
+  result << s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6,  //
+      -s * s / 2, (3 * t * t - 4 * t) / 2, (4 * s - 3 * s * s) / 2, t * t / 2,                                       //
+      s, 3 * t - 2, 3 * s - 2, t;
+  return result;
+}
+
+struct Footprint {
+  std::array<int, 16> spline;
+  std::array<double, 16> value;
+};
+
+std::array<int, 16> splines_of_cell(const KnotGrid& grid, int i, int j) {
+  std::array<int, 16> result;
+  for (int k = 0; k < 16; ++k) result[k] = (j + k / 4) * grid.columns + i + k % 4;
+  return result;
+}
+
+Footprint footprint(const KnotGrid& grid, const Vector2& xy) {
+  const Vector2 place = in_cells(grid, xy);
+  const int i = static_cast<int>(place.x()), j = static_cast<int>(place.y());
+  const Splines across = cubic_splines(place.x() - i), along = cubic_splines(place.y() - j);
+  Footprint result{splines_of_cell(grid, i, j), {}};
+  for (int k = 0; k < 16; ++k) result.value[k] = across(0, k % 4) * along(0, k / 4);
+  return result;
+}
+
+void number_splines(const HeightField& field, double full_support, SplineBasis& modes) {
+  std::vector<double> support(static_cast<size_t>(modes.grid.columns) * modes.grid.rows, 0.0);
+  std::vector<bool> held(support.size(), false);
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    if (field.role[v] == VertexRole::kUnused) continue;
+    const Footprint print = footprint(modes.grid, field.xy.row(v));
+    for (int k = 0; k < 16; ++k) {
+      support[print.spline[k]] += print.value[k];
+      if (field.role[v] != VertexRole::kFree && print.value[k] > 0) held[print.spline[k]] = true;
+    }
+  }
+  modes.mode.assign(support.size(), -1);
+  for (size_t s = 0; s < support.size(); ++s) {
+    if (!held[s] && support[s] >= kSmallestSupport * full_support) modes.mode[s] = modes.count++;
+  }
+}
+
+PlanePositions free_places(const HeightField& field) {
+  PlanePositions places(std::count(field.role.begin(), field.role.end(), VertexRole::kFree), 2);
+  int n = 0;
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    if (field.role[v] == VertexRole::kFree) places.row(n++) = field.xy.row(v);
+  }
+  return places;
+}
+
+// Of each part of a cell the triangle nearest to its middle, standing for all; cell by cell, with room for every part.
+std::vector<SplineSample> choose_samples(const HeightField& field, const KnotGrid& grid) {
+  constexpr int kParts = kSamplesAlong * kSamplesAlong;
+  std::vector<SplineSample> samples(static_cast<size_t>(grid.columns - 3) * (grid.rows - 3) * kParts);
+  std::vector<double> distance(samples.size());
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    const Vector2 centre =
+        (field.xy.row(field.F(t, 0)) + field.xy.row(field.F(t, 1)) + field.xy.row(field.F(t, 2))).transpose() / 3;
+    const Vector2 place = in_cells(grid, centre);
+    const Eigen::Vector2i cell = place.cast<int>();
+    const Vector2 within = place - cell.cast<double>();
+    const Eigen::Vector2i part = (kSamplesAlong * within).cast<int>();
+    const size_t at =
+        (static_cast<size_t>(cell.y()) * (grid.columns - 3) + cell.x()) * kParts + part.y() * kSamplesAlong + part.x();
+    const double off = (kSamplesAlong * within - part.cast<double>() - Vector2(0.5, 0.5)).squaredNorm();
+    samples[at].area_ratio += field.area(t);
+    if (samples[at].triangle >= 0 && off >= distance[at]) continue;
+    samples[at].triangle = t;
+    samples[at].place = within;
+    distance[at] = off;
+  }
+  return samples;
+}
+
+void add_cells(const HeightField& field, SplineBasis& modes) {
+  const std::vector<SplineSample> samples = choose_samples(field, modes.grid);
+  const int columns = modes.grid.columns - 3, parts = kSamplesAlong * kSamplesAlong;
+  for (int c = 0; c < columns * (modes.grid.rows - 3); ++c) {
+    SplineCell cell{static_cast<int>(modes.samples.size()), 0, splines_of_cell(modes.grid, c % columns, c / columns)};
+    for (int& mode : cell.mode) mode = modes.mode[mode];
+    if (*std::max_element(cell.mode.begin(), cell.mode.end()) < 0) continue;
+    for (int k = c * parts; k < (c + 1) * parts; ++k) {
+      if (samples[k].triangle < 0) continue;
+      modes.samples.push_back(samples[k]);
+      modes.samples.back().area_ratio /= field.area(samples[k].triangle);
+    }
+    cell.end = static_cast<int>(modes.samples.size());
+    if (cell.begin < cell.end) modes.cells.push_back(cell);
+  }
+}
+
+}  // namespace
+
+SplineBasis build_spline_basis(const HeightField& field, double spacing) {
+  SplineBasis modes;
+  modes.grid = grid_over(field, spacing);
+  number_splines(field, spacing * spacing, modes);
+  modes.places = free_places(field);
+  if (modes.count > 0) add_cells(field, modes);
+  return modes;
+}
+
+void SplineBasis::move(const Vector& c, Vector& x) const {
+#pragma omp parallel for schedule(static) if (x.size() > kWorthThreads)
+  for (Eigen::Index n = 0; n < x.size(); ++n) {
+    const Footprint print = footprint(grid, places.row(n));
+    for (int k = 0; k < 16; ++k) {
+      if (mode[print.spline[k]] >= 0) x(n) += print.value[k] * c(mode[print.spline[k]]);
+    }
+  }
+}
+
+Vector SplineBasis::pull_back(const Vector& gradient) const {
+  Vector result = Vector::Zero(count);
+  for (Eigen::Index n = 0; n < gradient.size(); ++n) {
+    const Footprint print = footprint(grid, places.row(n));
+    for (int k = 0; k < 16; ++k) {
+      if (mode[print.spline[k]] >= 0) result(mode[print.spline[k]]) += print.value[k] * gradient(n);
+    }
+  }
+  return result;
+}
+
+SplineDerivatives spline_derivatives(const Vector2& place, double step) {
+  const Splines across = cubic_splines(place.x()), along = cubic_splines(place.y());
+  const double one = 1 / step, two = one * one;
+  SplineDerivatives result;
+  for (int k = 0; k < 16; ++k) {
+    const auto a = across.col(k % 4), b = along.col(k / 4);
+    result.col(k) << a(0) * b(0), one * a(1) * b(0), one * a(0) * b(1), two * a(2) * b(0), two * a(1) * b(1),
+        two * a(0) * b(2);
+  }
+  return result;
+}
+
+}  // namespace reflines

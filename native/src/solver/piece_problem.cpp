@@ -1,0 +1,243 @@
+#include "solver/piece_problem.h"
+
+#include <algorithm>
+
+#include "reflection/scalar_gradient.h"
+#include "solver/coarse/coarse_piece.h"
+#include "solver/coarse/spline_basis.h"
+
+namespace reflines {
+namespace {
+
+// Of free borders, where the lines leave affine functions open (see crossing_term). Measured with a clean panel as
+// target for a rippled one, free on all sides: with 1e-6 it tilts by 7 times the ripples (the lines hardly see it),
+// with 10 by 1 %, and up to 1000 the lines come out the same.
+constexpr double kFreeBorderProximity = 10.0;
+
+// Of cages, always: a vertex may move no sample that counts (weight 0, hidden lines), and then the Hessian is singular.
+// Where all samples count, its smallest eigenvalue is 3 to 200 and the pull adds 1e-7 to it.
+constexpr double kCageProximity = 1e-6;
+
+// Mean vertex distances between the knots of the coarse motions.
+constexpr double kKnotSpacing = 6.0;
+
+// Creases that a cage moves are no border: the heights of both sides are one.
+bool has_free_border(const HeightField& field) {
+  const Triangles neighbors = edge_neighbors(field.F);
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (neighbors(t, i) >= 0) continue;
+      for (int j = 1; j < 3; ++j) {
+        if (field.role[field.F(t, (i + j) % 3)] == VertexRole::kFree) return true;
+      }
+    }
+  }
+  return false;
+}
+
+double default_proximity(double proximity, bool free_border, bool cage) {
+  if (proximity >= 0) return proximity;
+  if (free_border) return kFreeBorderProximity;
+  return cage ? kCageProximity : 0.0;
+}
+
+}  // namespace
+
+PieceProblem::PieceProblem(Piece piece, AffineMap map, StencilKind stencil, std::vector<ReflectionFunction> families,
+                           double proximity, LinearSolverKind solver, const Vector& quadrature_weight)
+    : piece_(std::move(piece)),
+      stencils_(make_stencils(piece_.field, stencil)),
+      quadrature_(make_quadrature(piece_.field, quadrature_weight)),
+      sampled_stencils_(select_stencils(stencils_, quadrature_.triangle)),
+      families_(std::move(families)),
+      free_border_(has_free_border(piece_.field)),
+      map_(std::move(map)),
+      energy_(piece_.field, quadrature_.is_sampled() ? sampled_stencils_ : stencils_,
+              default_proximity(proximity, free_border_, !map_.is_selection())),
+      terms_(piece_.field, quadrature_, families_, visible_, energy_.stencils().triangle_count()),
+      minimizer_(solver),
+      solver_(solver),
+      // A cage's surface has no thin triangles to read wrong: its dents bend as strongly as they look.
+      smoother_(piece_.field, stencils_, families_, visible_, map_.is_selection(), solver),
+      x_(map_.start()),
+      z_(piece_.field.z) {
+  find_hidden();
+}
+
+void PieceProblem::find_hidden() {
+  TriangleDerivatives u;
+  apply_stencils(stencils_, z_, u);
+  for (const ReflectionFunction& family : families_) visible_.push_back(visibility_weights(family, u));
+  for (int t = 0; t < stencils_.triangle_count(); ++t) {
+    bool hidden = false;
+    for (size_t k = 0; k + 1 < families_.size(); ++k) hidden = hidden || visible_[k](t) < 1;
+    hidden_count_ += hidden;
+  }
+  const Mask held = held_at_border(piece_.field);
+  for (Vector& weight : visible_) weight = held.select(0.0, weight.array());
+}
+
+void PieceProblem::set_heights(const Vector& x) {
+  x_ = x;
+  map_.apply(x_, z_);
+  kept_field_.family = -1;
+}
+
+void PieceProblem::rest_at(const Vector& x) {
+  set_heights(x);
+  energy_.set_start(z_);
+}
+
+void PieceProblem::pull_to(const Vector& z, const Vector& weight) {
+  energy_.pull_to(z, weight);
+  pulled_ = true;
+  minimizer_.emplace(solver_);  // its factor is of another energy
+}
+
+void PieceProblem::reset() {
+  set_heights(map_.start());
+  energy_.pull_as_built(piece_.field.z);
+  pulled_ = false;
+  // A kept factor makes the next solve 3 times faster at 100k, but its other path to the minimum ends 4e-9 beside it.
+  minimizer_.emplace(solver_);
+}
+
+ReflectionField PieceProblem::lines_of(const Vector& z, int family) const {
+  TriangleDerivatives u;
+  apply_stencils(stencils_, z, u);
+  return reflection_field(families_[family], u);
+}
+
+bool PieceProblem::depends_only_on(int triangle, const Vector& known) const {
+  for (int e = stencils_.offset[triangle]; e < stencils_.offset[triangle + 1]; ++e) {
+    if (!(known(stencils_.vertex[e]) > 0)) return false;
+  }
+  return true;
+}
+
+const ReflectionField& PieceProblem::lines(int family) {
+  if (kept_field_.family != family) kept_field_ = {family, lines_of(z_, family)};
+  return kept_field_.field;
+}
+
+void PieceProblem::add_vertex_field(RegionField& region) const {
+  const HeightField& field = piece_.field;
+  TriangleDerivatives u;
+  apply_stencils(stencils_, z_, u);
+  const ReflectionField own = reflection_field(families_[region.family], u);
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    Vector2 slope = Vector2::Zero(), gradient = Vector2::Zero();
+    double area = 0;
+    for (int k = field.triangles_of_vertex.begin(v); k < field.triangles_of_vertex.end(v); ++k) {
+      const int t = field.triangles_of_vertex.items[k];
+      slope += field.area(t) * slope_at(t, v, u);
+      gradient += field.area(t) * own.gradient.row(t).transpose();
+      area += field.area(t);
+    }
+    slope /= area;
+    region.vertex_slope.row(piece_.vertex[v]) = slope.transpose();
+    region.vertex_theta(piece_.vertex[v]) = families_[region.family].theta(slope.x(), slope.y());
+    region.vertex_gradient.row(piece_.vertex[v]) = gradient.transpose() / area;
+  }
+}
+
+// Slope at corner v of the quadratic that passes through t's corners and has t's Hessian.
+Vector2 PieceProblem::slope_at(int t, int v, const TriangleDerivatives& u) const {
+  const HeightField& field = piece_.field;
+  const int i = field.F(t, 0) == v ? 0 : field.F(t, 1) == v ? 1 : 2;
+  const Eigen::RowVector3i corners(v, field.F(t, (i + 1) % 3), field.F(t, (i + 2) % 3));
+  const auto bend = [&](int other) {
+    const Eigen::RowVector2d e = field.xy.row(other) - field.xy.row(v);
+    return 0.5 * (u(t, 2) * e.x() * e.x() + u(t, 4) * e.y() * e.y()) + u(t, 3) * e.x() * e.y();
+  };
+  return Vector2(u(t, 0), u(t, 1)) - linear_gradient(field.xy, corners, bend(corners(1)), bend(corners(2)));
+}
+
+Mask PieceProblem::changeable() const {
+  Mask result(piece_.field.triangle_count());
+  for (int t = 0; t < result.size(); ++t) result(t) = piece_.field.has_free_vertex(t);
+  return result;
+}
+
+void PieceProblem::set_targets(const std::vector<Target>& targets) {
+  std::vector<EnergyTerm> terms = terms_.build(targets);
+  const int crossing = static_cast<int>(families_.size()) - 1;
+  if (free_border_ && !pulled_) {
+    terms.push_back(terms_.build_crossing(lines_of(piece_.field.z, crossing).gradient));
+  }
+  energy_.set_terms(std::move(terms));
+}
+
+TargetTerms::Misfit PieceProblem::misfit(const std::vector<Target>& targets) const {
+  TriangleDerivatives u;
+  apply_stencils(energy_.stencils(), z_, u);
+  return terms_.measure(targets, u);
+}
+
+Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progress) {
+  Vector x = x_;
+  const Report report = limit_.exists() ? minimizer_->minimize(*this, bounds(), x, options, progress)
+                                        : minimizer_->minimize(*this, x, options, progress);
+  set_heights(x);
+  return report;
+}
+
+const FieldAverage& PieceProblem::average() {
+  if (!average_) average_.emplace(piece_.field);
+  return *average_;
+}
+
+double PieceProblem::evaluate(const Vector& x, Vector* gradient) {
+  map_.apply(x, trial_z_);
+  if (!gradient) return energy_.evaluate(trial_z_, nullptr);
+  const double energy = energy_.evaluate(trial_z_, &gradient_z_);
+  map_.pull_back(gradient_z_, *gradient);
+  return energy;
+}
+
+HessianAssembly& PieceProblem::assembly() {
+  if (!assembly_) {
+    assembly_ = std::make_unique<HessianAssembly>(energy_.stencils(), energy_.entries(), map_.moving_index(),
+                                                  map_.moving_count());
+    if (!map_.is_selection()) product_ = std::make_unique<GalerkinProduct>(map_.moving_transposed());
+  }
+  return *assembly_;
+}
+
+const SparseMatrix* PieceProblem::pattern() { return !map_.is_selection() ? nullptr : &assembly().pattern(); }
+
+const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
+  map_.apply(x, trial_z_);
+  const SparseMatrix& whole =
+      assembly().assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
+  if (!product_) return whole;
+  height_rounding_ = whole.diagonal();
+  return product_->project(whole);
+}
+
+// Heights of a fine surface are rounded as coarsely as those of its cage, but its second derivatives notice it far
+// more.
+Vector PieceProblem::rounding_weight(const SparseMatrix& hessian) {
+  if (!product_) return hessian.diagonal();
+  return (map_.moving_transposed().cwiseAbs2() * height_rounding_.cwiseAbs2()).cwiseSqrt();
+}
+
+PlanePositions PieceProblem::places() {
+  if (!map_.is_selection()) return {};
+  PlanePositions result(size(), 2);
+  for (int v = 0; v < piece_.field.vertex_count(); ++v) {
+    if (map_.moving_index()[v] >= 0) result.row(map_.moving_index()[v]) = piece_.field.xy.row(v);
+  }
+  return result;
+}
+
+std::unique_ptr<CoarseProblem> PieceProblem::coarse(const Vector& x, const Vector& gradient) {
+  // Few unknowns: their own factor is cheap. Few triangles that count: the samples would be of samples.
+  if (!map_.is_selection() || quadrature_.is_sampled()) return nullptr;
+  SplineBasis modes = build_spline_basis(piece_.field, kKnotSpacing);
+  if (modes.count == 0) return nullptr;
+  map_.apply(x, trial_z_);
+  return std::make_unique<CoarsePiece>(piece_.field, energy_, std::move(modes), trial_z_, gradient);
+}
+
+}  // namespace reflines

@@ -1,0 +1,67 @@
+// Smooths the lines of one height-field piece, and keeps the factored systems for the next call.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/stencil.h"
+#include "reflection/line_smoother.h"
+#include "reflection/reflection_field.h"
+#include "reflines/linear_solver_kind.h"
+#include "reflines/progress.h"
+
+namespace reflines {
+
+class PieceSmoother {
+ public:
+  // `trust` (#T, 0 to 1, for each family) is that of LineSmoother. `limit_outliers`: gradients far beyond a strong bend
+  // are shortened, as triangles of a mesh that is no surface of a cage may be thin. Everything but `solver` outlives
+  // the smoother.
+  PieceSmoother(const HeightField& field, const Stencils& stencils, const std::vector<ReflectionFunction>& families,
+                const std::vector<Vector>& trust, bool limit_outliers, LinearSolverKind solver);
+
+  void watch(Progress* progress) { progress_ = progress; }  // may be null
+
+  // Returns `gradient` (#T x 2) of a family without its detail finer than options.length. Directional smoothing is
+  // along the isotropically smoothed lines: along lines that wobble by 40 degrees their own wobble is no detail. Throws
+  // Cancelled.
+  PlaneVectors smooth(const PlaneVectors& gradient, const SmoothOptions& options, int family);
+
+  // #T: the strong_features at `length` of the field that the piece started with; valid until asked for another.
+  const Mask& features(double length, int family);
+
+ private:
+  // The last system and the last field it smoothed: while the strength is dragged, the same field is asked for again.
+  struct Cache {
+    std::unique_ptr<LineSmoother> smoother;
+    double length = 0.0;
+    PlaneVectors along;
+    int family = 0;
+    PlaneVectors input, output;
+    bool is_for(const SmoothOptions& options, const PlaneVectors& wanted_along, int wanted_family) const;
+    const PlaneVectors& smooth(const PlaneVectors& gradient);
+  };
+  struct Features {
+    int family = -1;  // none
+    double length = 0.0;
+    Mask mask;
+  };
+
+  Cache& update(Cache& cache, const SmoothOptions& options, const PlaneVectors& along, int family);
+  SpdSolve factorize(const SparseMatrix& matrix) const;
+  PlaneVectors start_gradient(int family) const;
+  double longest_gradient(int family) const;
+  void enter(double fraction, const char* stage) const;
+
+  const HeightField& field_;
+  const Stencils& stencils_;
+  const std::vector<ReflectionFunction>& families_;
+  const std::vector<Vector>& trust_;
+  bool limit_outliers_;
+  LinearSolverKind solver_;
+  Progress* progress_ = nullptr;
+  Cache isotropic_, directional_;
+  Features features_;
+};
+
+}  // namespace reflines

@@ -1,0 +1,166 @@
+#include "solver/region_pieces.h"
+
+#include <limits>
+
+namespace reflines {
+
+RegionPieces::RegionPieces(const Positions& V, const Triangles& F, const ImagePlane& frame)
+    : frame_(frame), V_(V), F_(F) {}
+
+PlanePositions RegionPieces::xy() const { return frame_.project(V_); }
+
+PlanePositions RegionPieces::centers() const {
+  const PlanePositions xy = this->xy();
+  PlanePositions result(triangle_count(), 2);
+  for (int t = 0; t < triangle_count(); ++t)
+    result.row(t) = (xy.row(F_(t, 0)) + xy.row(F_(t, 1)) + xy.row(F_(t, 2))) / 3.0;
+  return result;
+}
+
+Vector RegionPieces::area() const {
+  Vector result = Vector::Zero(triangle_count());
+  for (const auto& piece : pieces_) result(piece->triangles()) = piece->field().area;
+  return result;
+}
+
+Mask RegionPieces::active() const {
+  Mask result = Mask::Constant(triangle_count(), false);
+  for (const auto& piece : pieces_) result(piece->triangles()) = true;
+  return result;
+}
+
+Mask RegionPieces::changeable() const {
+  Mask result = Mask::Constant(triangle_count(), false);
+  for (const auto& piece : pieces_) result(piece->triangles()) = piece->changeable();
+  return result;
+}
+
+Mask RegionPieces::free() const {
+  Mask result = Mask::Constant(vertex_count(), false);
+  for (const auto& piece : pieces_) {
+    const std::vector<int>& vertex = piece->vertices();
+    for (size_t v = 0; v < vertex.size(); ++v) {
+      if (piece->field().role[v] == VertexRole::kFree) result(vertex[v]) = true;
+    }
+  }
+  return result;
+}
+
+void RegionPieces::set_limit(const MoveLimit& limit) {
+  for (const auto& piece : pieces_) piece->set_limit(limit);
+  limit_ = limit;
+}
+
+MoveRange RegionPieces::range(int vertex) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!limit_.exists()) return {-kInfinity, kInfinity};
+  return {limit_.lowest(vertex), limit_.highest(vertex)};
+}
+
+IndexVector RegionPieces::at_limit() const {
+  IndexVector result = IndexVector::Zero(vertex_count());
+  for (const auto& piece : pieces_) {
+    for (int v = 0; v < piece->field().vertex_count(); ++v) {
+      if (piece->field().role[v] == VertexRole::kFree) result(piece->vertices()[v]) = piece->limited(v);
+    }
+  }
+  return result;
+}
+
+Vector RegionPieces::heights() const {
+  Vector result = frame_.heights(V_);
+  for (const auto& piece : pieces_) {
+    for (int v = 0; v < piece->field().vertex_count(); ++v) {
+      const int vertex = piece->vertices()[v];
+      result(vertex) = moved_height(result(vertex), piece->move(v), range(vertex));
+    }
+  }
+  return result;
+}
+
+Positions RegionPieces::positions() const {
+  Positions result = V_;
+  for (const auto& piece : pieces_) {
+    for (int v = 0; v < piece->field().vertex_count(); ++v) {
+      const int vertex = piece->vertices()[v];
+      const double move = piece->move(v);
+      if (piece->field().role[v] != VertexRole::kFree || move == 0) continue;
+      result.row(vertex) = moved_point(V_.row(vertex), move, frame_.z(), range(vertex));
+    }
+  }
+  return result;
+}
+
+Vector RegionPieces::theta(int family) const {
+  Vector result = Vector::Zero(triangle_count());
+  for (const auto& piece : pieces_) result(piece->triangles()) = piece->lines(family).theta;
+  return result;
+}
+
+PlaneVectors RegionPieces::field(int family) const {
+  PlaneVectors result = PlaneVectors::Zero(triangle_count(), 2);
+  for (const auto& piece : pieces_) result(piece->triangles(), Eigen::all) = piece->lines(family).gradient;
+  return result;
+}
+
+PlaneVectors RegionPieces::smooth_field(const SmoothOptions& options, int family) {
+  PlaneVectors result = PlaneVectors::Zero(triangle_count(), 2);
+  for (const auto& piece : pieces_) {
+    const PlaneVectors own = piece->lines(family).gradient;
+    result(piece->triangles(), Eigen::all) = piece->size() > 0 ? piece->smoother().smooth(own, options, family) : own;
+  }
+  return result;
+}
+
+RegionField RegionPieces::region_field(int family, double feature_length) {
+  RegionField result{xy(),
+                     F_,
+                     Eigen::VectorXi::Constant(triangle_count(), -1),
+                     Mask::Constant(triangle_count(), false),
+                     area(),
+                     centers(),
+                     theta(family),
+                     field(family),
+                     Vector::Zero(vertex_count()),
+                     PlaneVectors::Zero(vertex_count(), 2),
+                     PlaneVectors::Zero(vertex_count(), 2),
+                     family};
+  for (size_t k = 0; k < pieces_.size(); ++k) {
+    pieces_[k]->add_vertex_field(result);
+    result.piece(pieces_[k]->triangles()).setConstant(static_cast<int>(k));
+    result.feature(pieces_[k]->triangles()) = pieces_[k]->smoother().features(feature_length, family);
+  }
+  return result;
+}
+
+void RegionPieces::read_lines(const Vector& heights, const Vector& weight, Target& target, Vector& theta) const {
+  const Vector now = this->heights();
+  for (const auto& piece : pieces_) {
+    const std::vector<int>& vertex = piece->vertices();
+    const Vector known = weight(vertex);
+    const Vector z = (known.array() > 0).select(piece->heights() + heights(vertex) - now(vertex), piece->heights());
+    const ReflectionField own = piece->lines_of(z, target.family);
+    for (int t = 0; t < own.theta.size(); ++t) {
+      const int row = piece->triangles()[t];
+      if (!piece->depends_only_on(t, known)) continue;
+      target.weight(row) = 1;
+      target.gradient.row(row) = own.gradient.row(t);
+      theta(row) = own.theta(t);
+    }
+  }
+}
+
+void RegionPieces::pull_to(const Vector& heights, const Vector& weight) {
+  PieceProblem& piece = *pieces_.front();
+  const std::vector<int>& vertex = piece.vertices();
+  const Vector now = this->heights();
+  Vector z = piece.heights(), w = Vector::Zero(z.size());
+  for (int v = 0; v < z.size(); ++v) {
+    if (weight(vertex[v]) == 0) continue;
+    z(v) += heights(vertex[v]) - now(vertex[v]);
+    w(v) = weight(vertex[v]);
+  }
+  piece.pull_to(z, w);
+}
+
+}  // namespace reflines

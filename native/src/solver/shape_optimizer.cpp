@@ -1,0 +1,309 @@
+#include "reflines/shape_optimizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "geometry/mesh.h"
+#include "reflines/errors.h"
+#include "solver/coupling.h"
+#include "solver/limited_move.h"
+#include "solver/reachable_target.h"
+#include "solver/region_pieces.h"
+#include "solver/region_report.h"
+#include "solver/solve_checks.h"
+#include "solver/thread_limit.h"
+
+namespace reflines {
+namespace {
+
+const Vector3& first_of(const std::vector<Vector3>& line_directions) {
+  if (line_directions.empty())
+    throw InvalidInput("There is no family of light lines; give at least one line direction.");
+  return line_directions.front();
+}
+
+Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
+  Boundary boundary{options.border, options.held, options.creases, options.B.rows() == 0};
+  if (boundary.border.empty()) boundary.border.assign(vertex_count, Border::kClamped);
+  if (static_cast<Eigen::Index>(boundary.border.size()) != vertex_count ||
+      (boundary.held.size() > 0 && boundary.held.size() != vertex_count)) {
+    throw InvalidInput("The border codes and the held mask need one entry for each of the " +
+                       std::to_string(vertex_count) + " vertices.");
+  }
+  return boundary;
+}
+
+}  // namespace
+
+ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
+                               const std::vector<Vector3>& line_directions, const ShapeOptions& options)
+    : pieces_(std::make_unique<RegionPieces>(V, F, ImagePlane(view_direction, first_of(line_directions)))),
+      family_count_(static_cast<int>(line_directions.size())),
+      progress_(options.progress) {
+  enter(0.0, "checking the mesh");
+  check_surface(V, F);
+  check_quadrature_weight(options.quadrature_weight, F.rows());
+  enter(0.2, "dividing into height fields");
+  HeightField field = make_height_field(V, F, frame(), boundary_of(options, V.rows()));
+  sampled_ = options.quadrature_weight.size() > 0;
+  if (options.B.rows() > 0) free_unknowns_ = couple_vertices(options.B, options.start, field);
+  std::vector<ReflectionFunction> families;
+  for (const Vector3& a : line_directions) families.emplace_back(frame(), frame().z(), a);
+  families.emplace_back(frame(), frame().z(), frame().x());  // across the first family: see PieceProblem
+  region_ = describe_region(field, options.B.rows() == 0);
+  feature_length_ = kFeatureLength * field.diagonal();
+  for (Piece& piece : split_pieces(field)) {
+    enter(0.6, "making stencils");
+    region_.unused_pieces += piece.free_count == 0;
+    AffineMap map = make_affine_map(options.B, options.start, free_unknowns_, piece);
+    auto problem = std::make_unique<PieceProblem>(std::move(piece), std::move(map), options.stencil, families,
+                                                  options.proximity, options.linear_solver, options.quadrature_weight);
+    problem->watch(progress_.get());
+    region_.hidden += problem->hidden_count();
+    pieces_->add(std::move(problem));
+  }
+  if (region_.free == 0) {
+    // A cage has fewer faces.
+    const bool is_mesh = options.B.rows() == 0;
+    throw InvalidInput(explain_no_free_vertex(region_, is_mesh ? format_face_count(triangle_count()) + ": " : ""));
+  }
+  count_features(feature_length_, 0);
+  add_piece_messages(region_);
+}
+
+ShapeOptimizer::~ShapeOptimizer() = default;
+
+void ShapeOptimizer::watch(std::shared_ptr<Progress> progress) {
+  progress_ = std::move(progress);
+  for (const auto& piece : pieces_->pieces()) piece->watch(progress_.get());
+}
+
+void ShapeOptimizer::enter(double fraction, const char* stage) const {
+  if (progress_) progress_->enter(fraction, stage);
+}
+
+void ShapeOptimizer::check_family(int family) const {
+  if (family >= 0 && family < family_count_) return;
+  throw InvalidInput("There is no family " + std::to_string(family) + " of light lines; there are " +
+                     std::to_string(family_count_) + ", counted from 0.");
+}
+
+void ShapeOptimizer::check(const Target& target) const {
+  const bool by_value = target.theta.size() > 0;
+  const Eigen::Index rows = by_value ? target.theta.size() : target.gradient.rows();
+  check_family(target.family);
+  if (rows != triangle_count() || (target.weight.size() > 0 && target.weight.size() != triangle_count())) {
+    throw InvalidInput("The target has " + std::to_string(rows) + " rows and " + std::to_string(target.weight.size()) +
+                       " weights; it needs one for each of the " + std::to_string(triangle_count()) + " triangles.");
+  }
+  const bool finite = by_value ? target.theta.allFinite() : target.gradient.allFinite();
+  if (!finite || !target.weight.allFinite() || (target.weight.size() > 0 && target.weight.minCoeff() < 0)) {
+    throw InvalidInput("The target has a value that is not finite, or a negative weight.");
+  }
+}
+
+double ShapeOptimizer::energy(const std::vector<Target>& targets) {
+  for (const Target& target : targets) check(target);
+  double sum = 0;
+  for (const auto& piece : pieces_->pieces()) {
+    piece->set_targets(targets);
+    sum += piece->energy();
+  }
+  return sum;
+}
+
+Vector ShapeOptimizer::residual(const Target& target) const {
+  check(target);
+  if (target.theta.size() > 0) {
+    const Vector difference = theta(target.family) - target.theta;
+    return difference.unaryExpr([](double d) { return std::abs(wrapped(d)); });
+  }
+  return ((field(target.family) - target.gradient).rowwise().norm().array() * active().cast<double>()).matrix();
+}
+
+void ShapeOptimizer::count_features(double length, int family) {
+  int count = 0;
+  for (const auto& piece : pieces_->pieces())
+    count += static_cast<int>(piece->smoother().features(length, family).count());
+  set_feature_count(count, region_);
+}
+
+FieldSmoother ShapeOptimizer::smoother(int family) {
+  check_family(family);
+  return [this, family](const SmoothOptions& options) {
+    count_features(options.length, family);
+    return pieces_->smooth_field(options, family);
+  };
+}
+
+double ShapeOptimizer::score(double length, int family) {
+  double sum = 0, area = 0;
+  for (const auto& piece : pieces_->pieces()) {
+    if (piece->size() == 0) continue;
+    const PlaneVectors own = piece->lines(family).gradient;
+    const Vector A =
+        (piece->changeable() && !piece->smoother().features(length, family))
+            .select(piece->field().area.cwiseProduct(piece->visible(family)).array(), Vector::Zero(own.rows()).array());
+    sum += A.dot((own - piece->smoother().smooth(own, {length, false}, family)).rowwise().squaredNorm());
+    area += A.sum();
+  }
+  return area > 0 ? std::sqrt(sum / area) * length * 180.0 / std::numbers::pi : 0.0;
+}
+
+void ShapeOptimizer::measure(const std::vector<Target>& targets, Report& report) const {
+  double squared = 0, area = 0;
+  for (const auto& piece : pieces_->pieces()) {
+    for (int v = 0; v < piece->field().vertex_count(); ++v) {
+      const double move = std::abs(piece->move(v));
+      report.largest_move = std::max(report.largest_move, std::isfinite(move) ? move : INFINITY);
+    }
+    const TargetTerms::Misfit own = piece->misfit(targets);
+    squared += own.squared;
+    area += own.area;
+  }
+  report.residual_rms = area > 0 ? std::sqrt(squared / area) : 0.0;
+}
+
+Report ShapeOptimizer::solve(const std::vector<Target>& targets, const MinimizerOptions& options, Progress* progress,
+                             const MoveLimit& limit) {
+  const ThreadLimit few(sampled_ ? 1 : 0);
+  if (targets.empty()) throw InvalidInput("There is no target to solve for; give at least one.");
+  for (const Target& target : targets) check(target);
+  if (limit.exists()) reflines::check(limit, pieces_->vertex_count());
+  const MoveLimit limit_before = pieces_->limit();
+  pieces_->set_limit(limit.exists() && is_infinite(limit) ? MoveLimit::none() : limit);
+  region_field_.reset();
+  std::vector<Vector> before;
+  for (const auto& piece : pieces_->pieces()) before.push_back(piece->unknowns());
+  const auto restore = [&] {
+    for (size_t k = 0; k < before.size(); ++k) pieces_->pieces()[k]->set_heights(before[k]);
+    pieces_->set_limit(limit_before);
+  };
+  std::vector<Target> reachable = targets;
+  Report report;
+  report.strategy = options.strategy;
+  report.termination = Termination::kAlreadyOptimal;
+  try {
+    for (const auto& piece : pieces_->pieces()) {
+      if (piece->size() == 0) continue;
+      const Report own = minimize_reachable(*piece, targets, reachable, options, progress);
+      if (report.unknowns == 0)
+        report = own;
+      else
+        add_piece_report(own, report);
+      if (own.termination == Termination::kCancelled) break;
+    }
+    if (report.termination == Termination::kCancelled) restore();
+    measure(targets, report);
+    check_reach(pieces_->start(), report.largest_move);
+    tell_limit(report);
+  } catch (...) {
+    restore();
+    throw;
+  }
+  return report;
+}
+
+SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, HessianModel model) {
+  for (const Target& target : targets) check(target);
+  SparseMatrix result(region_.free, region_.free);
+  int first = 0;
+  for (const auto& piece : pieces_->pieces()) {
+    if (piece->size() == 0) continue;
+    piece->set_targets(targets);
+    const SparseMatrix& own = piece->hessian(piece->unknowns(), model);
+    result.reserve(result.nonZeros() + own.nonZeros());
+    for (int column = 0; column < own.cols(); ++column) {
+      result.startVec(first + column);
+      for (SparseMatrix::InnerIterator entry(own, column); entry; ++entry) {
+        result.insertBack(first + static_cast<int>(entry.row()), first + column) = entry.value();
+      }
+    }
+    first += piece->size();
+  }
+  result.finalize();
+  return result;
+}
+
+void ShapeOptimizer::reset() {
+  pieces_->set_limit(MoveLimit::none());
+  region_field_.reset();
+  for (const auto& piece : pieces_->pieces()) piece->reset();
+}
+
+const Vector& ShapeOptimizer::unknowns() const { return pieces_->pieces().front()->unknowns(); }
+
+void ShapeOptimizer::rest_at(const Vector& unknowns) {
+  region_field_.reset();
+  pieces_->pieces().front()->rest_at(unknowns);
+}
+
+void ShapeOptimizer::pull_to(const Vector& heights, const Vector& weight) { pieces_->pull_to(heights, weight); }
+
+void ShapeOptimizer::tell_limit(Report& report) const {
+  if (!pieces_->limit().exists()) return;
+  const auto free = this->free().count();
+  report.limited = static_cast<int>((at_limit().array() != 0).count());
+  report.limited_share = static_cast<double>(report.limited) / static_cast<double>(free);
+  char text[160];
+  std::snprintf(text, sizeof text, " %d of %td vertices (%.3g %%) touch the limit.", report.limited, free,
+                100 * report.limited_share);
+  report.message += text;
+  if (report.put_back == 0) return;
+  std::snprintf(text, sizeof text, " %d were beyond it at the start and were put back to it first.", report.put_back);
+  report.message += text;
+}
+
+const ImagePlane& ShapeOptimizer::frame() const { return pieces_->frame(); }
+
+int ShapeOptimizer::triangle_count() const { return pieces_->triangle_count(); }
+
+PlanePositions ShapeOptimizer::xy() const { return pieces_->xy(); }
+
+PlanePositions ShapeOptimizer::centers() const { return pieces_->centers(); }
+
+Vector ShapeOptimizer::area() const { return pieces_->area(); }
+
+Vector ShapeOptimizer::heights() const { return pieces_->heights(); }
+
+Positions ShapeOptimizer::positions() const { return pieces_->positions(); }
+
+IndexVector ShapeOptimizer::at_limit() const { return pieces_->at_limit(); }
+
+Mask ShapeOptimizer::free() const { return pieces_->free(); }
+
+Mask ShapeOptimizer::active() const { return pieces_->active(); }
+
+Mask ShapeOptimizer::changeable() const { return pieces_->changeable(); }
+
+Vector ShapeOptimizer::theta(int family) const {
+  check_family(family);
+  return pieces_->theta(family);
+}
+
+PlaneVectors ShapeOptimizer::field(int family) const {
+  check_family(family);
+  return pieces_->field(family);
+}
+
+const RegionField& ShapeOptimizer::region_field(int family) {
+  check_family(family);
+  if (!region_field_ || region_field_->family != family) region_field_ = pieces_->region_field(family, feature_length_);
+  return *region_field_;
+}
+
+ShapeOptimizer::Lines ShapeOptimizer::lines_of(const Vector& heights, const Vector& weight, int family) {
+  check_family(family);
+  const int vertices = pieces_->vertex_count();
+  if (heights.size() != vertices || weight.size() != vertices) {
+    throw InvalidInput("There are " + std::to_string(heights.size()) + " heights and " + std::to_string(weight.size()) +
+                       " weights; the surface has " + std::to_string(vertices) + " vertices.");
+  }
+  Lines lines{{field(family), Vector::Zero(triangle_count()), {}, family}, theta(family)};
+  pieces_->read_lines(heights, weight, lines.target, lines.theta);
+  return lines;
+}
+
+}  // namespace reflines

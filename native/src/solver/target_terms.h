@@ -1,0 +1,47 @@
+// The terms of a piece's energy that targets ask for, and how far given heights are from the targets.
+#pragma once
+
+#include <vector>
+
+#include "geometry/derivatives.h"
+#include "reflection/energy.h"
+#include "reflines/target.h"
+#include "solver/quadrature.h"
+
+namespace reflines {
+
+class TargetTerms {
+ public:
+  // `trust` (#T for each family) is the weight by visibility. The last family crosses the first and belongs to no
+  // target. All arguments outlive the object; `row_count` is the number of triangles that stand in the energy.
+  TargetTerms(const HeightField& field, const Quadrature& quadrature, const std::vector<ReflectionFunction>& families,
+              const std::vector<Vector>& trust, int row_count);
+
+  // Rows of the targets follow the region's triangles. A value fit has two terms, see build_companion. Throws
+  // InvalidInput where the gradient beside a value fit is not finite.
+  std::vector<EnergyTerm> build(const std::vector<Target>& targets) const;
+
+  // Asks the lines of the last family to stay as they are in `start` (#T x 2).
+  EnergyTerm build_crossing(const PlaneVectors& start) const;
+
+  // What heights with the derivatives u (one row for each triangle in the energy) lack of the targets, over the
+  // triangles that can change: sum of area |grad theta - wanted|^2 (of a value fit: of the difference of theta), and of
+  // areas.
+  struct Misfit {
+    double squared = 0.0, area = 0.0;
+  };
+  Misfit measure(const std::vector<Target>& targets, const TriangleDerivatives& u) const;
+
+ private:
+  EnergyTerm build_term(const Target& target) const;
+  EnergyTerm build_companion(
+      const Target& target) const;  // of a value fit: the wanted gradient beside the wanted theta
+
+  const HeightField& field_;
+  const Quadrature& quadrature_;
+  const std::vector<ReflectionFunction>& families_;
+  const std::vector<Vector>& trust_;
+  int row_count_;
+};
+
+}  // namespace reflines

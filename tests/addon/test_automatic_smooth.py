@@ -1,0 +1,144 @@
+"""Smooth Reflection Lines with the automatic length: the native function's result, on designed panels and flaws."""
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from reflection_lines import native
+from reflection_lines.state import solve_history
+
+import scenes
+
+CELLS = 64
+LINE = 0.5     # where the character lines run: x = -LINE and x = LINE
+DENT = (0.1, -0.2, 0.1, 0.004)  # x, y, radius, depth
+
+
+def bonnet(x: float, y: float) -> float:
+    """A symmetric crowned panel with two character lines, which turn by 9 degrees within a few cells."""
+    return scenes.crown(x, y) - 0.04 * (np.hypot(x - LINE, 0.04) + np.hypot(x + LINE, 0.04))
+
+
+def dent(x: float, y: float) -> float:
+    return -DENT[3] * np.exp(-((x - DENT[0]) ** 2 + (y - DENT[1]) ** 2) / DENT[2] ** 2)
+
+
+def dented(x: float, y: float) -> float:
+    return bonnet(x, y) + dent(x, y)
+
+
+def ready(height: scenes.Height = dented) -> bpy.types.Object:
+    ob = scenes.panel(height=height, cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, CELLS)
+    return ob
+
+
+def unit_axis(ob: bpy.types.Object) -> np.ndarray:
+    axis = np.array(ob.matrix_world, dtype=float)[:3, 2]
+    return axis / np.linalg.norm(axis)
+
+
+def expected(ob: bpy.types.Object, **settings: object) -> np.ndarray:
+    """What the native function makes of the region that the last press took."""
+    patch, scene = solve_history.find_last_solve(ob.name).patch, bpy.context.scene.reflection_lines
+    positions, told = native.reflines.smooth_panel(
+        patch.V, patch.F, view_direction=unit_axis(scene.camera), line_direction=unit_axis(scene.light), **settings)
+    assert told.applied
+    return positions
+
+
+@pytest.mark.parametrize(("settings", "arguments"), [
+    ({}, {}),
+    ({"lights": 'SINGLE', "border": 'fixed'}, {"lights": "single", "border": "fixed"}),
+    ({"symmetric": False, "strength": 0.5}, {"symmetric": False, "strength": 0.5})])
+def test_a_press_gives_the_positions_of_the_native_function_to_the_bit(settings: dict, arguments: dict) -> None:
+    ob = ready()
+    before = scenes.world(ob)
+    assert scenes.smooth(**settings) == {'FINISHED'}
+    last = solve_history.find_last_solve(ob.name)
+    assert np.array_equal(last.patch.V, before[last.patch.index])
+    assert len(last.patch.F) == 2 * (CELLS - 2) ** 2
+    wanted = expected(ob, **arguments)
+    assert np.array_equal(last.positions, wanted)
+    assert np.array_equal(scenes.positions(ob)[last.patch.index], wanted.astype(np.float32))
+    assert ob.reflection_lines.report.largest_move == pytest.approx(np.abs(wanted - last.patch.V).max(), rel=1e-4)
+
+
+def test_the_scenes_settings_are_taken() -> None:
+    ob = ready()
+    bpy.context.scene.reflection_lines.lights, bpy.context.scene.reflection_lines.symmetric = 'SINGLE', False
+    scenes.smooth()
+    last = solve_history.find_last_solve(ob.name)
+    assert np.array_equal(last.positions, expected(ob, lights="single", symmetric=False))
+    assert not np.array_equal(last.positions, expected(ob))
+
+
+def test_a_dent_is_healed_and_the_report_says_so() -> None:
+    ob = ready()
+    before = scenes.positions(ob)
+    scenes.smooth()
+    after, report = scenes.positions(ob), ob.reflection_lines.report
+    design = np.array([bonnet(x, y) for x, y in before[:, :2].astype(float)])
+    assert np.abs(before[:, 2] - design).max() > 0.9 * DENT[3]
+    assert np.abs(after[:, 2] - design).max() < 0.3 * DENT[3]
+    assert report.termination != "not_applied"
+    assert report.score_after < report.score_before and report.residual_after < report.residual_before
+    assert len(report.notes.splitlines()) <= 2
+
+
+def test_nothing_outside_the_region_moves_by_a_bit_and_nothing_across_the_view() -> None:
+    ob = ready()
+    before = scenes.positions(ob)
+    scenes.smooth()
+    moved = (scenes.positions(ob) != before).any(axis=1)
+    outside = np.abs(before[:, :2]).max(axis=1) > 1.0 - 1.5 * 2.0 / CELLS
+    assert moved.any() and not moved[outside].any()
+    assert np.array_equal(scenes.positions(ob)[:, :2], before[:, :2])
+
+
+def test_a_clean_panel_stays() -> None:
+    ob = ready(bonnet)
+    before = scenes.positions(ob)
+    scenes.smooth()
+    diagonal = np.linalg.norm(np.ptp(before, axis=0))
+    assert np.abs(scenes.positions(ob) - before).max() < 5e-4 * diagonal
+
+
+def test_one_undo_takes_the_press_back() -> None:
+    ob = ready()
+    bpy.ops.ed.undo_push(message="start")
+    before = scenes.fingerprint(ob)
+    scenes.smooth()
+    assert scenes.fingerprint(ob) != before
+    bpy.ops.ed.undo()
+    assert scenes.fingerprint(bpy.context.view_layer.objects.active) == before
+
+
+def test_what_the_native_function_refuses_is_not_applied(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its judgement is tested beside it: here it is made to refuse."""
+    real, why = native.reflines.smooth_panel, "Nothing was changed: the lines would have become less even."
+
+    def refuse(V: np.ndarray, *arguments: object, **settings: object) -> tuple[np.ndarray, SimpleNamespace]:
+        _, told = real(V, *arguments, **settings)
+        names = [name for name in dir(told) if not name.startswith("_")]
+        changed = {name: getattr(told, name) for name in names} | {"applied": False, "messages": [why]}
+        return V.copy(), SimpleNamespace(**changed)
+
+    monkeypatch.setattr(native.reflines, "smooth_panel", refuse)
+    ob = ready()
+    before, report = scenes.positions(ob).tobytes(), ob.reflection_lines.report
+    assert scenes.smooth() == {'FINISHED'}
+    assert scenes.positions(ob).tobytes() == before
+    assert report.termination == "not_applied" and report.notes.startswith(why)
+    assert report.largest_move == 0.0 and report.score_after == report.score_before
+    assert report.residual_after == report.residual_before
+
+
+def test_a_length_and_along_the_lines_do_not_ask_the_native_function(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They give what they gave before: `test_smooth.py` compares that."""
+    monkeypatch.delattr(native.reflines, "smooth_panel")
+    ob = ready()
+    assert scenes.smooth(length=0.5) == {'FINISHED'}
+    assert scenes.smooth(directional=True) == {'FINISHED'}
+    assert ob.reflection_lines.report.termination == "converged"

@@ -1,0 +1,77 @@
+"""What a press with the default settings does, and what a tool says and offers where it did next to nothing."""
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+
+CELLS = 40
+PRESSES = {
+    "angle": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='ANGLE', angle=0.2),
+    "density": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.3),
+    "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True),
+}
+
+
+@pytest.fixture
+def panel() -> bpy.types.Object:
+    """A clean one, a region in its middle: no wish but the tool's."""
+    ob = scenes.panel(height=scenes.crown, cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, CELLS, margin=8)
+    bpy.ops.ed.undo_push(message="start")
+    return ob
+
+
+def reached(ob: bpy.types.Object) -> float:
+    """The share of the wish."""
+    report = ob.reflection_lines.report
+    return 1.0 - report.residual_after / report.residual_before
+
+
+@pytest.mark.parametrize("press", PRESSES.values(), ids=PRESSES)
+def test_a_press_with_the_defaults_does_more_than_half_of_what_it_is_asked_for(panel, press) -> None:
+    press()
+    report = panel.reflection_lines.report
+    assert reached(panel) > 0.5
+    assert "of the wish" not in report.notes and report.remedy == ""
+
+
+def test_the_automatic_fall_off_ends_inside_a_long_region(panel) -> None:
+    """At half the width: the region is 2 x 0.4."""
+    results = []
+    for radius in ({}, {"radius": 0.2}):
+        scenes.select_faces(panel, lambda face: 16 <= face // CELLS < 24)
+        bpy.ops.ed.undo_push(message="select")
+        bpy.ops.reflines.untwist('EXEC_DEFAULT', True, **radius)
+        results.append(scenes.positions(panel))
+        bpy.ops.ed.undo()
+        panel = bpy.context.view_layer.objects.active
+    assert np.abs(results[0] - results[1]).max() < 1e-7
+
+
+@pytest.mark.parametrize("border", ['clamped', 'fixed'])
+def test_a_border_in_the_way_is_named_and_the_remedy_does_it(panel, border) -> None:
+    settings = {"angle": 0.1, "centre": 'EVERYWHERE'}
+    bpy.ops.reflines.untwist('EXEC_DEFAULT', True, border=border, **settings)
+    report = panel.reflection_lines.report
+    assert reached(panel) < 0.2 and report.remedy == "free"
+    first = report.notes.splitlines()[0]
+    assert first.startswith("Only ") and f"the border {border.capitalize()} keeps the lines' mean" in first
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border=report.remedy) == {'FINISHED'}
+    assert reached(panel) > 0.8 and report.remedy == "" and "of the wish" not in report.notes
+    remedied = scenes.positions(panel)
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    panel = bpy.context.view_layer.objects.active
+    bpy.ops.reflines.untwist('EXEC_DEFAULT', True, border='free', **settings)
+    assert np.array_equal(scenes.positions(panel), remedied)
+
+
+def test_what_is_as_wanted_already_is_no_failure() -> None:
+    panel = scenes.panel(cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit_inner(panel, CELLS)
+    for _ in range(3):
+        scenes.smooth()
+        assert "of the wish" not in panel.reflection_lines.report.notes

@@ -1,0 +1,52 @@
+"""Presets of the stripes' look, and what the manifest tells of the add-on."""
+import tomllib
+from pathlib import Path
+
+import bpy
+
+import installation
+
+KEPT = ("mode", "count", "width", "eye", "scope", "cage_on_top")
+
+
+def stripes() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines.stripes
+
+
+def test_a_preset_brings_the_look_back_to_other_files(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(made(tmp_path / path)))
+    look = {"mode": 'ISOPHOTE', "count": 17, "width": 0.25, "eye": 'VIEWPORT', "scope": 'VISIBLE',
+            "cage_on_top": False}
+    for name, value in look.items():
+        setattr(stripes(), name, value)
+    stripes().color = (0.25, 0.5, 0.75, 1.0)
+    assert bpy.ops.reflines.save_stripes_preset(name="Narrow Isophotes") == {'FINISHED'}
+    saved = next(tmp_path.rglob("*.py"))
+    for name in (*look, "color"):
+        stripes().property_unset(name)
+    assert stripes().mode == 'REFLECTION'
+    bpy.ops.script.execute_preset(filepath=str(saved), menu_idname="VIEW3D_PT_reflines_stripe_presets")
+    assert {name: getattr(stripes(), name) for name in KEPT} == look
+    assert tuple(stripes().color) == (0.25, 0.5, 0.75, 1.0)
+    assert not stripes().show  # the switch is no part of it
+
+
+def made(folder: Path) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def test_a_preset_has_every_setting_of_the_look() -> None:
+    own = {each.identifier for each in stripes().bl_rna.properties}
+    left_out = {"rna_type", "name", "show", "before", "collection", "image", "frozen_eye"}
+    operator = bpy.types.REFLINES_OT_save_stripes_preset
+    paths = {f"bpy.context.scene.reflection_lines.stripes.{name}" for name in own - left_out}
+    assert paths == set(operator.preset_values)
+
+
+def test_the_manifest_names_the_permission_and_tags_that_blender_knows() -> None:
+    manifest = tomllib.loads((installation.FOLDER / "blender_manifest.toml").read_text())
+    assert set(manifest["permissions"]) == {"files"}
+    reason = manifest["permissions"]["files"]
+    assert 0 < len(reason) <= 64 and not reason.endswith(".")  # Blender's own limits
+    assert set(manifest["tags"]) <= {"3D View", "Mesh", "Modeling"}

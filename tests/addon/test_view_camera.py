@@ -1,0 +1,172 @@
+"""Camera from This View, the view of a panel, and what is said of a panel seen from behind."""
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from bpy_extras.object_utils import world_to_camera_view
+from mathutils import Vector
+
+import scenes
+
+
+def settings() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines
+
+
+def axis_z(ob: bpy.types.Object) -> np.ndarray:
+    z = np.array(ob.matrix_world)[:3, 2]
+    return z / np.linalg.norm(z)
+
+
+def in_picture(points: np.ndarray) -> np.ndarray:
+    """Where world points are in the view camera's picture: 0 to 1 across and up, and the distance."""
+    bpy.context.view_layer.update()
+    return np.array([world_to_camera_view(bpy.context.scene, settings().camera, Vector(point)) for point in points])
+
+
+def is_framed(points: np.ndarray) -> bool:
+    """All in the picture, with a margin; and the picture is no more than a fifth too large one way or the other."""
+    seen = in_picture(points)
+    inside = (seen[:, :2] > 0.01).all() and (seen[:, :2] < 0.99).all() and (seen[:, 2] > 0.0).all()
+    return bool(inside and np.ptp(seen[:, :2], axis=0).max() > 0.8)
+
+
+@pytest.mark.parametrize("direction", [(0.0, 0.0, 1.0), (1.0, 2.0, 1.5), (0.0, -1.0, 0.2)])
+@pytest.mark.parametrize("kind", ['ORTHO', 'PERSP'])
+def test_the_view_camera_is_turned_and_frames_the_panel(direction, kind) -> None:
+    ob = scenes.panel()
+    ob.location, ob.scale = (5.0, 6.0, 7.0), (0.02, 0.3, 1.0)
+    scenes.look_from_above()
+    camera = settings().camera
+    camera.data.type = kind
+    assert bpy.ops.reflines.camera_from_view(direction=direction) == {'FINISHED'}
+    assert settings().camera == camera and len(bpy.data.cameras) == 1
+    bpy.context.view_layer.update()
+    assert axis_z(camera) == pytest.approx(np.array(direction) / np.linalg.norm(direction), abs=1e-5)
+    assert is_framed(np.array([ob.matrix_world @ Vector(corner) for corner in ob.bound_box]))
+
+
+def test_in_edit_mode_the_selection_is_framed() -> None:
+    ob = scenes.panel()
+    scenes.edit(ob)
+    scenes.select_faces(ob, lambda face: face % 16 < 4 and face // 16 < 4)
+    bpy.ops.reflines.camera_from_view(direction=(0.0, 0.0, 1.0))  # adds one
+    chosen = scenes.world(ob)[[vertex.select for vertex in bmesh.from_edit_mesh(ob.data).verts]]
+    assert is_framed(chosen)
+    assert not is_framed(scenes.world(ob))
+
+
+def test_a_panel_keeps_its_view() -> None:
+    one = scenes.panel("One")
+    scenes.look_from_above()
+    scenes.edit_inner(one)
+    scenes.smooth()
+    scenes.object_mode()
+    first = settings().camera, settings().light
+    assert not bpy.ops.reflines.use_panel_view.poll()
+    one.select_set(False)
+    other = scenes.panel("Two")
+    bpy.ops.reflines.add_view_camera(direction=(0.3, 0.0, 1.0))
+    assert settings().camera != first[0]
+    assert not bpy.ops.reflines.use_panel_view.poll()
+    scenes.activate(one)
+    assert bpy.ops.reflines.use_panel_view() == {'FINISHED'}
+    assert (settings().camera, settings().light) == first
+    scenes.activate(other)
+    bpy.data.objects.remove(other.reflection_lines.camera)
+    assert not bpy.ops.reflines.use_panel_view.poll()
+
+
+def test_a_camera_of_another_scene_is_named_as_such() -> None:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    camera, other = settings().camera, bpy.data.scenes.new("Studio")
+    other.collection.objects.link(camera)
+    for collection in list(camera.users_collection):
+        if collection != other.collection:
+            collection.objects.unlink(camera)
+    scenes.edit_inner(ob)
+    with pytest.raises(RuntimeError, match="View Camera is in the scene Studio, not in this one"):
+        scenes.smooth()
+    bpy.data.objects.remove(camera)
+    with pytest.raises(RuntimeError, match="No view camera"):
+        scenes.smooth()
+
+
+def test_resolve_in_edit_mode_of_an_instanced_mesh() -> None:
+    ob = scenes.panel()
+    twin = bpy.data.objects.new("Twin", ob.data)
+    bpy.context.collection.objects.link(twin)
+    scenes.look_from_above()
+    scenes.edit_inner(ob)
+    start = scenes.positions(ob).copy()
+    scenes.smooth(length=1.0)
+    once = scenes.positions(ob).copy()
+    assert not np.array_equal(once, start)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert ob.mode == 'EDIT' and np.abs(scenes.positions(ob) - once).max() < 1e-6  # from the shape before that run
+    scenes.object_mode()
+    with pytest.raises(RuntimeError, match="shares its mesh"):
+        bpy.ops.reflines.resolve('EXEC_DEFAULT', True)
+
+
+def refusal_from(direction: tuple, ob: bpy.types.Object, faces: object) -> str:
+    scenes.look_from_above()
+    bpy.ops.reflines.camera_from_view(direction=direction)
+    scenes.edit(ob)
+    scenes.select_faces(ob, faces)
+    before = scenes.fingerprint(ob)
+    with pytest.raises(RuntimeError, match="turn away from the view") as refusal:
+        scenes.smooth()
+    assert scenes.fingerprint(ob) == before
+    return str(refusal.value)
+
+
+def test_an_open_panel_seen_from_behind_says_turn_the_camera() -> None:
+    said = refusal_from((0.0, 0.0, -1.0), scenes.panel(), scenes.inner())
+    assert "turn the view camera" in said and "lip" not in said
+
+
+def test_an_open_panel_inside_out_says_flip() -> None:
+    ob = scenes.panel(height=scenes.crown)
+    ob.data.flip_normals()
+    said = refusal_from((0.0, 0.0, 1.0), ob, scenes.inner())
+    assert "Mesh > Normals > Flip" in said and "turn the view" not in said
+
+
+def test_a_flat_panel_turned_away_says_turn_the_camera() -> None:
+    ob = scenes.panel(height=lambda x, y: 0.0)
+    ob.data.flip_normals()
+    assert "turn the view camera" in refusal_from((0.0, 0.0, 1.0), ob, scenes.inner())
+
+
+def sphere() -> bpy.types.Object:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
+    return bpy.context.object
+
+
+def cap(ob: bpy.types.Object, below: float) -> set[int]:
+    return {face.index for face in ob.data.polygons if face.center.z < below}
+
+
+def test_the_back_of_a_closed_body_says_turn_the_camera() -> None:
+    ob = sphere()
+    bottom = cap(ob, -0.5)
+    assert "turn the view camera" in refusal_from((0.0, 0.0, 1.0), ob, lambda face: face in bottom)
+
+
+def test_a_closed_body_inside_out_says_flip() -> None:
+    ob = sphere()
+    ob.data.flip_normals()
+    top = set(range(len(ob.data.polygons))) - cap(ob, 0.5)
+    assert "Mesh > Normals > Flip" in refusal_from((0.0, 0.0, 1.0), ob, lambda face: face in top)
+
+
+def test_flipped_faces_of_a_sound_body_say_flip() -> None:
+    ob = sphere()
+    top = set(range(len(ob.data.polygons))) - cap(ob, 0.5)
+    scenes.edit(ob)
+    scenes.select_faces(ob, lambda face: face in top)
+    bpy.ops.mesh.flip_normals()
+    scenes.object_mode()
+    assert "Mesh > Normals > Flip" in refusal_from((0.0, 0.0, 1.0), ob, lambda face: face in top)

@@ -1,5 +1,0 @@
-"""The figures and the meshes are modules beside this lane."""
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))

@@ -1,0 +1,195 @@
+"""What no script may do to the module: crash it, stop it for ever, fill the memory, or get a runaway result."""
+import copy
+import resource
+import threading
+import time
+
+import numpy as np
+import pytest
+import reflines
+from sample_panels import LINE, VIEW, panel
+
+FLOAT32 = float(np.finfo(np.float32).max)
+
+
+@pytest.fixture
+def solver() -> reflines.ShapeOptimizer:
+    positions, triangles = panel(24)
+    return reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW, line_direction=LINE)
+
+
+def classes() -> list[type]:
+    return [kind for kind in vars(reflines).values() if isinstance(kind, type) and not issubclass(kind, Exception)]
+
+
+@pytest.mark.parametrize("kind", classes(), ids=lambda kind: kind.__name__)
+def test_no_object_is_made_without_its_constructor(kind) -> None:
+    with pytest.raises(TypeError):
+        kind.__new__(kind)
+    with pytest.raises(TypeError):
+        object.__new__(kind)
+
+
+def test_no_object_is_copied_without_its_constructor(solver) -> None:
+    with pytest.raises(TypeError):
+        copy.copy(solver)
+
+
+def test_lending_a_turn_that_nobody_takes_ends() -> None:
+    start = time.monotonic()
+    reflines.PythonTurn().lend(0.01)
+    assert time.monotonic() - start < 7.0
+
+
+def test_lending_a_turn_to_a_thread_that_has_ended_ends() -> None:
+    turn = reflines.PythonTurn()
+    thread = threading.Thread(target=turn.take)  # never rests
+    thread.start()
+    turn.lend(0.01)
+    turn.lend(0.01)
+    turn.give_away()
+    thread.join()
+
+
+def runaway(solver: reflines.ShapeOptimizer, kind: str) -> reflines.Target:
+    if kind == "density":
+        return reflines.uniform(solver, density=1e6)
+    image = np.zeros((64, 64))
+    image[30:34, 30:34] = 65504.0 if kind == "bright spot" else 3e38
+    low, high = solver.xy.min(0), solver.xy.max(0)
+    return reflines.pattern(solver, image=image, centre=0.5 * (low + high), width=float(high[0] - low[0]))
+
+
+@pytest.mark.parametrize("border", ["free", "fixed", "clamped"])
+@pytest.mark.parametrize("kind", ["density", "bright spot", "peak"])
+def test_a_runaway_result_is_a_failure_and_changes_nothing(kind, border) -> None:
+    positions, triangles = panel(24)
+    solver = reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW, line_direction=LINE, border=border)
+    before = solver.positions
+    diagonal = np.linalg.norm(np.ptp(positions, axis=0))
+    try:
+        report = solver.solve(runaway(solver, kind))
+    except (reflines.SolverFailure, reflines.InvalidInput) as error:
+        assert str(error).count(". ") <= 1
+        assert np.array_equal(solver.positions, before)
+    else:
+        moved = np.linalg.norm(solver.positions - before, axis=1).max()
+        assert moved <= 10.0 * diagonal * (1.0 + 1e-12)
+        assert report.largest_move <= 10.0 * diagonal
+
+
+def test_density_of_a_million_is_refused(solver) -> None:
+    with pytest.raises(reflines.SolverFailure, match="times its own size, so nothing was changed"):
+        solver.solve(reflines.uniform(solver, density=1e6))
+
+
+def peak_memory() -> int:
+    """Bytes."""
+    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+
+def test_slivers_across_all_bins_take_little_time_and_memory(solver) -> None:
+    """A lattice sheared so far that each of its 32,768 triangles reaches across the whole box of all."""
+    low, high = solver.xy.min(0) - 0.1, solver.xy.max(0) + 0.1
+    x, y = (axis.ravel() for axis in np.meshgrid(np.linspace(low[0], high[0], 129), np.linspace(low[1], high[1], 129)))
+    slanted = np.stack([x, 1e-4 * y + x + 1e-3 * np.roll(x, 7)], 1)
+    before, start = peak_memory(), time.monotonic()
+    reflines.warp(solver, low=low, high=high, columns=128, rows=128, position=slanted)
+    assert time.monotonic() - start < 5.0
+    assert peak_memory() - before < 5e8
+
+
+@pytest.mark.parametrize("blur", [300.0, 1500.0])
+def test_a_wide_blur_takes_no_longer_than_a_narrow_one(solver, blur) -> None:
+    image = np.random.default_rng(0).random((800, 800))
+    start = time.monotonic()
+    reflines.pattern(solver, image=image, blur=blur)
+    assert time.monotonic() - start < 2.0
+
+
+def test_a_wide_blur_is_gaussian(solver) -> None:
+    """To 4 % of its middle: a step, compared with one a tenth as wide, which is convolved with the Gaussian itself."""
+    image = np.zeros((4, 40000))
+    image[:, 20000:] = 1.0
+    low, high = solver.xy.min(0), solver.xy.max(0)
+    options = {"image": image, "centre": 0.5 * (low + high), "width": 4.0 * float(high[0] - low[0])}
+    wide = reflines.pattern(solver, blur=2000.0, **options).gradient - solver.field()
+    narrow = reflines.pattern(solver, blur=200.0, **options | {"image": image[:, ::10]}).gradient - solver.field()
+    assert np.abs(wide - narrow).max() < 0.04 * np.abs(narrow).max()
+
+
+def fan(spokes: int) -> tuple[np.ndarray, np.ndarray]:
+    angle = np.linspace(0.0, 2.0 * np.pi, spokes, endpoint=False)
+    rings = [np.stack([r * np.cos(angle), r * np.sin(angle), np.full(spokes, -0.1 * r * r)], 1) for r in (1.0, 1.2)]
+    i, j = np.arange(spokes), (np.arange(spokes) + 1) % spokes
+    F = [np.stack([0 * i, 1 + i, 1 + j], 1), np.stack([1 + i, 1 + spokes + i, 1 + spokes + j], 1),
+         np.stack([1 + i, 1 + spokes + j, 1 + j], 1)]
+    return np.concatenate([np.zeros((1, 3)), *rings]), np.concatenate(F)
+
+
+def test_a_fan_of_too_many_triangles_is_refused() -> None:
+    with pytest.raises(reflines.InvalidInput, match="8000 triangles meet at vertex 0 of the region, more than 2000: "):
+        reflines.ShapeOptimizer(*fan(8000), view_direction=[0.0, 0.0, 1.0], line_direction=LINE)
+    reflines.ShapeOptimizer(*fan(2000), view_direction=[0.0, 0.0, 1.0], line_direction=LINE)
+
+
+@pytest.mark.parametrize("name", ["strength", "width", "angle", "blur", "keep"])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_settings_of_a_pattern_that_are_no_numbers_are_refused(solver, name, value) -> None:
+    with pytest.raises(reflines.InvalidInput):
+        reflines.pattern(solver, image=np.random.default_rng(0).random((8, 8)), **{name: value})
+
+
+@pytest.mark.parametrize("width", [1e-300, 1e300])
+def test_patterns_of_any_width_are_sampled(solver, width) -> None:
+    image = np.random.default_rng(0).random((8, 8))
+    target = reflines.pattern(solver, image=image, width=width, centre=[1e200, -1e200])
+    assert np.isfinite(target.gradient).all()
+
+
+@pytest.mark.parametrize("settings", [{"density": np.nan}, {"density_end": np.nan}, {"axis": [np.nan, 0.0]},
+                                      {"direction": [np.inf, 1.0]}])
+def test_settings_of_uniform_lines_that_are_no_numbers_are_refused(solver, settings) -> None:
+    with pytest.raises(reflines.InvalidInput):
+        reflines.uniform(solver, **settings)
+
+
+def test_a_cage_of_two_milliards_of_vertices_is_refused() -> None:
+    with pytest.raises(reflines.InvalidInput, match="2147483647 vertices, more than 8 million"):
+        reflines.Subdivision([0, 4], [0, 1, 2, 3], vertices=2**31 - 1)
+
+
+def cancelled_after(seconds: float, progress: reflines.Progress, work: object) -> float:
+    """Seconds from the request to the end of the work."""
+    asked = []
+
+    def cancel() -> None:
+        asked.append(time.monotonic())
+        progress.cancel()
+
+    timer = threading.Timer(seconds, cancel)
+    timer.start()
+    with pytest.raises(reflines.Cancelled):
+        work()
+    return time.monotonic() - asked[0]
+
+
+def test_a_fine_cage_hears_cancel_while_it_is_subdivided() -> None:
+    """Between the steps of the subdivision, the longest of which take OpenSubdiv a third of all."""
+    cells = 60
+    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+    quads = np.stack([corner, corner + 1, corner + cells + 2, corner + cells + 1], 1)
+    x, y = np.meshgrid(np.linspace(-1, 1, cells + 1), np.linspace(-1, 1, cells + 1))
+    V = np.stack([x.ravel(), y.ravel(), -0.1 * (x * x).ravel()], 1)
+
+    def make(progress: reflines.Progress | None = None) -> reflines.CageOptimizer:
+        return reflines.CageOptimizer(V=V, face_offsets=np.arange(0, quads.size + 1, 4), face_vertices=quads.ravel(),
+                                      level=3, view_direction=[0.0, 0.0, 1.0], line_direction=LINE, progress=progress)
+
+    start = time.monotonic()
+    make()
+    whole = time.monotonic() - start
+    progress = reflines.Progress()
+    waited = cancelled_after(0.05 * whole, progress, lambda: make(progress))
+    print(f"cancel was heard after {waited:.2f} s of {whole:.2f} s")
+    assert waited < 0.6 * whole

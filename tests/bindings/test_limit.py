@@ -1,0 +1,255 @@
+"""A solve within a limit of the move: exact to the bit, a constrained minimum, refused where it is none."""
+import hashlib
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import reflines
+from sample_panels import LINE, VIEW, panel, rippled
+from scipy.optimize import lsq_linear, minimize
+
+SMOOTH = 0.3
+
+
+def ripples(cells=24, amplitude=3e-3, wavelength=0.3):
+    positions, triangles = panel(cells)
+    return rippled(positions, amplitude=amplitude, wavelength=wavelength), triangles
+
+
+def made(positions, triangles, view=VIEW, **options):
+    return reflines.ShapeOptimizer(positions, triangles, view_direction=view, line_direction=LINE, **options)
+
+
+def moves(solver, positions):
+    return (solver.positions - positions) @ (VIEW / np.linalg.norm(VIEW))
+
+
+def solved(limit, *, cells=24, amplitude=3e-3, **options):
+    positions, triangles = ripples(cells, amplitude)
+    solver = made(positions, triangles)
+    target = reflines.smooth(solver, length=SMOOTH)
+    return solver, positions, target, solver.solve(target, limit=limit, **options)
+
+
+def largest_free_move(**options):
+    return solved(None, **options)[3].largest_move
+
+
+@pytest.mark.parametrize("share", [0.02, 0.3, 0.9])
+@pytest.mark.parametrize("view", [VIEW, (0, 0, 1), (0.6, -0.2, 1.7)])
+def test_no_vertex_is_beyond_the_limit_by_a_bit(share, view):
+    positions, triangles = ripples()
+    solver = made(positions + [3, 5, 7], triangles, view)
+    target = reflines.smooth(solver, length=SMOOTH)
+    limit = share * solver.solve(target).largest_move
+    solver.reset()
+    heights = solver.heights
+    report = solver.solve(target, limit=limit)
+    assert report.converged and report.limited > 0
+    along = np.asarray(view) / np.linalg.norm(view)
+    way = solver.positions - (positions + [3, 5, 7])
+    assert np.abs(way @ along).max() <= limit and np.linalg.norm(way, axis=1).max() <= limit
+    assert np.abs(solver.heights - heights).max() <= limit
+    assert report.largest_move == limit
+    touching = solver.at_limit != 0
+    assert touching.sum() == report.limited
+    assert np.allclose(np.abs(way @ along)[touching], limit, rtol=0, atol=1e-14)
+
+
+def test_a_limit_that_nothing_touches_changes_no_bit():
+    free, _, _, report = solved(None)
+    limited, _, _, same = solved(1.001 * report.largest_move)
+    infinite, _, _, _ = solved(np.inf)
+    assert np.array_equal(free.positions, limited.positions) and np.array_equal(free.positions, infinite.positions)
+    assert same.limited == 0 and not limited.at_limit.any()
+
+
+def test_it_beats_the_free_result_scaled_down_to_the_limit():
+    free, positions, target, report = solved(None)
+    limited, _, _, bounded = solved(0.3 * report.largest_move)
+    scaled = made(positions, ripples()[1])
+    heights = scaled.heights + 0.3 * (free.heights - scaled.heights)
+    lines = made(positions + np.outer(heights - scaled.heights, VIEW), ripples()[1]).energy(target)
+    assert limited.energy(target) == pytest.approx(bounded.energy_after)
+    assert bounded.energy_after < 0.9 * lines < 0.9 * scaled.energy(target)
+
+
+def energy_of(solver, positions, triangles, target):
+    """The energy as a function of the moves of the free vertices."""
+    free = solver.free
+
+    def energy(x):
+        moved = positions.copy()
+        moved[free] += np.outer(x, VIEW)
+        return made(moved, triangles).energy(target)
+
+    return energy
+
+
+def test_the_projected_gradient_is_that_of_a_minimum():
+    solver, positions, target, report = solved(2e-4, cells=10)
+    assert report.gradient_after <= 1e-6 * report.gradient_before
+    x = moves(solver, positions)[solver.free]
+    held = solver.at_limit[solver.free]
+    energy, step = energy_of(solver, positions, ripples(10)[1], target), 1e-7
+    start = energy_of(solver, positions, ripples(10)[1], target)
+    slopes = np.array([(energy(x + step * e) - energy(x - step * e)) / (2 * step) for e in np.eye(len(x))])
+    first = np.array([(start(step * e) - start(-step * e)) / (2 * step) for e in np.eye(len(x))])
+    small = 1e-5 * np.linalg.norm(first)  # differences of energies have seven digits
+    assert np.abs(slopes[held == 0]).max() < small
+    assert (slopes[held > 0] < small).all() and (slopes[held < 0] > -small).all()
+    assert (held > 0).sum() > 3 and (held < 0).sum() > 3
+
+
+def test_scipy_finds_no_better_one():
+    solver, positions, target, report = solved(2e-4, cells=8)
+    energy = energy_of(solver, positions, ripples(8)[1], target)
+    x = moves(solver, positions)[solver.free]
+    scale = 1e-4
+    other = minimize(lambda y: energy(scale * y), 0.9 * x / scale, bounds=[(-2, 2)] * len(x), method="L-BFGS-B",
+                     options={"maxiter": 3000, "maxfun": 300000, "ftol": 1e-13, "gtol": 1e-9})
+    assert report.energy_after <= other.fun * (1 + 1e-6)
+    assert np.abs(scale * other.x - x).max() < 1e-2 * 2e-4
+
+
+def test_nearly_flat_it_is_bounded_linear_least_squares():
+    """Heights small enough make the energy quadratic: the Jacobian of its residuals and scipy's solver say the same."""
+    positions, triangles = panel(10)
+    positions[:, 2] = 1e-7 * np.random.default_rng(4).normal(size=len(positions))
+    solver = made(positions, triangles, (0, 0, 1))
+    free = solver.free
+    target = reflines.Target(np.zeros((len(triangles), 2)))
+    shares = np.array([solver.energy(reflines.Target(target.gradient, each)) for each in np.eye(len(triangles))])
+    weight = np.sqrt(shares / (solver.field()**2).sum(1))[:, None]
+    field, columns = (weight * solver.field()).ravel(), []
+    for v in np.flatnonzero(free):
+        moved = positions.copy()
+        moved[v, 2] += 1e-8
+        columns.append(((weight * made(moved, triangles, (0, 0, 1)).field()).ravel() - field) / 1e-8)
+    limit = 8e-8
+    report = solver.solve(target, limit=limit, gradient_tolerance=1e-10)
+    referee = lsq_linear(np.stack(columns, 1), -field / limit, bounds=(-1, 1), tol=1e-14, method="bvls")
+    assert report.converged and 0.1 < report.limited_share < 0.9
+    assert np.abs(moves_z(solver, positions)[free] / limit - referee.x).max() < 1e-6
+
+
+def moves_z(solver, positions):
+    return solver.positions[:, 2] - positions[:, 2]
+
+
+def test_only_outward_lies_on_the_obstacle_where_it_would_go_inward():
+    positions, triangles = ripples()
+    solver = made(positions, triangles)
+    target = reflines.smooth(solver, length=SMOOTH)
+    n = len(positions)
+    report = solver.solve(target, limit=np.column_stack([np.zeros(n), np.full(n, np.inf)]))
+    assert report.converged, report.message
+    move = moves(solver, positions)
+    assert move.min() >= 0 and move.max() > 1e-4
+    held = (solver.at_limit < 0) & solver.free
+    assert held.sum() > 10 and np.array_equal(solver.positions[held], positions[held])
+
+
+def test_a_painted_limit():
+    positions, triangles = ripples()
+    solver = made(positions, triangles)
+    target = reflines.smooth(solver, length=SMOOTH)
+    painted = 1e-3 * np.clip(positions[:, 0] / 0.7, 0, 1)
+    report = solver.solve(target, limit=np.column_stack([-painted, painted]))
+    assert report.converged, report.message
+    move = moves(solver, positions)
+    assert (np.abs(move) <= painted).all() and np.abs(move).max() > 1e-4
+    still = painted == 0
+    assert np.array_equal(solver.positions[still], positions[still])
+
+
+def test_several_families():
+    positions, triangles = ripples()
+    solver = reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW,
+                                     line_direction=np.array([LINE, np.cross(VIEW, LINE)]))
+    targets = [reflines.smooth(solver, length=SMOOTH, family=k) for k in (0, 1)]
+    report = solver.solve(targets, limit=5e-4)
+    assert report.converged and report.limited > 10
+    assert np.abs(moves(solver, positions)).max() <= 5e-4
+
+
+def test_a_result_beyond_the_limit_is_put_back_first():
+    solver, positions, target, _ = solved(None)
+    report = solver.solve(target, limit=3e-4)
+    assert report.converged, report.message
+    assert report.put_back > 10 and "put back" in report.message
+    assert np.abs(moves(solver, positions)).max() <= 3e-4
+    afresh = solved(3e-4)[0]
+    assert np.abs(solver.positions - afresh.positions).max() < 1e-2 * 3e-4
+
+
+def test_a_limit_of_nothing():
+    positions, triangles = ripples()
+    solver = made(positions, triangles)
+    report = solver.solve(reflines.smooth(solver, length=SMOOTH), limit=0.0)
+    assert report.termination == "already_optimal" and "Nothing may move" in report.message
+    assert np.array_equal(solver.positions, positions)
+
+
+@pytest.mark.parametrize("limit, count", [(-1e-3, 625), (np.nan, 625), ("crossed", 2), ("one", 625), ("short", 625)])
+def test_no_limits(limit, count):
+    positions, triangles = ripples()
+    solver = made(positions, triangles)
+    if limit == "crossed":
+        limit = np.tile([-1.0, 1.0], (625, 1))
+        limit[7:9] = [1, -1]
+    elif limit == "one":
+        limit = np.tile([0.1, 1.0], (625, 1))
+    elif limit == "short":
+        limit = np.zeros((3, 2))
+    with pytest.raises(reflines.InvalidInput, match=rf"\b{count} .*vertices"):
+        solver.solve(reflines.smooth(solver, length=SMOOTH), limit=limit)
+    assert np.array_equal(solver.positions, positions)
+
+
+def test_cancelled_everything_is_as_it_was():
+    solver, positions, target, _ = solved(2e-4)
+    before, limit = solver.positions, solver.at_limit
+    progress = reflines.Progress()
+    progress.cancel()
+    assert solver.solve(target, limit=1e-4, progress=progress).termination == "cancelled"
+    assert np.array_equal(solver.positions, before) and np.array_equal(solver.at_limit, limit)
+    again = solved(2e-4)[0].solve(target, limit=1e-4)
+    report = solver.solve(target, limit=1e-4)
+    assert report.energy_after == again.energy_after
+
+
+def test_a_drag_of_the_target_makes_few_factors():
+    positions, triangles = ripples(40)
+    solver = made(positions, triangles)
+    targets = [reflines.smooth(solver, length=SMOOTH, strength=s) for s in (0.8, 0.82)]
+    solver.solve(targets[0], limit=5e-4)
+    for k in range(6):
+        report = solver.solve(targets[(k + 1) % 2], limit=5e-4, gradient_tolerance=1e-2)
+        assert report.converged and report.analyses == 0, report.message
+        assert report.factorizations <= 4
+
+
+SOLVE = """
+import sys
+import numpy as np
+import reflines
+from sample_panels import LINE, VIEW, panel, rippled
+positions, triangles = panel(140)
+start = rippled(positions, amplitude=3e-4, wavelength=0.15)
+optimizer = reflines.ShapeOptimizer(start, triangles, view_direction=VIEW, line_direction=LINE)
+optimizer.solve(reflines.smooth(optimizer, length=0.3), limit=1e-4)
+sys.stdout.buffer.write(optimizer.positions.tobytes() + optimizer.at_limit.tobytes())
+"""
+
+
+def solved_by(threads):
+    environment = os.environ | {"OMP_NUM_THREADS": str(threads), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    run = subprocess.run([sys.executable, "-c", SOLVE], env=environment, check=True, stdout=subprocess.PIPE)
+    return hashlib.sha256(run.stdout).hexdigest()
+
+
+def test_one_and_two_threads_give_the_same_bits():
+    assert solved_by(1) == solved_by(2)

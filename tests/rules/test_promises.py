@@ -1,0 +1,60 @@
+"""What the manual promises of the add-on, where reading the code decides it; and that every test it names is there."""
+import ast
+import re
+
+from tree import ROOT, python_files
+
+# Modules that reach a network, start programs, or make objects of bytes in a file.
+FOREIGN = {"socket", "ssl", "http", "urllib", "ftplib", "smtplib", "requests", "asyncio", "xmlrpc", "subprocess",
+           "multiprocessing", "ctypes", "pickle", "shelve", "marshal", "dill", "runpy", "code"}
+RUNS_TEXT = {"eval", "exec", "compile", "__import__"}
+# Who may write files: name of the module -> how.
+WRITERS = {"addon/library_copy.py", "addon/bridge/matcap.py", "addon/operators/install_matcap.py"}
+WRITES = {"write_bytes", "write_text", "mkstemp", "makedirs", "save_render", "savez", "tofile", "copyfile"}
+
+
+def calls(tree: ast.Module) -> set[str]:
+    """Names of what is called: `eval`, and of `path.write_bytes` its last part."""
+    functions = [node.func for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    return {function.id if isinstance(function, ast.Name) else function.attr for function in functions
+            if isinstance(function, ast.Name | ast.Attribute)}
+
+
+def imports(tree: ast.Module) -> set[str]:
+    names = [alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names]
+    names += [node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level == 0]
+    return {name.split(".")[0] for name in names}
+
+
+def addon() -> dict[str, ast.Module]:
+    return {file.as_posix(): ast.parse((ROOT / file).read_text()) for file in python_files("addon/")}
+
+
+def test_the_addon_reaches_no_network_and_starts_no_program() -> None:
+    wrong = {file: imports(tree) & FOREIGN for file, tree in addon().items() if imports(tree) & FOREIGN}
+    assert not wrong
+
+
+def test_no_text_is_run_and_no_object_is_unpickled() -> None:
+    built_in = {file: {node.func.id for node in ast.walk(tree) if isinstance(node, ast.Call)
+                       and isinstance(node.func, ast.Name)} & RUNS_TEXT for file, tree in addon().items()}
+    assert not {file: names for file, names in built_in.items() if names}
+    assert not [file for file, tree in addon().items() for node in ast.walk(tree)
+                if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
+                and (node.value.id, node.attr) == ("np", "load")]
+
+
+def test_only_the_copy_and_the_matcap_are_written() -> None:
+    wrong = {file: calls(tree) & WRITES for file, tree in addon().items()
+             if file not in WRITERS and calls(tree) & WRITES}
+    assert wrong.keys() <= {"addon/bridge/solve_record.py"}, wrong  # into memory, for the .blend file
+
+
+def test_every_promise_names_tests_that_are_there() -> None:
+    page = (ROOT / "addon/manual/index.html").read_text()
+    rows = re.findall(r"<tr><td>.*?</tr>", page[page.index('id="promises"'):], re.DOTALL)
+    assert len(rows) >= 7
+    for row in rows:
+        named = re.findall(r"<code>(tests/[^<]+)</code>", row)
+        assert named, row
+        assert all((ROOT / name).is_file() for name in named), named

@@ -1,0 +1,130 @@
+"""Runs the native code under clang's sanitizers, and its fuzzers; the last line is "N passed, N failed, N skipped".
+
+    tests/sanitizers.py asan | tsan | fuzz [MINUTES]
+
+asan: memory errors, undefined behaviour and leaks in the native tests and in those of the bindings. tsan: data races
+in the native tests, with Archer, which tells ThreadSanitizer how OpenMP synchronizes; a program with a race of its own
+must be caught, else nothing was looked for. fuzz: each fuzzer of tests/fuzz from its seeds on.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from lanes import CRASHED, PYTHON, ROOT, Counts, run_with_junit
+
+FUZZERS = ("shape", "cage", "grids")
+SLOWEST, MOST_MEMORY = 5, 2048  # seconds and MiB of one input
+# OpenBLAS and the interpreter keep what they have for the whole run.
+LEAKS = ("leak:libopenblas", "leak:libpython", "leak:libomp", "leak:libgomp")
+# Libraries that are compiled without the sanitizer, and synchronize by means that it does not see.
+RACES = ("called_from_lib:libgomp", "called_from_lib:libopenblas", "called_from_lib:libcholmod",
+         "called_from_lib:libumfpack", "called_from_lib:libmetis")
+RACE = """
+#include <cstdio>
+int main() {
+  int sum = 0;
+#pragma omp parallel for num_threads(2)
+  for (int i = 0; i < 100000; ++i) sum += i;
+  std::printf("%d\\n", sum);
+}
+"""
+
+
+def built(preset: str) -> bool:
+    folder = ROOT / "build" / preset
+    configured = (folder / "build.ninja").is_file() or \
+        subprocess.run(["cmake", "--preset", preset], cwd=ROOT).returncode == 0
+    return configured and subprocess.run(["cmake", "--build", "--preset", preset], cwd=ROOT).returncode == 0
+
+
+def suppressions(name: str, lines: tuple[str, ...]) -> Path:
+    path = ROOT / "build" / f"{name}.suppressions"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def native_tests(preset: str, env: dict[str, str]) -> Counts:
+    total = Counts()
+    for program in sorted((ROOT / "build" / preset).glob("test_*[a-z]")):
+        report = ROOT / "build/tests" / f"{preset}_{program.name}.xml"
+        total += run_with_junit([str(program), "--gtest_brief=1", f"--gtest_output=xml:{report}"], report, env)
+    return total
+
+
+def asan_environment() -> dict[str, str]:
+    return os.environ | {"ASAN_OPTIONS": "detect_leaks=1:detect_stack_use_after_return=1:allocator_may_return_null=1",
+                         "LSAN_OPTIONS": f"suppressions={suppressions('leaks', LEAKS)}",
+                         "UBSAN_OPTIONS": "print_stacktrace=1"}
+
+
+def binding_tests(env: dict[str, str]) -> Counts:
+    """The interpreter itself has leaks by design, so that none are looked for; times are those of slow code."""
+    runtime = subprocess.run(["clang", "-print-file-name=libclang_rt.asan-x86_64.so"], text=True,
+                             stdout=subprocess.PIPE).stdout.strip()
+    env = env | {"ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1", "LD_PRELOAD": runtime,
+                 "PYTHONPATH": str(ROOT / "build/asan/module"), "PYTHONMALLOC": "malloc"}
+    report = ROOT / "build/tests/asan_bindings.xml"
+    return run_with_junit([PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-x", f"--junitxml={report}",
+                           "tests/bindings/test_hostile.py", "tests/bindings/test_subdivision.py",
+                           "tests/bindings/test_turn.py"], report, env, timeout=2400)
+
+
+def asan() -> Counts:
+    if not built("asan"):
+        return CRASHED
+    env = asan_environment()
+    return native_tests("asan", env) + binding_tests(env)
+
+
+def catches_a_race(env: dict[str, str]) -> bool:
+    with tempfile.TemporaryDirectory() as folder:
+        source, program = Path(folder, "race.cpp"), Path(folder, "race")
+        source.write_text(RACE)
+        command = ["clang++", "-g", "-O1", "-fopenmp", "-fsanitize=thread", str(source), "-o", str(program)]
+        return (subprocess.run(command).returncode == 0
+                and subprocess.run([str(program)], env=env, capture_output=True).returncode == 66)
+
+
+def tsan() -> Counts:
+    env = os.environ | {"TSAN_OPTIONS": f"ignore_noninstrumented_modules=1:suppressions={suppressions('races', RACES)}",
+                        "OMP_NUM_THREADS": "4"}
+    if not catches_a_race(env):
+        print("the racy program was not caught")
+        return CRASHED
+    if not built("tsan"):
+        return CRASHED
+    return Counts(passed=1) + native_tests("tsan", env)
+
+
+def fuzz(minutes: float) -> Counts:
+    if not built("asan"):
+        return CRASHED
+    return sum((fuzzed(name, minutes) for name in FUZZERS), Counts())
+
+
+def fuzzed(name: str, minutes: float) -> Counts:
+    """New inputs that reach new code are kept in build/fuzz, findings beside them; seeds only those of the project."""
+    kept = ROOT / "build/fuzz" / name
+    kept.mkdir(parents=True, exist_ok=True)
+    command = [str(ROOT / "build/asan" / f"fuzz_{name}"), str(kept), str(ROOT / "tests/fuzz/seeds" / name),
+               f"-max_total_time={round(60 * minutes)}", f"-timeout={SLOWEST}", f"-rss_limit_mb={MOST_MEMORY}",
+               "-max_len=600", "-print_final_stats=1", "-verbosity=0", f"-artifact_prefix={kept}-"]
+    code = subprocess.run(command, cwd=ROOT, env=asan_environment() | {"OMP_NUM_THREADS": "1"}).returncode
+    print(f"fuzz {name}: exit code {code}", flush=True)
+    return Counts(passed=1) if code == 0 else CRASHED
+
+
+def main() -> int:
+    kind = sys.argv[1]
+    lanes: dict[str, Callable[[], Counts]] = {
+        "asan": asan, "tsan": tsan, "fuzz": lambda: fuzz(float(sys.argv[2]) if len(sys.argv) > 2 else 1.0)}
+    total = lanes[kind]()
+    print(total)
+    return 0 if total.failed == 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,58 @@
+"""Look Through and Camera from This View in a real window."""
+from collections.abc import Generator
+
+import bpy
+import numpy as np
+from mathutils import Euler
+
+import scenes
+import window
+from picture import fresh_panel, prepare
+
+Steps = Generator[float, None, None]
+
+
+def settings() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines
+
+
+def axes(driver: window.Window) -> np.ndarray:
+    return np.array(driver.region_3d().view_matrix)[:3, :3].T
+
+
+def look(driver: window.Window) -> Steps:
+    with driver.override():
+        assert bpy.ops.reflines.look_through() == {'FINISHED'}
+    yield 0.8  # Blender's smooth view
+
+
+def test_through_the_camera_and_back(driver: window.Window) -> Steps:
+    prepare(driver, fresh_panel(driver, "Through"))
+    space, region_3d = driver.area().spaces.active, driver.region_3d()
+    region_3d.view_perspective, region_3d.view_rotation = 'PERSP', Euler((0.6, 0.1, 0.4)).to_quaternion()
+    yield 0.3
+    before, scenes_own = axes(driver), bpy.context.scene.camera
+    yield from look(driver)
+    assert region_3d.view_perspective == 'CAMERA' and space.camera == settings().camera
+    assert np.abs(axes(driver) - np.array(settings().camera.matrix_world)[:3, :3]).max() < 1e-5
+    assert bpy.context.scene.camera == scenes_own
+    yield from look(driver)
+    assert region_3d.view_perspective == 'PERSP' and not space.use_local_camera
+    assert np.abs(axes(driver) - before).max() < 1e-5
+
+
+def test_the_camera_takes_this_view_in_edit_mode(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "From View")
+    prepare(driver, ob)
+    driver.region_3d().view_rotation = Euler((0.5, 0.0, 0.3)).to_quaternion()
+    with driver.override():
+        scenes.edit(ob)
+    yield 0.3
+    with driver.override():
+        assert bpy.ops.reflines.camera_from_view() == {'FINISHED'}
+        bpy.context.view_layer.update()
+    assert np.abs(axes(driver) - np.array(settings().camera.matrix_world)[:3, :3]).max() < 1e-5
+    assert ob.mode == 'EDIT'
+
+
+window.run(test_through_the_camera_and_back, test_the_camera_takes_this_view_in_edit_mode)

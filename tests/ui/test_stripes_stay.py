@@ -1,0 +1,218 @@
+"""Stripes stay on the panel while light or camera is active, in Sculpt Mode and in every scope; else they say why."""
+import sys
+from collections.abc import Generator
+from math import radians
+
+import bpy
+import numpy as np
+
+import scenes
+import window
+from picture import CELLS, Steps, captured, fresh_panel, prepare
+
+GREY = 0.2  # of the environment without an image: a flat colour that only stripes show
+
+
+def settings() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines
+
+
+def flat_panel(driver: window.Window, name: str) -> bpy.types.Object:
+    """A panel whose stripes are one grey, so that its pixels can be counted."""
+    ob = fresh_panel(driver, name)
+    prepare(driver, ob)
+    settings().stripes.mode, settings().stripes.image = 'IMAGE', None
+    return ob
+
+
+def count(driver: window.Window) -> Generator[float, None, int]:
+    picture = yield from captured(driver)
+    return int((np.abs(picture - GREY) < 0.01).sum())
+
+
+def explained(driver: window.Window) -> str:
+    with driver.override():
+        return bpy.context.window_manager.reflection_lines.explain_stripes(bpy.context)
+
+
+def test_stripes_stay_while_light_camera_or_nothing_is_active(driver: window.Window) -> Steps:
+    ob = flat_panel(driver, "Stays")
+    whole = yield from count(driver)
+    assert whole > 10000
+    for active in (settings().light, settings().camera, None):
+        for scope in ('OBJECT', 'SELECTION'):
+            settings().stripes.scope = scope
+            with driver.override():
+                bpy.ops.object.select_all(action='DESELECT')
+                bpy.context.view_layer.objects.active = active
+                if active is not None:
+                    active.select_set(True)
+            shown = yield from count(driver)
+            assert shown == whole, (active, scope, shown, whole)
+    assert explained(driver) == ""
+    with driver.override():
+        scenes.activate(ob)
+
+
+def test_after_opening_a_file_stripes_are_on_what_was_solved(driver: window.Window) -> Steps:
+    ob = flat_panel(driver, "Solved")
+    with driver.override():
+        scenes.edit_inner(ob, CELLS)
+        scenes.smooth()
+        scenes.object_mode()
+        bpy.context.view_layer.objects.active = settings().light
+    sys.modules["reflection_lines"].state.last_panels.forget_panels()
+    assert (yield from count(driver)) > 10000
+
+
+def test_all_visible_and_empty_scopes(driver: window.Window) -> Steps:
+    ob = flat_panel(driver, "One")
+    with driver.override():
+        other = scenes.panel("Two", cells=8)
+        other.location.x = 2.5
+        hidden = scenes.panel("Three", cells=8)
+        hidden.location.x = -2.5
+        hidden.hide_set(True)
+        scenes.activate(ob)
+    driver.region_3d().view_distance = 5.0
+    one = yield from count(driver)
+    settings().stripes.scope = 'VISIBLE'
+    both = yield from count(driver)
+    assert 1.8 * one < both < 2.2 * one
+    settings().stripes.scope, settings().stripes.collection = 'COLLECTION', None
+    assert (yield from count(driver)) < 100
+    assert "pick a collection" in explained(driver)
+    settings().stripes.scope = 'OBJECT'
+    with driver.override():
+        ob.hide_set(True)
+        bpy.context.view_layer.objects.active = ob
+    assert explained(driver) == "One: hidden in this view"
+
+
+def test_the_overlay_switch_hides_them(driver: window.Window) -> Steps:
+    flat_panel(driver, "Overlays")
+    overlay = driver.area().spaces.active.overlay
+    overlay.show_overlays = False
+    gone = yield from count(driver)
+    why = explained(driver)
+    overlay.show_overlays = True
+    assert gone < 100 < 10000 < (yield from count(driver))
+    assert why == "Overlays are off in this view: switch them on in its header" and explained(driver) == ""
+
+
+def test_what_is_missing_is_said(driver: window.Window) -> Steps:
+    ob = flat_panel(driver, "Missing")
+    yield from captured(driver)
+    light, camera = settings().light, settings().camera
+    for lack, said in (("light", "No light direction"), ("camera", "No view camera: the stripes are as this view")):
+        setattr(settings(), lack, None)
+        assert said in explained(driver)
+        settings().light, settings().camera = light, camera
+    light.matrix_world = camera.matrix_world
+    with driver.override():
+        bpy.context.view_layer.update()
+    assert "along the view" in explained(driver)
+    with driver.override():
+        bpy.data.objects.remove(ob)
+    assert explained(driver) == "Nothing to show: make the panel's mesh active"
+    settings().stripes.show = False
+    assert explained(driver) == ""
+
+
+def stroke(driver: window.Window) -> Steps:
+    region = driver.region()
+    driver.move(region.width // 2 - 60, region.height // 2)
+    yield 0.1
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield 0.05
+    for step in range(12):
+        driver.move(region.width // 2 - 60 + 10 * step, region.height // 2)
+        yield 0.05
+
+
+def test_stripes_follow_a_stroke_in_sculpt_mode(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Sculpted")
+    prepare(driver, ob)
+    with driver.override():
+        bpy.ops.object.mode_set(mode='SCULPT')
+    before = yield from captured(driver)
+    assert np.ptp(before) > 0.9
+    yield from stroke(driver)
+    within = yield from captured(driver)
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.3
+    after = yield from captured(driver)
+    with driver.override():
+        scenes.object_mode()
+    left = yield from captured(driver)
+    changed = [int((np.abs(one - before) > 0.1).sum()) for one in (within, after, left)]
+    print(f"pixels changed during the stroke, after it, after leaving Sculpt Mode: {changed}")
+    assert changed[2] > 1000
+    assert changed[0] > 0.5 * changed[2]
+    assert (np.abs(after - left) > 0.1).mean() < 2e-3
+
+
+def angle_between(one: np.ndarray, other: np.ndarray) -> float:
+    return float(np.degrees(np.arccos(np.clip(one @ other, -1.0, 1.0))))
+
+
+def light_axis() -> np.ndarray:
+    axis = np.array(settings().light.matrix_world)[:3, 2]
+    return axis / np.linalg.norm(axis)
+
+
+def test_the_sidebar_turns_the_light_in_edit_mode(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Turned")
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit(ob)
+    before = yield from captured(driver)
+    settings().light_turn, settings().light_tilt = radians(30.0), radians(20.0)
+    after = yield from captured(driver)
+    c = np.cos(radians(20.0))
+    wanted = np.array([c * np.cos(radians(30.0)), c * np.sin(radians(30.0)), np.sin(radians(20.0))])
+    assert angle_between(light_axis(), wanted) < 1e-3  # the camera looks along -Z with X to the right
+    assert abs(settings().light_turn - radians(30.0)) < 1e-5 and abs(settings().light_tilt - radians(20.0)) < 1e-5
+    settings().light_dial = (0.0, 1.0, 0.0)
+    with driver.override():
+        bpy.context.view_layer.update()
+    assert angle_between(light_axis(), np.array([0.0, 1.0, 0.0])) < 1e-3
+    assert ob.mode == 'EDIT' and (np.abs(before - after) > 0.1).sum() > 5000
+
+
+def test_sweep_light_in_edit_mode(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Swept")
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit(ob)
+    start = np.array(settings().light.matrix_world)
+    for key in ('ESC', 'RET'):
+        driver.move(300, 300)
+        yield 0.1
+        with driver.override():
+            bpy.ops.reflines.sweep_light('INVOKE_DEFAULT')
+        before = yield from captured(driver)
+        driver.move(400, 300)
+        yield 0.2
+        driver.event('WHEELDOWNMOUSE', 'PRESS')
+        turned = yield from captured(driver)
+        assert (np.abs(before - turned) > 0.1).sum() > 5000
+        driver.key(key)
+        yield 0.3
+        with driver.override():
+            bpy.context.view_layer.update()
+        assert np.array_equal(np.array(settings().light.matrix_world), start) == (key == 'ESC')
+    assert ob.mode == 'EDIT'
+    print("turn and tilt, degrees", np.degrees([settings().light_turn, settings().light_tilt]))
+    assert abs(settings().light_turn - radians(30.0)) < 1e-4  # 0.3 degrees a pixel, from the horizontal
+    assert abs(settings().light_tilt - radians(30.0 - 2.0)) < 1e-4  # which stood at 60 degrees from the view
+    with driver.override():
+        assert bpy.ops.reflines.sweep_light(turn=0.5) == {'FINISHED'}  # by a script, the tilt as it is
+    assert abs(settings().light_turn - 0.5) < 1e-4 and abs(settings().light_tilt - radians(28.0)) < 1e-4
+
+
+window.run(test_stripes_stay_while_light_camera_or_nothing_is_active,
+           test_after_opening_a_file_stripes_are_on_what_was_solved, test_all_visible_and_empty_scopes,
+           test_the_overlay_switch_hides_them, test_what_is_missing_is_said,
+           test_stripes_follow_a_stroke_in_sculpt_mode, test_the_sidebar_turns_the_light_in_edit_mode,
+           test_sweep_light_in_edit_mode)
