@@ -23,6 +23,7 @@ class PressReport:
     seconds: float       # of the whole press
     unknowns: int
     largest_move: float  # along the view, of the whole press
+    limited: int = 0     # vertices that the limit holds back
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Solution:
     patch: Patch
     positions: np.ndarray  # #V x 3, world space
     report: "native.Report | PressReport"
-    target: "native.Target"
+    target: "native.Target | None"  # None after an automatic press of Smooth
     residual: np.ndarray   # #F, |grad theta - target|, radians / length
     residual_before: float  # root mean square by area and the target's weight, radians / length
     residual_after: float
@@ -41,6 +42,7 @@ class Solution:
     notes: tuple[str, ...]
     automatic_length: float = 0.0  # what the length 0 stands for in this patch, world units
     remedy: str = ""  # the border that would let a larger share of the wish be reached; empty where this one does
+    automatic_limit: float = 0.0  # what the limit 0 stood for, world units; 0 where it is not known
 
     def to_last_solve(self) -> "LastSolve":
         return LastSolve(self.patch, self.positions, self.residual)

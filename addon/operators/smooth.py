@@ -11,7 +11,6 @@ from ..model.solution import Solution
 from ..solver import automatic_smooth, live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
-from ..state import optimizer_cache
 from ..targets import smooth
 from ..targets.smooth import Smooth
 from ..ui.tool_properties import SmoothSettings
@@ -28,6 +27,14 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         return (Handle("strength", "Strength", per_pixel=1.0 / 300.0, low=0.0, high=1.0),
                 Handle("length", "Length", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH',
                        wheel=True))
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draws the redo panel."""
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        for name in ("border", "solve_for", "result"):
+            layout.prop(self, name)
+        self.draw_smooth(layout)
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines
@@ -47,10 +54,9 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
             return super().solve_patch(context, ob, patch)
         if self.length:  # what 0 stands for is known after an automatic press only
             return replace(super().solve_patch(context, ob, patch), automatic_length=0.0)
-        settings = AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric)
+        settings = AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric, self.limit or None)
         with live_optimizer.convert_native_errors(patch):
-            live = optimizer_cache.ensure_optimizer(automatic_smooth.hold_marked_creases(patch), seen, self.border)
-            return automatic_smooth.smooth_panel(live, settings)
+            return automatic_smooth.smooth_panel(patch, seen, self.border, settings)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_smooth])

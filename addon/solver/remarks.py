@@ -15,6 +15,12 @@ def describe_mirror(formulation: Formulation) -> tuple[str, ...]:
     return () if plane is None else mirror.describe_asymmetry(plane, formulation.is_symmetric)
 
 
+def describe_marked_creases(patch: Patch) -> tuple[str, ...]:
+    """Says how many marked edges the automatic press of Smooth holds."""
+    count = 0 if patch.creases.rule == "none" else len(patch.creases.marked)
+    return (f"{count} edge{'s are' if count > 1 else ' is'} marked as creases; held",) if count else ()
+
+
 def describe_small_share(share: float, border: str) -> tuple[str, ...]:
     """Says why only a share of the wish was reached. A border that stays keeps the mean of the gradient across it."""
     why = ("no smooth surface has such lines here: ask for less, or over a larger radius" if border == "free" else

@@ -140,18 +140,8 @@ class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
     bl_label = "Smooth Lines"
     manual = "reflines.smooth"
 
-    def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
-                  settings: bpy.types.PropertyGroup) -> None:
-        layout.prop(settings, "length")
-        if not settings.length:
-            ob = context.view_layer.objects.active
-            layout.label(text=ob.reflection_lines.report.automatic() if ob is not None else "0: automatic")
-        layout.prop(settings, "strength")
-        layout.prop(settings, "directional")
-        automatic = layout.column()
-        automatic.active = not settings.length and not settings.directional
-        automatic.prop(settings, "lights")
-        automatic.prop(settings, "symmetric")
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+        settings.draw_smooth(layout)
         self.draw_buttons(layout, settings, "reflines.smooth", 'MOD_SMOOTH')
 
 

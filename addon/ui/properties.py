@@ -56,6 +56,8 @@ class ReflinesReport(bpy.types.PropertyGroup):
     unknowns: IntProperty(name="Free Vertices")
     length: FloatProperty(name="Length", unit='LENGTH', precision=4)
     automatic_length: FloatProperty(name="Automatic Length", unit='LENGTH', precision=4)
+    automatic_limit: FloatProperty(name="Automatic Limit", unit='LENGTH', precision=5)
+    limited: IntProperty(name="Limited", description="Vertices that the limit of the move held back")
     score_before: FloatProperty(name="Wobble Before", description="Wobble of the reflection lines, in degrees")
     score_after: FloatProperty(name="Wobble After", description="Wobble of the reflection lines, in degrees")
     largest_move: FloatProperty(name="Largest Move", unit='LENGTH', precision=6)
@@ -66,16 +68,17 @@ class ReflinesReport(bpy.types.PropertyGroup):
 
     def fill(self, solution: Solution, notes: tuple[str, ...]) -> None:
         """Copies the numbers of a finished solve."""
-        for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move"):
+        for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move", "limited"):
             setattr(self, name, getattr(solution.report, name))
         for name in ("length", "score_before", "score_after", "residual_before", "residual_after", "remedy",
-                     "automatic_length"):
+                     "automatic_length", "automatic_limit"):
             setattr(self, name, getattr(solution, name))
         self.notes, self.fit = "\n".join(notes), ""
 
     def headline(self) -> str:
         """Says what the solve did in an artist's words, the largest first."""
-        return f"{self.gain()}, moved at most {self.moved(2)}" if self.largest_move else "Nothing moved"
+        held = f" (the limit held {self.limited} back)" if self.limited else ""
+        return f"{self.gain()}, moved at most {self.moved(2)}{held}" if self.largest_move else "Nothing moved"
 
     def gain(self) -> str:
         """Says how much smoother a smoothing made the lines; of other tools, how much of the wish was reached."""
@@ -94,11 +97,6 @@ class ReflinesReport(bpy.types.PropertyGroup):
                 f"wobble {self.score_before:.4g} -> {self.score_after:.4g} degrees "
                 f"at length {units.format_length(self.length, bpy.context.scene)}, "
                 f"residual {self.residual_before:.4g} -> {self.residual_after:.4g}, largest move {self.moved()}")
-
-    def automatic(self) -> str:
-        """Says what the length 0 stands for: in the last region, where there was one."""
-        value = units.format_length(self.automatic_length, bpy.context.scene, precision=2)
-        return f"0: automatic, {value}" if self.automatic_length else "0: automatic"
 
     def moved(self, precision: int = 5) -> str:
         return units.format_length(self.largest_move, bpy.context.scene, precision)

@@ -166,6 +166,9 @@ class SmoothPanelReport:
     held_faces: int            # triangles that would have turned by more than 45 degrees and were held instead
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
     unevenness_after: list[float]   # length, degrees, root mean square; the creases are those of the start in both
+    stray: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,
+                               # radians / length; by area its root mean square is the first unevenness over the length
+    region: Region             # of the panel as it came
     applied: bool              # False: some light would have become worse, and nothing was moved
     messages: list[str]        # sentences for the user, the most important first
 

@@ -65,6 +65,8 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("held_faces", &Told::held_faces)
       .def_readonly("unevenness_before", &Told::unevenness_before)
       .def_readonly("unevenness_after", &Told::unevenness_after)
+      .def_readonly("stray", &Told::stray)
+      .def_readonly("region", &Told::region)
       .def_readonly("applied", &Told::applied)
       .def_readonly("messages", &Told::messages);
   module.def("smooth_panel", &smooth, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),

@@ -51,7 +51,8 @@ def expected(ob: bpy.types.Object, **settings: object) -> np.ndarray:
 @pytest.mark.parametrize(("settings", "arguments"), [
     ({}, {}),
     ({"lights": 'SINGLE', "border": 'fixed'}, {"lights": "single", "border": "fixed"}),
-    ({"symmetric": False, "strength": 0.5}, {"symmetric": False, "strength": 0.5})])
+    ({"symmetric": False, "strength": 0.5}, {"symmetric": False, "strength": 0.5}),
+    ({"limit": 2.0**-10}, {"limit": 2.0**-10})])
 def test_a_press_gives_the_positions_of_the_native_function_to_the_bit(settings: dict, arguments: dict) -> None:
     ob = ready()
     before = scenes.world(ob)
@@ -72,6 +73,42 @@ def test_the_scenes_settings_are_taken() -> None:
     last = solve_history.find_last_solve(ob.name)
     assert np.array_equal(last.positions, expected(ob, lights="single", symmetric=False))
     assert not np.array_equal(last.positions, expected(ob))
+
+
+def test_the_result_says_when_the_limit_held_vertices_back() -> None:
+    ob = ready()
+    scenes.smooth(limit=0.001)
+    report = ob.reflection_lines.report
+    assert report.largest_move == pytest.approx(0.001, rel=1e-4) and report.limited > 0
+    assert report.headline().endswith(f"moved at most 1 mm (the limit held {report.limited} back)")
+    assert "limit" not in report.notes  # it is said once
+    scenes.smooth(limit=1.0)
+    assert "limit" not in report.headline()
+
+
+def test_the_numbers_are_those_of_the_native_call() -> None:
+    """The residual is that of one light: by area its root mean square is that light's unevenness over one length."""
+    ob = ready()
+    before = scenes.world(ob)
+    scenes.smooth()
+    last, report = solve_history.find_last_solve(ob.name), ob.reflection_lines.report
+    corners = before[last.patch.index][last.patch.F][:, :, :2]
+    edges = corners[:, 1:] - corners[:, :1]
+    area = np.abs(np.linalg.det(edges))
+    assert report.residual_after == pytest.approx(np.sqrt(area @ last.residual**2 / area.sum()), rel=1e-3)
+    assert report.residual_after < report.residual_before
+
+
+def test_a_closed_body_is_refused_and_left() -> None:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12)
+    scenes.look_from_above()
+    ob = bpy.context.object
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    before = scenes.fingerprint(ob)
+    with pytest.raises(RuntimeError, match="all of a closed body"):
+        scenes.smooth()
+    assert scenes.fingerprint(ob) == before
 
 
 def test_a_dent_is_healed_and_the_report_says_so() -> None:

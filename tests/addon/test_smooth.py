@@ -186,30 +186,30 @@ def smooth_another(name: str, *others: bpy.types.Object) -> bpy.types.Object:
     scenes.edit(ob, *others)
     for each in (ob, *others):
         scenes.select_faces(each, scenes.inner(CELLS))
-    scenes.smooth()
+    scenes.smooth(length=0.5)
     return ob
 
 
 def test_few_optimizers_are_kept(panel) -> None:
-    """Each holds the factors of a matrix: 75 MB for 20,000 vertices."""
-    scenes.smooth()
+    """Each holds the factors of a matrix: 75 MB for 20,000 vertices. An automatic press keeps none."""
+    scenes.smooth(length=0.5)
     for number in range(4):
         smooth_another(f"Panel {number}")
         assert len(optimizer_cache.list_kept()) == 2 and optimizer_cache.list_kept()[-1] == f"Panel {number}"
 
 
 def test_the_optimizer_of_a_deleted_panel_goes(panel) -> None:
-    scenes.smooth()
+    scenes.smooth(length=0.5)
     scenes.object_mode()
     bpy.data.objects.remove(panel)
     scenes.edit_inner(scenes.panel("Other", cells=CELLS), CELLS)
-    scenes.smooth()
+    scenes.smooth(length=0.5)
     assert optimizer_cache.list_kept() == ("Other",)
 
 
 def test_an_operation_over_several_panels_keeps_theirs(panel) -> None:
     """Repeated with other settings it factors nothing again."""
-    scenes.smooth()
+    scenes.smooth(length=0.5)
     others = [smooth_another(f"Panel {number}") for number in range(3)]
     smooth_another("Last", *others)
     assert set(optimizer_cache.list_kept()) == {"Last", *(ob.name for ob in others)}

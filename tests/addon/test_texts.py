@@ -1,4 +1,6 @@
 """What the artist reads: names, tooltips, and the words of a result."""
+import json
+
 import bpy
 import pytest
 
@@ -48,8 +50,30 @@ def test_another_tool_tells_how_much_of_the_wish_was_reached() -> None:
     assert report.headline().startswith(f"{share:.0%} of the wish reached, moved at most ")
 
 
-def test_the_automatic_length_is_told() -> None:
+def test_the_automatic_length_is_shown_as_its_value() -> None:
+    settings = bpy.context.scene.reflection_lines
     report = solved()
-    assert report.automatic() == "0: automatic, 18 cm"
-    assert solved(length=0.5).automatic() == "0: automatic"
-    assert solved(directional=True).automatic() == "0: automatic, 41 cm"
+    assert settings.length == 0.0 and settings.length_automatic
+    assert settings.length_shown == report.automatic_length == pytest.approx(0.1768, rel=0.01)
+    assert settings.limit_shown == report.automatic_limit == pytest.approx(report.automatic_length / 20.0)
+    solved(directional=True)
+    assert settings.length_shown == pytest.approx(0.4125, rel=0.01)  # a sixth of the diagonal
+    solved(length=0.5)
+    assert settings.length_shown == 0.0  # the run told nothing of it
+
+
+def test_a_value_given_to_what_is_shown_is_the_setting_and_the_switch_takes_it_back() -> None:
+    settings = bpy.context.scene.reflection_lines
+    solved()
+    settings.length_shown, settings.limit_automatic = 0.3, False
+    assert settings.length == pytest.approx(0.3) and not settings.length_automatic
+    assert settings.limit == pytest.approx(bpy.context.object.reflection_lines.report.automatic_limit)
+    settings.length_automatic = settings.limit_automatic = True
+    assert settings.length == settings.limit == 0.0
+
+
+def test_a_run_with_automatic_values_leaves_them_automatic() -> None:
+    solved()
+    solved()
+    run = json.loads(bpy.context.object.reflection_lines.run.settings)
+    assert run["length"] == run["limit"] == 0.0

@@ -1,4 +1,4 @@
-"""Rows of what an artist waits for, measured inside Blender: mesh transfer, drags, Escape, stripes."""
+"""Rows of what an artist waits for, measured inside Blender: mesh transfer, presses, drags, Escape, stripes."""
 import json
 import os
 import statistics
@@ -73,12 +73,24 @@ def feel_rows(times: Times) -> list[Row]:
                 "of the main thread, for a moved vertex of 400,000 triangles: reading, normals, upload")]
 
 
+def press_rows(times: Times) -> list[Row]:
+    rows = []
+    for size in ("10k", "100k"):
+        press, alone = (statistics.median(times[f"{name}_{size}"]) for name in ("press", "press_native"))
+        rows.append(Row(f"press_over_native_{size}", press / alone, "",
+                        f"{press:.0f} ms / {alone:.0f} ms on a panel with ripples and noise, in Edit Mode, by turns; "
+                        f"medians of {len(times[f'press_{size}'])}"))
+    return rows
+
+
 def rows() -> list[Row]:
     background = measured("live_transfer", [lanes.BLENDER, "-b", "--factory-startup"])
+    press = measured("live_press", [lanes.BLENDER, "-b", "--factory-startup"])
     window = measured("live_drag", lanes.window_command())
     load = os.getloadavg()[0]
     print(f"live rows at {time.strftime('%H:%M')}: load {load:.1f} on {os.cpu_count()} cores", flush=True)
-    return [*transfer_rows(background), *drag_rows(window, "10k"), *drag_rows(window, "100k"), *feel_rows(window)]
+    return [*transfer_rows(background), *press_rows(press), *drag_rows(window, "10k"), *drag_rows(window, "100k"),
+            *feel_rows(window)]
 
 
 if __name__ == "__main__":

@@ -37,6 +37,8 @@ struct SmoothPanelReport {
   int mirrored = 0;                  // vertices of a symmetric panel; 0: it is not symmetric
   int held_faces = 0;                // triangles that would have turned by more than 45 degrees and were held instead
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
+  Vector stray;   // #F: how far the field of the light given is from its smoothed self in the result, radians / length
+  Region region;  // of the shape at the start
   bool applied = true;                // false: some light would have become worse, and nothing was moved
   std::vector<std::string> messages;  // sentences for the user, the most important first
 };
@@ -51,7 +53,7 @@ struct SmoothPanelResult {
 //  2. so are round dents and bumps with good surface around them (restoration/bump_search.h);
 //  3. the fields of the lines are smoothed up to their creases (restoration/crease_preserving_smoother.h); where that
 //     changes them much more than elsewhere they are kept, for that is design; and the shape with these lines is solved
-//     for, within the limit.
+//     for, within the limit; where its rims make a light's lines less even, all moves are scaled down to it instead.
 // A result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far the
 // lines stray from their smoothed selves within one length, in degrees, root mean square over the region; the creases
 // are those of the start before and after. Where it rises in a light by more than 1 %, nothing is applied. Throws

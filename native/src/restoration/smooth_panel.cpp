@@ -85,12 +85,19 @@ class Restoration {
 
   SmoothPanelResult run() {
     ShapeOptimizer optimizer(start_, F_, view_, families_, shape_);  // checks the mesh
+    report_.region = optimizer.region();
     report_.length = options_.length > 0 ? options_.length : kAutomaticLength * diagonal_of(start_);
     report_.limit = options_.limit > 0 ? options_.limit : kAutomaticLimit * report_.length;
     smoother_.emplace(optimizer.xy(), F_, optimizer.area(), report_.length, kLineSmoother);
     measure(optimizer, report_.unevenness_before);
+    report_.stray = stray_;
     Positions V = restore(optimizer);
     for (int retry = 0; retry < kRetries && hold_turned(V); ++retry) V = restore(optimizer);
+    measure_after(V);
+    if (report_.limited > 0 && find_worse_light() >= 0) {
+      V = scale_to_limit();
+      measure_after(V);
+    }
     return judge(V);
   }
 
@@ -120,7 +127,7 @@ class Restoration {
       V = lift(V, removal.move);
       report_.bumps += removal.count;
     }
-    return within_limit(average_partners(smooth_lines(V)));
+    return within_limit(average_partners(smooth_lines(V)), options_.strength);
   }
 
   Positions use_symmetry(const ShapeOptimizer& optimizer) {
@@ -150,19 +157,48 @@ class Restoration {
     const TriangleFields fields = read_fields(optimizer);
     const TriangleFields change = smoother_->smooth(fields, progress()) - fields;
     const Vector weight = flaw_weight(change, optimizer.centers(), optimizer.area(), report_.length);
-    report_.solve = optimizer.solve(make_targets(fields + weight.asDiagonal() * change), {}, progress());
-    if (report_.solve.termination == Termination::kCancelled) throw Cancelled();
+    const std::vector<Target> targets = make_targets(fields + weight.asDiagonal() * change);
+    solve(optimizer, targets, MoveLimit::none());
+    unlimited_ = optimizer.positions();
+    report_.limited = static_cast<int>((move_of(unlimited_).array().abs() > report_.limit).count());
+    return report_.limited == 0 ? unlimited_ : smooth_within_limit(V, targets);
+  }
+
+  // Cutting the move at the limit would leave an edge round every plateau, in lines that were even: it is solved for.
+  Positions smooth_within_limit(const Positions& V, const std::vector<Target>& targets) {
+    const Positions nearest = within_limit(V, 1.0);
+    const Vector move = move_of(nearest);
+    ShapeOptimizer optimizer(nearest, F_, view_, families_, shape_);
+    solve(optimizer, targets,
+          {(-report_.limit - move.array()).cwiseMin(0).matrix(), (report_.limit - move.array()).cwiseMax(0).matrix()});
     return optimizer.positions();
   }
 
-  // The move from the start, cut at the limit and scaled by the strength.
-  Positions within_limit(const Positions& V) {
-    const Vector move = frame_.heights(V) - frame_.heights(start_);
-    report_.limited = static_cast<int>((move.array().abs() > report_.limit).count());
-    const Vector cut = options_.strength * move.cwiseMax(-report_.limit).cwiseMin(report_.limit);
+  // The rim of a flaw far deeper than the limit can make the lines less even than the flaw did. The same share of the
+  // whole move everywhere cannot.
+  Positions scale_to_limit() const {
+    const Positions V = average_partners(unlimited_);
+    const double share = report_.limit / move_of(V).cwiseAbs().maxCoeff();
+    return add_move(options_.strength * std::min(share, 1.0) * move_of(V), V);
+  }
+
+  void solve(ShapeOptimizer& optimizer, const std::vector<Target>& targets, const MoveLimit& limit) {
+    report_.solve = optimizer.solve(targets, {}, progress(), limit);
+    if (report_.solve.termination == Termination::kCancelled) throw Cancelled();
+  }
+
+  Vector move_of(const Positions& V) const { return frame_.heights(V) - frame_.heights(start_); }
+
+  // A share of the move from the start, which is cut at the limit first.
+  Positions within_limit(const Positions& V, double share) const {
+    return add_move(share * move_of(V).cwiseMax(-report_.limit).cwiseMin(report_.limit), V);
+  }
+
+  // The start with a move along the view, of the vertices that V has moved.
+  Positions add_move(const Vector& move, const Positions& V) const {
     Positions result = start_;
     for (Eigen::Index v = 0; v < V.rows(); ++v) {
-      if (V.row(v) != start_.row(v)) result.row(v) += cut(v) * frame_.z().transpose();
+      if (V.row(v) != start_.row(v)) result.row(v) += move(v) * frame_.z().transpose();
     }
     return result;
   }
@@ -184,6 +220,7 @@ class Restoration {
     const TriangleFields fields = read_fields(optimizer);
     if (creases_.size() == 0) smoother_->smooth(fields, progress(), &creases_);
     const TriangleFields off = fields - smoother_->smooth_with(creases_, fields);
+    stray_ = off.leftCols(2).rowwise().norm();
     const Vector area = optimizer.area();
     for (int k = 0; k < optimizer.family_count(); ++k) {
       const double squared = area.dot(off.middleCols(2 * k, 2).rowwise().squaredNorm()) / area.sum();
@@ -191,11 +228,23 @@ class Restoration {
     }
   }
 
-  SmoothPanelResult judge(const Positions& V) {
+  void measure_after(const Positions& V) {
+    report_.unevenness_after.clear();
     measure(ShapeOptimizer(V, F_, view_, families_, shape_), report_.unevenness_after);
-    const bool turned = hold_turned(V);
+  }
+
+  // The light in which the lines became less even, -1 where there is none.
+  int find_worse_light() const {
     for (size_t k = 0; k < families_.size(); ++k) {
-      if (report_.unevenness_after[k] <= kWorse * report_.unevenness_before[k] && !turned) continue;
+      if (report_.unevenness_after[k] > kWorse * report_.unevenness_before[k]) return static_cast<int>(k);
+    }
+    return -1;
+  }
+
+  SmoothPanelResult judge(const Positions& V) {
+    const bool turned = hold_turned(V);
+    const int k = find_worse_light();
+    if (turned || k >= 0) {
       report_.applied = false;
       report_.messages.push_back(
           turned ? "Nothing was changed: faces would have turned by more than 45 degrees. Select less."
@@ -204,7 +253,8 @@ class Restoration {
                        " degrees). Select less, or give a Length.");
       return {start_, report_};
     }
-    report_.largest_move = (frame_.heights(V) - frame_.heights(start_)).cwiseAbs().maxCoeff();
+    report_.stray = stray_;
+    report_.largest_move = move_of(V).cwiseAbs().maxCoeff();
     tell();
     return {V, report_};
   }
@@ -234,6 +284,8 @@ class Restoration {
   Vector creases_;       // weights of the edges, of the start
   IndexVector partner_;  // see MirrorEvidence; empty: no symmetry
   Mask free_;
+  Positions unlimited_;  // the last solution without the limit
+  Vector stray_;         // of the shape measured last, see SmoothPanelReport
   SmoothPanelReport report_;
 };
 

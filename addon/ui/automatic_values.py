@@ -1,0 +1,47 @@
+"""Lengths for which 0 means automatic: they are drawn as what 0 stood for in the last run, beside a switch."""
+import bpy
+from bpy.props import BoolProperty, FloatProperty
+
+UNKNOWN_SHARE = 0.01  # of the object's size: what the switch turned off begins with where no run told a value
+HIDDEN = {'options': {'HIDDEN', 'SKIP_SAVE'}}  # they are other faces of a setting, which keeps the value
+
+
+def find_automatic_value(name: str) -> float:
+    """Returns what the 0 of a setting stood for in the active object's last run, world units; 0 where it is not known.
+    """
+    ob = bpy.context.view_layer.objects.active
+    return getattr(ob.reflection_lines.report, f"automatic_{name}") if ob is not None else 0.0
+
+
+def choose_own_value(name: str) -> float:
+    """Returns the value that a setting begins with when it is automatic no longer."""
+    ob = bpy.context.view_layer.objects.active
+    return find_automatic_value(name) or UNKNOWN_SHARE * (ob.dimensions.length if ob is not None else 0.0) or 1.0
+
+
+def shown_property(name: str, label: str) -> object:
+    """Defines the face of a setting that shows its automatic value; a value given to it is the setting's own."""
+    return FloatProperty(name=label, unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **HIDDEN,
+                         description="The automatic value in the last region; type another, or drag, to set it",
+                         get=lambda self: getattr(self, name) or find_automatic_value(name),
+                         set=lambda self, value: setattr(self, name, value))
+
+
+def switch_property(name: str, label: str) -> object:
+    """Defines the switch between the automatic value of a setting and one of its own."""
+    return BoolProperty(name=f"Automatic {label}", **HIDDEN, description="Choose the value by the panel's size",
+                        get=lambda self: not getattr(self, name),
+                        set=lambda self, on: setattr(self, name, 0.0 if on else choose_own_value(name)))
+
+
+def draw_value(layout: bpy.types.UILayout, settings: object, name: str) -> None:
+    """Draws a setting and its switch; `settings` has the properties NAME, NAME_shown and NAME_automatic."""
+    row = layout.row(align=True)
+    if getattr(settings, name):
+        row.prop(settings, name)
+    elif find_automatic_value(name):
+        row.prop(settings, f"{name}_shown")
+    else:  # no run has told the value
+        row.prop(settings, f"{name}_automatic", text="Automatic", toggle=True)
+        return
+    row.prop(settings, f"{name}_automatic", text="", icon='AUTO')

@@ -1,0 +1,77 @@
+"""What a press of Smooth takes in a Blender in the background: the whole operator, and its native call alone.
+
+    blender -b --factory-startup --python tests/in_blender.py -- tests/bench/live_press.py
+
+Both are measured by turns on a panel with ripples and noise. Writes build/bench/live_press.json: name -> list of
+milliseconds.
+"""
+import json
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+
+import installation
+import scenes
+
+ROOT = Path(__file__).resolve().parents[2]
+
+SIZES = {"10k": 99, "100k": 315}  # cells a side
+REPETITIONS = 3
+NOISE = 1e-5  # root mean square, of a panel of width 2
+
+
+def milliseconds(work: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    work()
+    return 1e3 * (time.perf_counter() - start)
+
+
+def make_bumpy_panel(cells: int) -> bpy.types.Object:
+    if bpy.context.mode != 'OBJECT':
+        scenes.object_mode()
+    for old in list(bpy.data.objects):
+        bpy.data.objects.remove(old)
+    random = np.random.default_rng(5)
+    ob = scenes.panel(height=lambda x, y: scenes.rippled(x, y) + NOISE * random.standard_normal(), cells=cells)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, cells)
+    return ob
+
+
+def put_back(ob: bpy.types.Object, start: list[tuple[float, float, float]]) -> None:
+    mesh = bmesh.from_edit_mesh(ob.data)
+    for vertex, co in zip(mesh.verts, start, strict=True):
+        vertex.co = co
+    bmesh.update_edit_mesh(ob.data)
+
+
+def measure_press(cells: int) -> dict[str, list[float]]:
+    native = sys.modules["reflection_lines.native"]
+    ob = make_bumpy_panel(cells)
+    start = [tuple(vertex.co) for vertex in bmesh.from_edit_mesh(ob.data).verts]
+    patch = sys.modules["reflection_lines.bridge.read_patch"].gather_mesh_patch(ob)
+    view = sys.modules["reflection_lines.bridge.view_and_light"].read_scene_view(bpy.context.scene, patch.center)
+    press, alone = [], []
+    for _ in range(REPETITIONS):
+        press.append(milliseconds(scenes.smooth))
+        put_back(ob, start)
+        alone.append(milliseconds(lambda: native.reflines.smooth_panel(
+            patch.V, patch.F, view_direction=view.view_direction, line_direction=view.line_direction)))
+    return {"press": press, "press_native": alone}
+
+
+def main() -> None:
+    installation.install()
+    times = {f"{name}_{size}": values for size, cells in SIZES.items()
+             for name, values in measure_press(cells).items()}
+    out = ROOT / "build" / "bench" / "live_press.json"
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(json.dumps(times, indent=1) + "\n")
+
+
+main()
