@@ -15,8 +15,8 @@ bl_info = {
 # unregistered backwards.
 NAMES = (
     "library_copy", "native",
-    "model.edit_cage", "model.creases", "model.mirror", "model.orientation", "model.refusal", "model.patch",
-    "model.cage",
+    "model.edit_cage", "model.gain", "model.creases", "model.mirror", "model.orientation", "model.refusal",
+    "model.patch", "model.cage",
     "model.solution", "model.surface", "model.triangulation", "model.view",
     "targets.falloff", "targets.direction", "targets.fit", "targets.mirror_target", "targets.pattern",
     "targets.smooth", "targets.untwist", "targets.warp",

@@ -4,6 +4,7 @@ Events are handled by operators/dragged_tool.py, solves by solve_job.py on a bac
 """
 import time
 from contextlib import suppress
+from dataclasses import replace
 from typing import Protocol
 
 import bpy
@@ -11,6 +12,7 @@ import numpy as np
 
 from ..bridge import facing, read_mesh, region_faces, scene_objects, units, view_region, write_mesh
 from ..bridge.write_mesh import EditVertices
+from ..model.gain import Gain
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -20,17 +22,18 @@ from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
 from .background_thread import BackgroundThread
 from .drag_handles import DragValues, Handle
-from .solve_job import SolveJob, SolveRequest
+from .solve_job import SolveJob, SolveOutcome, SolveRequest
 
 TICK_INTERVAL = 0.01  # seconds between two checks for the thread's results
 SAYS_BUSY = 0.3  # seconds of solving after which the status bar shows the stage
-KEYS_TEXT = "LMB, Enter: keep   RMB, Esc: cancel   Shift: precision   0-9: type   MMB: turn the view"
+KEYS_TEXT = "Click, Enter: keep   Esc: cancel   Shift: finer   0-9: type"
 
 
 class DraggedOperator(Protocol):
     """What a drag needs of its operator, whose properties the mouse changes."""
     bl_label: str
     border: str
+    smooths: bool  # whether the tool's gain is told by how smooth the lines are
 
     def build_handles(self) -> tuple[Handle, ...]: ...
     def choose_automatic(self, name: str, patch: Patch) -> float: ...
@@ -62,6 +65,8 @@ class Drag:
         self.keeping, self.busy_since, self.problem, self.texts = False, time.monotonic(), "", ("", "")
         self.moved = False  # whether values changed since the last request
         self.largest_move = 0.0  # of what is shown, from the start, world units
+        self.gain: Gain | None = None  # of what is shown, where it was measured
+        self.unmeasured = False  # whether what is shown waits for that
         self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
         _running.append(self)
 
@@ -125,6 +130,14 @@ class Drag:
             self.busy_since = time.monotonic()
         self.thread.submit(self.request)
 
+    def submit_measurement(self) -> None:
+        """Submits the request for the gain of what is shown."""
+        self.thread.submit(replace(self.request, measure=True))
+
+    def take_gain(self, outcome: SolveOutcome) -> None:
+        self.gain = outcome.gain
+        self.unmeasured = bool(outcome.positions) and outcome.gain is None
+
     def show_positions(self, positions: tuple[np.ndarray, ...]) -> None:
         self.largest_move = max(float(np.linalg.norm(wanted - patch.V, axis=1).max())
                                 for patch, wanted in zip(self.patches, positions, strict=True))
@@ -153,17 +166,22 @@ class Drag:
 
     def update_texts(self, context: bpy.types.Context) -> None:
         values = "   ".join(self.format_handle(context, index) for index in range(len(self.values.handles)))
-        moved = f"   moved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
-        header = f"{self.tool.bl_label}   {values}{moved}" + (f"   {self.problem}" if self.problem else "")
+        header = f"{self.problem or self.describe_gain(context)}   {values}   ({self.tool.bl_label})"
         working = not self.thread.is_idle() and time.monotonic() - self.busy_since > SAYS_BUSY
         more = "   Tab: next value" if len(self.values.handles) > 1 else ""
         turned = self.values.find_wheel_handle()
         wheel = f"   Wheel: {turned.label.lower()}" if turned else ""
-        status = f"{self.job.describe_stage()}   Esc: cancel" if working or self.keeping else KEYS_TEXT + more + wheel
+        keys = f"{KEYS_TEXT}{more}{wheel}   MMB: view"
+        status = f"{self.job.describe_stage()}   Esc: cancel" if working or self.keeping else keys
         if self.texts != (header, status):  # setting a text redraws its bar
             self.texts = header, status
             self.area.header_text_set(header)
             context.workspace.status_text_set(status)
+
+    def describe_gain(self, context: bpy.types.Context) -> str:
+        """Says what the drag has gained so far; the move alone while the gain is not measured."""
+        moved = f"oved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
+        return f"{self.gain.describe(smoothed=self.tool.smooths)}, m{moved}" if self.gain is not None else f"M{moved}"
 
     def format_handle(self, context: bpy.types.Context, index: int) -> str:
         handle, typed = self.values.handles[index], self.values.typed[index]
@@ -210,8 +228,8 @@ _running: list[Drag] = []  # at most one
 
 def has_work() -> bool:
     """Returns whether a running drag has something left to submit, solve or show."""
-    return any(drag.moved or drag.keeping or not drag.thread.is_idle() or drag.thread.has_outcome()
-               for drag in _running)
+    return any(drag.moved or drag.keeping or drag.unmeasured or not drag.thread.is_idle()
+               or drag.thread.has_outcome() for drag in _running)
 
 
 def unregister() -> None:

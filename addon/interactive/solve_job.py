@@ -4,12 +4,14 @@ Every patch has two optimizers. The first keeps the heights of the start: target
 follows the mouse, warm-started from its last solution, which takes a few back substitutions instead of a factorization.
 The final result is solved by the first from the start, so it does not depend on the path of the mouse.
 """
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import native
+from ..model.gain import Gain
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -21,6 +23,8 @@ from ..state import optimizer_cache
 
 # Relative to the gradient after a move of the mouse; 1e-2 would leave 4e-5 of the size after a closed path.
 FOLLOW_TOLERANCE = 1e-4
+# Seconds. The gain that takes longer to measure is measured when the mouse rests, so that the panel follows at once.
+MEASURE_BUDGET = 0.03
 
 
 @dataclass(frozen=True)
@@ -28,7 +32,8 @@ class SolveRequest:
     """The wanted target of each patch."""
     builds: tuple[BuildTarget, ...]
     settings: SolveSettings
-    final: bool = False  # whether the result is kept, so solved from the start
+    final: bool = False    # whether the result is kept, so solved from the start
+    measure: bool = False  # only the gain of the last solution is asked for
 
 
 @dataclass(frozen=True)
@@ -38,6 +43,7 @@ class SolveOutcome:
     positions: tuple[np.ndarray, ...] = ()  # #V x 3 of each panel, world space
     solutions: tuple[Solution, ...] = ()    # results of a final request
     refusal: str = ""                       # why there are none, as a sentence
+    gain: Gain | None = None                # of all panels together, where it was measured
 
 
 class SolveJob:
@@ -51,6 +57,7 @@ class SolveJob:
         self.progress = native.reflines.Progress()
         self.stage = "Preparing"
         self.cancelled = False
+        self.measure_seconds = 0.0  # of the last measurement
 
     @property
     def ready(self) -> bool:
@@ -74,6 +81,8 @@ class SolveJob:
             self.progress.cancel()
         try:
             self.prepare()
+            if request.measure:
+                return SolveOutcome(request, gain=self.measure(request))
             return self.solve_from_start(request) if request.final else self.follow(request)
         except Refusal as refusal:
             return SolveOutcome(request, refusal=str(refusal))
@@ -104,7 +113,23 @@ class SolveJob:
                 target = live_optimizer.build_target(start, build)
                 follower.solve(target, gradient_tolerance=FOLLOW_TOLERANCE, progress=self.progress)
                 positions.append(choose_formulation(patch, start.view).read_positions(follower))
-        return SolveOutcome(request, tuple(positions))
+        gain = self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
+        return SolveOutcome(request, tuple(positions), gain=gain)
+
+    def measure(self, request: SolveRequest) -> Gain:
+        """Measures the present heights against those of the start, by the numbers that the result will be told by."""
+        begin = time.perf_counter()
+        numbers = []
+        every = zip(self.patches, self.starts, self.followers, request.builds, strict=True)
+        for patch, start, follower, build in every:
+            with live_optimizer.convert_native_errors(patch):
+                target = live_optimizer.build_target(start, build)
+                length = solve.choose_length(patch, request.settings.length)
+                numbers.append((start.optimizer.score(length), follower.score(length),
+                                solve.compute_rms_residual(start.optimizer, target),
+                                solve.compute_rms_residual(follower, target)))
+        self.measure_seconds = time.perf_counter() - begin
+        return Gain(*np.sqrt(np.mean(np.square(numbers), axis=0)).tolist())
 
     def solve_from_start(self, request: SolveRequest) -> SolveOutcome:
         """Solves from the heights of the start, and measures the result."""

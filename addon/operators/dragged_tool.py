@@ -39,6 +39,8 @@ class DraggedTool(SolveTool):
     """
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
 
+    smooths = False  # whether the gain is told by how smooth the lines are, not by the share of the wish
+
     follow_mouse: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Drag the tool's values in the 3D view")
 
     @classmethod
@@ -87,6 +89,8 @@ class DraggedTool(SolveTool):
         if drag.moved and drag.thread.is_idle():
             drag.submit_request(context)  # not at each move: Blender redraws all windows when a property is set
         outcome = drag.thread.take()
+        if drag.unmeasured and drag.thread.is_idle() and outcome is None:
+            drag.submit_measurement()
         if outcome is None and not drag.thread.is_alive():
             return self.cancel_drag(context, "The solver stopped: the mesh is as it was before")
         if outcome is not None and (outcome.refusal or outcome.solutions or not drag.keeping):
@@ -99,7 +103,8 @@ class DraggedTool(SolveTool):
         drag.problem = outcome.refusal
         if outcome.refusal and (drag.keeping or not drag.job.ready):
             return self.cancel_drag(context, outcome.refusal)
-        if not outcome.refusal:
+        drag.take_gain(outcome)
+        if outcome.positions:
             drag.show_positions(outcome.positions)
         if outcome.solutions:
             return self.finish_drag(context, outcome)

@@ -22,6 +22,7 @@ class REFLINES_OT_smooth(DraggedTool, SmoothSettings, bpy.types.Operator):
 with a length all that is finer goes. In Object Mode the faces of the last run are taken"""
     bl_idname = "reflines.smooth"
     bl_label = "Smooth Lines"
+    smooths = True
 
     def build_handles(self) -> tuple[Handle, ...]:
         return (Handle("strength", "Strength", per_pixel=1.0 / 300.0, low=0.0, high=1.0),

@@ -6,6 +6,7 @@ from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntPrope
 from mathutils import Vector
 
 from ..bridge import light_angles, modifiers, scene_objects, units
+from ..model.gain import Gain
 from ..model.solution import Solution
 from .stripe_properties import ReflinesSetups, ReflinesStripes
 from .tool_properties import ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings
@@ -81,14 +82,10 @@ class ReflinesReport(bpy.types.PropertyGroup):
         return f"{self.gain()}, moved at most {self.moved(2)}{held}" if self.largest_move else "Nothing moved"
 
     def gain(self) -> str:
-        """Says how much smoother a smoothing made the lines; of other tools, how much of the wish was reached."""
+        """Says how much smoother the lines became, or how much of the wish was reached."""
         smoothed = self.id_data.reflection_lines.run.operator == "REFLINES_OT_smooth"
-        if smoothed and min(self.score_before, self.score_after) > 0.0:
-            ratio = self.score_before / self.score_after
-            times, word = (ratio, "smoother") if ratio >= 1.0 else (1.0 / ratio, "rougher")
-            return f"Lines {times:.{1 if times < 10.0 else 0}f} x {word}"
-        share = 1.0 - self.residual_after / self.residual_before if self.residual_before else 1.0
-        return f"{max(share, 0.0):.0%} of the wish reached"
+        return Gain(self.score_before, self.score_after, self.residual_before,
+                    self.residual_after).describe(smoothed=smoothed)
 
     def summary(self) -> str:
         """Returns the headline, and after it the numbers of the solver: a status bar shows the beginning."""

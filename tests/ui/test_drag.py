@@ -1,7 +1,9 @@
 """Tools under the mouse, in a window: a drag, typed numbers, the ways out of it, and what is left of it afterwards."""
 import os
+import sys
 from collections.abc import Generator
 
+import blf
 import bpy
 import numpy as np
 
@@ -31,6 +33,37 @@ def test_a_drag_follows_and_escape_leaves_no_bit_changed(driver: window.Window) 
     driver.key('ESC')
     yield 0.3
     assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
+
+
+def running_drag() -> object:
+    return sys.modules["reflection_lines"].interactive.drag._running[0]
+
+
+def test_the_header_tells_the_gain_first_as_the_result_will(driver: window.Window) -> Steps:
+    """At 100 cells a side it is measured when the mouse rests."""
+    for cells in (16, 100):
+        panel(driver, cells=cells)
+        yield from press(driver)
+        driver.move(300, 300)
+        yield 0.1
+        yield from settled(driver)
+        header, status = running_drag().texts
+        for text, most in ((header, driver.area().width), (status, 0.75 * driver.window.width)):
+            assert blf.dimensions(0, text)[0] < most, text
+        driver.key('RET')
+        yield from ended(driver)
+        told = bpy.context.view_layer.objects.active.reflection_lines.report.headline()
+        assert header.startswith(told[:len("Lines 1.2 x smoother")]) and "smoother, moved at most" in told
+
+
+def test_the_header_of_another_tool_tells_how_much_of_the_wish_was_reached(driver: window.Window) -> Steps:
+    panel(driver)
+    yield from press(driver, "untwist")
+    header = running_drag().texts[0]
+    driver.key('RET')
+    yield from ended(driver)
+    report = bpy.context.view_layer.objects.active.reflection_lines.report
+    assert header.startswith(report.headline().split(",")[0]) and "% of the wish reached" in header
 
 
 def test_what_is_kept_is_what_the_operator_makes_without_a_mouse(driver: window.Window) -> Steps:
@@ -179,6 +212,8 @@ def test_disabling_the_add_on_takes_a_drag_back(driver: window.Window) -> Steps:
 
 
 window.run(test_a_drag_follows_and_escape_leaves_no_bit_changed,
+           test_the_header_tells_the_gain_first_as_the_result_will,
+           test_the_header_of_another_tool_tells_how_much_of_the_wish_was_reached,
            test_what_is_kept_is_what_the_operator_makes_without_a_mouse, test_typed_numbers,
            test_one_undo_takes_a_drag_back_and_redo_brings_it,
            test_the_redo_panel_starts_from_the_mesh_before_the_drag,
