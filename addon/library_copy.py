@@ -16,23 +16,26 @@ from pathlib import Path
 KEPT = 30.0 * 24.0 * 3600.0  # seconds since its last use after which a copy is deleted
 
 
-def digest_of(library: Path) -> str:
+def compute_digest(library: Path) -> str:
+    """Computes the name of a library's copy: a hash of its content."""
     return hashlib.blake2b(library.read_bytes(), digest_size=16).hexdigest()
 
 
-def copies(library: Path, digest: str) -> Iterator[Path]:
-    """Where the library may be loaded from, best first: its copies, made when they are asked for, and itself. A folder
-    that cannot be written, or into which others can, gives none."""
-    for base in cache_folders():
+def find_copies(library: Path, digest: str) -> Iterator[Path]:
+    """Yields the files from which the library may be loaded, best first: its copies, made on demand, and itself.
+
+    A folder that cannot be written, or into which other users can write, is skipped.
+    """
+    for base in find_cache_folders():
         with suppress(OSError):
-            private(base)
+            make_private(base)
             delete_old(base, digest)
-            yield copied(library, base / digest)
+            yield ensure_copy(library, base / digest)
     yield library
 
 
-def cache_folders() -> tuple[Path, Path]:
-    """The user's own, and one that lasts until the next start of the machine. Nothing else is in them."""
+def find_cache_folders() -> tuple[Path, Path]:
+    """Returns the folders of copies, which hold nothing else: in the user's cache, and in the temporary folder."""
     if sys.platform == "win32":
         cache = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData/Local")
     elif sys.platform == "darwin":
@@ -43,8 +46,11 @@ def cache_folders() -> tuple[Path, Path]:
     return cache / "reflection_lines" / "library", Path(tempfile.gettempdir()) / f"reflection_lines-{user}"
 
 
-def private(folder: Path) -> None:
-    """Makes it; raises where it is a link, somebody else's, or may be written by others: they could put code there."""
+def make_private(folder: Path) -> None:
+    """Makes a folder of the user; raises OSError where it is a link, belongs to another user or can be written by one.
+
+    Other users could put code there.
+    """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     state = folder.lstat()
     if not stat.S_ISDIR(state.st_mode):
@@ -53,9 +59,12 @@ def private(folder: Path) -> None:
         raise PermissionError(folder)
 
 
-def copied(library: Path, folder: Path) -> Path:
-    """Written beside its place and moved there: another Blender never finds half of it. Checked at every use."""
-    private(folder)
+def ensure_copy(library: Path, folder: Path) -> Path:
+    """Returns the copy in a folder, which is compared at every use and written where it differs.
+
+    It is written beside its place and moved there, so that another Blender never finds half of it.
+    """
+    make_private(folder)
     os.utime(folder)
     copy, content = folder / library.name, library.read_bytes()
     if not copy.is_symlink() and copy.is_file() and copy.read_bytes() == content:
@@ -71,7 +80,7 @@ def copied(library: Path, folder: Path) -> Path:
 
 
 def delete_old(base: Path, used: str) -> None:
-    """Those that another Blender has loaded go on working; Windows keeps them."""
+    """Deletes copies unused for long. One that another Blender has loaded goes on working; Windows keeps it."""
     for folder in base.iterdir():
         if folder.name != used and folder.lstat().st_mtime < time.time() - KEPT:
             shutil.rmtree(folder, ignore_errors=True)

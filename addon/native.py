@@ -1,4 +1,4 @@
-"""The one door to the native module `reflines`, and what to tell the user where it does not open."""
+"""Loads the native module `reflines`, which other modules take from here, and describes why it cannot be loaded."""
 import sys
 import sysconfig
 from collections.abc import Iterator
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from . import library_copy
 
 if TYPE_CHECKING:
+    from .reflines import CageOptimizer as CageOptimizer
     from .reflines import NormalFit as NormalFit
     from .reflines import Progress as Progress
     from .reflines import Report as Report
@@ -23,33 +24,35 @@ if TYPE_CHECKING:
 HERE = Path(__file__).resolve().parent
 
 
-def loaded() -> ModuleType:
-    """From a copy that no installation overwrites. Each content once in a process, under a name of its own that no
-    reload of the add-on forgets."""
+def load_library() -> ModuleType:
+    """Loads the module from a copy that no installation overwrites.
+
+    Each content is loaded once in a process, under a name of its own that survives reloads of the add-on.
+    """
     library = next((HERE / f"reflines{suffix}" for suffix in EXTENSION_SUFFIXES
                     if (HERE / f"reflines{suffix}").is_file()), None)
     if library is None:
         raise ImportError("there is none for this Python")
-    digest = library_copy.digest_of(library)
+    digest = library_copy.compute_digest(library)
     name = f"reflines_{digest}.reflines"
     if name in sys.modules:
         return sys.modules[name]
-    sys.modules[name] = first_loaded(library_copy.copies(library, digest), name)
+    sys.modules[name] = load_first(library_copy.find_copies(library, digest), name)
     return sys.modules[name]
 
 
-def first_loaded(paths: Iterator[Path], name: str) -> ModuleType:
-    """No code may be run from some cache folders."""
+def load_first(paths: Iterator[Path], name: str) -> ModuleType:
+    """Loads the first file that can be loaded: from some cache folders no code may be run."""
     failure = ImportError(name)
     for path in paths:
         try:
-            return loaded_from(path, name)
+            return load_file(path, name)
         except ImportError as error:
             failure = error
     raise failure
 
 
-def loaded_from(path: Path, name: str) -> ModuleType:
+def load_file(path: Path, name: str) -> ModuleType:
     spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, str(path)))
     module = module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -57,14 +60,14 @@ def loaded_from(path: Path, name: str) -> ModuleType:
 
 
 try:
-    reflines, _import_error = loaded(), ""
+    reflines, _import_error = load_library(), ""
 except (ImportError, OSError) as error:
     reflines, _import_error = None, str(error)
 
 
 @dataclass(frozen=True)
 class State:
-    """Whether the solver can be used. `problem` and `remedy` are one sentence each, empty where all is well."""
+    """The state of the solver: `problem` and `remedy` are one sentence each, empty where it can be used."""
     problem: str = ""
     remedy: str = ""
 
@@ -73,7 +76,8 @@ class State:
         return not self.problem
 
 
-def state() -> State:
+def describe_state() -> State:
+    """Describes whether the module is loaded, and if not, why."""
     if reflines is not None:
         return State()
     python = sysconfig.get_python_version()
@@ -88,7 +92,7 @@ def state() -> State:
                  "Install the missing library it names, or install the add-on's zip package again.")
 
 
-STATE = state()
+STATE = describe_state()
 if STATE.usable:
     InvalidInput = reflines.InvalidInput
     SolverFailure = reflines.SolverFailure

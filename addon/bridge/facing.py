@@ -1,4 +1,4 @@
-"""Reads the view for a patch, and refuses patches that are seen from behind, saying what is the wrong way round."""
+"""Reads the view for a patch, and refuses patches that are seen from behind, with the reason."""
 import bpy
 import numpy as np
 
@@ -23,9 +23,9 @@ def read_patch_view(scene: bpy.types.Scene, patch: Patch) -> View:
 
 def is_turned_away(patch: Patch, direction: np.ndarray) -> bool:
     """Returns whether the faces of the patch turn away from the viewer, none being seen from its front. Faces seen edge
-    on tell nothing.
+    on do not count.
     """
-    few = patch.F[::max(1, len(patch.F) // SAMPLE)]  # enough to tell of most that some are in front
+    few = patch.F[::max(1, len(patch.F) // SAMPLE)]  # a sample suffices, since some of most patches are in front
     return all(is_seen_from_behind(patch.V, F, direction) for F in (few, patch.F))
 
 

@@ -46,7 +46,7 @@ def point_light(camera: bpy.types.Object | None, light: bpy.types.Object, direct
 
 
 def read_transform(ob: bpy.types.Object) -> tuple[tuple[float, ...], ...]:
-    """Reads the stored transform of an object, to be restored to the bit."""
+    """Reads the stored transform of an object, to be restored exactly."""
     return tuple(tuple(getattr(ob, name)) for name in TRANSFORM)
 
 

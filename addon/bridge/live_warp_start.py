@@ -1,5 +1,5 @@
-"""The start of a live warp: where the region's vertices were, kept with the mesh so that undo, save and reload keep it
-too.
+"""The start of a live warp: the former positions of the region's vertices, kept with the mesh so that undo, save and
+reload preserve them.
 
 All of it is for Object Mode. An attribute of the vertices holds the positions, NaN outside the region; custom
 properties of the mesh hold its size, the shape key, and a hash of the positions that the live warp wrote last.
@@ -17,7 +17,7 @@ LEFT, SIZE, KEY, MADE = "reflines_live_left", "reflines_live_size", "reflines_li
 
 
 def store_start(ob: bpy.types.Object, patch: Patch) -> None:
-    """Stores the patch's positions as the start, and makes the shape key that the patch asks for."""
+    """Stores the patch's positions as the start, and makes the shape key of the patch."""
     values = np.full((len(ob.data.vertices), 3), np.nan, dtype=np.float32)
     values[patch.index] = patch.local
     remove_start(ob)

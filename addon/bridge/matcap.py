@@ -46,7 +46,7 @@ def compute_band(theta: np.ndarray, count: int, width: float, softness: float) -
     their mean where they are finer than samples: as the shader of the stripes does.
     """
     rate = count / (2.0 * np.pi)
-    c, s = np.cos(theta), np.sin(theta)  # whose derivatives know no branch cut
+    c, s = np.cos(theta), np.sin(theta)  # their derivatives have no branch cut
     pixel = rate * sum(np.abs(c * np.gradient(s, axis=axis) - s * np.gradient(c, axis=axis)) for axis in (0, 1))
     from_center = np.abs(theta * rate - np.round(theta * rate))
     edge = np.maximum(np.maximum(0.7 * pixel, 0.5 * softness * min(width, 1.0 - width)), 1e-5)
@@ -61,7 +61,7 @@ def smoothstep(x: np.ndarray) -> np.ndarray:
 
 
 def encode_srgb(linear: np.ndarray) -> np.ndarray:
-    """sRGB values of linear ones (IEC 61966-2-1)."""
+    """Returns the sRGB values of linear ones (IEC 61966-2-1)."""
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0.0) ** (1.0 / 2.4) - 0.055)
 
 

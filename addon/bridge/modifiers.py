@@ -1,10 +1,10 @@
 """The modifiers of an object as a solve sees them: which of them shape the surface that the viewport shows."""
 import bpy
 
-# These leave every vertex where it is; Edge Split doubles some of them.
+# Modifiers that move no vertex; Edge Split duplicates some.
 SHADING_ONLY = {'WEIGHTED_NORMAL', 'NORMAL_EDIT', 'EDGE_SPLIT', 'DATA_TRANSFER', 'UV_PROJECT', 'UV_WARP',
          'VERTEX_WEIGHT_EDIT', 'VERTEX_WEIGHT_MIX', 'VERTEX_WEIGHT_PROXIMITY'}
-# Geometry nodes that only say what is shaded smooth, as Blender's own Smooth by Angle does.
+# Geometry nodes that only set smooth shading, as Blender's own Smooth by Angle does.
 SHADING_ONLY_NODES = {'NodeGroupInput', 'NodeReroute', 'GeometryNodeSetShadeSmooth', 'GeometryNodeSetMeshNormal'}
 DEFORMING = {'ARMATURE', 'CAST', 'CLOTH', 'CORRECTIVE_SMOOTH', 'CURVE', 'DISPLACE', 'HOOK', 'LAPLACIANDEFORM',
              'LAPLACIANSMOOTH', 'LATTICE', 'MESH_CACHE', 'MESH_DEFORM', 'MESH_SEQUENCE_CACHE', 'SHRINKWRAP',
@@ -20,7 +20,7 @@ def find_shaping_modifiers(ob: bpy.types.Object | None) -> list[bpy.types.Modifi
 
 
 def is_shading_only(modifier: bpy.types.Modifier) -> bool:
-    """Returns whether a modifier leaves every vertex where it is."""
+    """Returns whether a modifier moves no vertex."""
     if modifier.type != 'NODES':
         return modifier.type in SHADING_ONLY
     nodes = modifier.node_group.nodes if modifier.node_group is not None else ()

@@ -1,4 +1,4 @@
-"""Reads where a tool acts: its centre, radius and fall-off curve, in world space."""
+"""Reads the fall-off of a tool: its centre, radius and curve, in world space."""
 import bmesh
 import bpy
 import numpy as np

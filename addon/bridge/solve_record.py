@@ -45,7 +45,7 @@ def decode_solve(ob: bpy.types.Object, text: str) -> tuple[Patch, np.ndarray, np
     try:
         stored = unpack_arrays(text, find_most_values(ob.data))
     except (ValueError, KeyError, EOFError, NotImplementedError, RuntimeError, zlib.error, zipfile.BadZipFile):
-        return None  # somebody else's text
+        return None  # a text of other origin
     if not fits_mesh(stored, ob.data):
         return None
     index, local, key = stored["index"], stored["local"].astype(np.float64), str(stored["key"])
@@ -64,7 +64,7 @@ def find_most_values(mesh: bpy.types.Mesh) -> dict[str, int]:
 
 
 def unpack_arrays(text: str, most: dict[str, int]) -> dict[str, np.ndarray]:
-    """Raises where the text is no archive of the arrays, or where one is larger than it may be."""
+    """Unpacks the arrays of a text; raises where it is no archive of them, or where one exceeds `most` values."""
     room = sum(count * TYPES[name].itemsize + MOST_HEADER for name, count in most.items())
     if len(text) > 4 * room:  # more than base64 and an archive's own directory add
         raise ValueError("more text than the arrays can take")
@@ -73,7 +73,7 @@ def unpack_arrays(text: str, most: dict[str, int]) -> dict[str, np.ndarray]:
 
 
 def read_array(archive: zipfile.ZipFile, name: str, most: int) -> np.ndarray:
-    """Reads a file of numpy's format 1.0, which is checked before anything is made of it."""
+    """Reads a file of numpy's format 1.0, which is checked before memory is allocated for it."""
     with archive.open(name + ".npy") as file:
         start = HEADER.fullmatch(file.read(10) + file.read(MOST_HEADER - 10).split(b"\n")[0])
     if start is None:

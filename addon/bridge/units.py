@@ -3,7 +3,7 @@ import bpy
 
 
 def format_length(value: float, scene: bpy.types.Scene, precision: int = 4) -> str:
-    """Formats a length in Blender units as the scene's unit settings ask for."""
+    """Formats a length in Blender units by the scene's unit settings."""
     units = scene.unit_settings
     if units.system == 'NONE':
         return f"{value:.{precision}g}"

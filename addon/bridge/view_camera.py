@@ -1,12 +1,12 @@
-"""Aims a view camera at a panel: what it frames, and from which side."""
+"""Aims a view camera at a panel: chooses the points to frame and the axes of the picture."""
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
 from . import read_patch, view_and_light
 
-MARGIN = 1.1    # of the picture around what it frames
-DISTANCE = 2.0  # of the camera from the middle of what it frames, in sizes of that
+MARGIN = 1.1    # size of the picture relative to the framed points
+DISTANCE = 2.0  # from the camera to the middle of the framed points, relative to their size
 
 
 def choose_frame(context: bpy.types.Context, ob: bpy.types.Object, direction: tuple[float, float, float]) -> Matrix:

@@ -1,4 +1,4 @@
-"""Where the mouse is in a 3D view: over the view itself, or over the sidebar, a header or a toolbar that covers it."""
+"""Tests whether the mouse is over a 3D view itself, or over the sidebar, a header or a toolbar that covers it."""
 import bpy
 
 

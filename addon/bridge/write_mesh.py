@@ -8,7 +8,7 @@ import numpy as np
 from ..model.patch import Patch
 from . import read_mesh, shape_keys
 
-# Share of moved vertices below which updating their normals one by one is faster than all together.
+# Fraction of moved vertices below which updating their normals one by one is faster than all together.
 FEW = 0.03
 
 
@@ -20,7 +20,7 @@ class EditVertices:
         self.edit: bmesh.types.BMesh | None = None
         self.vertices: list[bmesh.types.BMVert] = []
 
-    def of(self, edit: bmesh.types.BMesh) -> list[bmesh.types.BMVert]:
+    def find(self, edit: bmesh.types.BMesh) -> list[bmesh.types.BMVert]:
         if self.edit is not edit or not self.edit.is_valid:
             edit.verts.ensure_lookup_table()
             vertices = edit.verts
@@ -29,7 +29,7 @@ class EditVertices:
 
 
 def write_solution(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> None:
-    """Writes world positions (#V x 3) of the patch, into a shape key where the patch asks for one.
+    """Writes world positions (#V x 3) of the patch, into the shape key of the patch if it has one.
 
     That key can only be made in Object Mode, so this leaves Edit Mode unless the key is the one being edited.
     """
@@ -68,10 +68,10 @@ def write_edit_mesh(mesh: bpy.types.Mesh, vertices: EditVertices, moved: np.ndar
     """Writes coordinates in Edit Mode: `moved` (bool) says which of the vertices, `new` has a row for each of those."""
     edit = bmesh.from_edit_mesh(mesh)
     columns = new.T.tolist()  # a list for each vertex takes three times longer, in the garbage collector
-    for vertex, co in zip(compress(vertices.of(edit), moved.tolist()), zip(*columns, strict=True), strict=True):
+    for vertex, co in zip(compress(vertices.find(edit), moved.tolist()), zip(*columns, strict=True), strict=True):
         vertex.co = co
     if len(new) < FEW * len(edit.verts):
-        update_normals(list(compress(vertices.of(edit), moved.tolist())))
+        update_normals(list(compress(vertices.find(edit), moved.tolist())))
     else:
         edit.normal_update()
     bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)

@@ -138,7 +138,7 @@ _threads: list[BackgroundThread] = []
 
 
 def end_stopped_threads() -> float | None:
-    """A timer that ends stopped threads once they leave native code; runs as long as there are some."""
+    """Ends stopped threads once they leave native code; a timer that runs as long as there are some."""
     _threads[:] = [worker for worker in _threads if not worker.try_to_end()]
     return LOOK_INTERVAL if any(worker.is_stopped() for worker in _threads) else None
 

@@ -30,7 +30,7 @@ KEYS_TEXT = "Click, Enter: keep   Esc: cancel   Shift: finer   0-9: type"
 
 
 class DraggedOperator(Protocol):
-    """What a drag needs of its operator, whose properties the mouse changes."""
+    """The interface of an operator to its drag, in which the mouse changes its properties."""
     bl_label: str
     border: str
     smooths: bool  # whether the tool's gain is told by how smooth the lines are
@@ -64,9 +64,9 @@ class Drag:
         self.thread.submit(self.request)
         self.keeping, self.busy_since, self.problem, self.texts = False, time.monotonic(), "", ("", "")
         self.moved = False  # whether values changed since the last request
-        self.largest_move = 0.0  # of what is shown, from the start, world units
-        self.gain: Gain | None = None  # of what is shown, where it was measured
-        self.unmeasured = False  # whether what is shown waits for that
+        self.largest_move = 0.0  # of the shown positions from the start, world units
+        self.gain: Gain | None = None  # of the shown positions, where it was measured
+        self.unmeasured = False  # whether the gain of the shown positions is still to be measured
         self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
         _running.append(self)
 

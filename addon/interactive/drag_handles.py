@@ -1,11 +1,11 @@
-"""Drag handles: how mouse, wheel and typed digits set a tool's values. No Blender.
+"""Drag handles, by which mouse, wheel and typed digits set a tool's values. No Blender.
 
 A value depends on the mouse's position, not on its path, so a closed path ends where it began.
 """
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-PRECISE_SHARE = 0.1  # factor of the mouse's move while Shift is held
+PRECISE_FACTOR = 0.1  # factor of the mouse's move while Shift is held
 NOTCH_PIXELS = 20.0  # move of the mouse that a notch of the wheel equals
 
 
@@ -28,10 +28,10 @@ class Handle:
 
 
 class DragValues:
-    """The values of one drag: which handle is held, how far each was moved, and what was typed for it."""
+    """The values of one drag: the held handle, and the moves and typed texts of all handles."""
 
     def __init__(self, handles: Sequence[Handle], starts: Sequence[float], units: Sequence[float]) -> None:
-        """`units` are the factors by which typed numbers are multiplied."""
+        """Starts with the properties' values; `units` are the factors by which typed numbers are multiplied."""
         self.handles, self.starts, self.units = tuple(handles), tuple(starts), tuple(units)
         self.held = 0
         self.pixels = [0.0] * len(self.handles)
@@ -40,7 +40,7 @@ class DragValues:
 
     def move(self, x: int, *, precise: bool) -> None:
         if self.last is not None:
-            self.pixels[self.held] += (x - self.last) * (PRECISE_SHARE if precise else 1.0)
+            self.pixels[self.held] += (x - self.last) * (PRECISE_FACTOR if precise else 1.0)
         self.last = x
 
     def find_wheel_handle(self) -> Handle | None:
@@ -49,7 +49,7 @@ class DragValues:
 
     def wheel(self, notches: int, *, precise: bool) -> None:
         index = self.handles.index(self.find_wheel_handle())
-        self.pixels[index] += NOTCH_PIXELS * notches * (PRECISE_SHARE if precise else 1.0)
+        self.pixels[index] += NOTCH_PIXELS * notches * (PRECISE_FACTOR if precise else 1.0)
 
     def hold_next(self) -> None:
         self.held = (self.held + 1) % len(self.handles)

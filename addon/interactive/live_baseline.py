@@ -25,7 +25,8 @@ class BaselineChanged(Refusal):
 
 @dataclass(frozen=True)
 class Baseline:
-    """What the optimizer of a live warp is built from; `signs` are cheap to read and differ where it may have changed.
+    """The data from which the optimizer of a live warp is built; `signs` are cheap to read and differ where it may have
+    changed.
     """
     patch: Patch
     view: View
@@ -104,7 +105,7 @@ def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
     return SolveSettings(scene.reflection_lines.border, scene.reflection_lines.length)
 
 
-def read_operator_settings(scene: bpy.types.Scene) -> dict[str, object]:
+def read_operator_settings(scene: bpy.types.Scene) -> dict[str, str | float]:
     """Returns the settings with which the operator Warp makes the same shape."""
     settings, own = scene.reflection_lines, scene.reflection_lines.warp
     return {"amount": own.amount, "cells": own.cells, "fit": own.fit, "border": settings.border,

@@ -22,7 +22,7 @@ REST_TIME = 0.3  # seconds without a new warp after which it is solved from the 
 
 
 class LiveWarp:
-    """The state of one scene's live warp: what was requested of the thread, and what it returned."""
+    """The state of one scene's live warp: the requests to the thread, and its results."""
 
     def __init__(self) -> None:
         self.problem = ""  # why the mesh does not follow now, as a sentence

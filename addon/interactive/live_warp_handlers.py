@@ -23,7 +23,7 @@ def find_live_warp(scene: bpy.types.Scene) -> LiveWarp | None:
 
 
 @persistent
-def note_change(scene: bpy.types.Scene, _depsgraph: object = None) -> None:
+def note_change(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
     """Checks the lattice after a change of the scene (depsgraph_update_post)."""
     if scene.reflection_lines.live.panel is not None:
         follow_lattice(scene)
@@ -58,7 +58,7 @@ def end_live_warp(scene: bpy.types.Scene) -> None:
 
 
 def tick() -> float | None:
-    """A timer that takes the threads' results as long as one is at work."""
+    """Takes the threads' results; a timer that runs as long as one is at work."""
     for name in _live_warps.keys() - bpy.data.scenes.keys():
         _live_warps.pop(name).stop()
     more = [advance_live_warp(bpy.data.scenes[name], live) for name, live in list(_live_warps.items())]

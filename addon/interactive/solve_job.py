@@ -38,7 +38,7 @@ class SolveRequest:
 
 @dataclass(frozen=True)
 class SolveOutcome:
-    """The positions that a request led to, or why there are none."""
+    """The positions that solve a request, or the reason why there are none."""
     request: SolveRequest
     positions: tuple[np.ndarray, ...] = ()  # #V x 3 of each panel, world space
     solutions: tuple[Solution, ...] = ()    # results of a final request
@@ -61,7 +61,7 @@ class SolveJob:
 
     @property
     def ready(self) -> bool:
-        """Whether all optimizers are built."""
+        """True once all optimizers are built."""
         return len(self.followers) == len(self.patches)
 
     def describe_stage(self) -> str:

@@ -1,1 +1,1 @@
-"""What the add-on computes with: frozen bundles of arrays, without Blender."""
+"""The data of the add-on: frozen bundles of arrays, without Blender."""

@@ -7,6 +7,8 @@ from .patch import Patch
 
 IN_PLANE_TOLERANCE = 1e-6  # relative to a unit view direction
 
+Option = str | int | bool  # value of an option of the native module
+
 
 @dataclass(frozen=True)
 class Cage:
@@ -22,13 +24,13 @@ class Cage:
     sharp_corners: np.ndarray      # #K
     corner_sharpness: np.ndarray   # #K
     partner: np.ndarray    # #V: mirror images, -1 where there is none
-    own_faces: int         # how many of the faces are the mesh's
-    rules: tuple[tuple[str, object], ...]  # the modifier's options as arguments of reflines.CageOptimizer
+    own_faces: int         # number of the mesh's own faces, which are the first
+    rules: tuple[tuple[str, Option], ...]  # the modifier's options as arguments of reflines.CageOptimizer
 
     def same(self, other: "Cage") -> bool:
         return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
 
-    def build_arguments(self, symmetric: bool) -> dict[str, object]:
+    def build_arguments(self, symmetric: bool) -> dict[str, Option | np.ndarray | None]:
         """Builds the arguments of reflines.CageOptimizer.
 
         Where the view is not in the mirror plane only the mesh's own half is solved; its seam is then a border across

@@ -1,4 +1,4 @@
-"""Creases: which edges of a patch are held, so that the lines are solved on each side of them."""
+"""Creases: the edges of a patch that are held, so that the lines are solved separately on each side of them."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,12 +14,12 @@ class Creases:
         """Returns whether an optimizer built with one serves the other."""
         return self.rule == other.rule and np.array_equal(self.marked, other.marked)
 
-    def build_arguments(self, image: np.ndarray | None = None) -> dict[str, object]:
+    def build_arguments(self, image: np.ndarray | None = None) -> dict[str, str | np.ndarray]:
         """Builds the arguments of reflines.ShapeOptimizer; `image` (#V) adds the edges of the mirror image."""
         marked = self.marked if image is None else np.concatenate([self.marked, image[self.marked]])
         return {"crease_rule": self.rule, "marked_creases": marked}
 
-    def build_cage_arguments(self) -> dict[str, object]:
+    def build_cage_arguments(self) -> dict[str, str]:
         """Builds the arguments of reflines.CageOptimizer, cut where its surface bends at the cage's own creases,
         whatever else is marked.
         """

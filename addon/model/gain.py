@@ -1,4 +1,4 @@
-"""What a solve gained, in an artist's words."""
+"""The gain of a solve, in an artist's words."""
 from dataclasses import dataclass
 
 
@@ -11,7 +11,7 @@ class Gain:
     residual_after: float
 
     def describe(self, *, smoothed: bool) -> str:
-        """Says how much smoother a smoothing made the lines; of other tools, how much of the wish was reached."""
+        """Says how much smoother a smoothing made the lines; of other tools, how much of the target was reached."""
         if smoothed and min(self.score_before, self.score_after) > 0.0:
             ratio = self.score_before / self.score_after
             times, word = (ratio, "smoother") if ratio >= 1.0 else (1.0 / ratio, "rougher")

@@ -23,12 +23,12 @@ class Mirror:
 
     @property
     def seam(self) -> np.ndarray:
-        """Which vertices lie on the plane: #V, bool."""
+        """The mask of vertices on the plane: #V, bool."""
         return self.partner == np.arange(len(self.partner))
 
     @property
     def is_whole(self) -> bool:
-        """Whether the region and its image can be solved as one."""
+        """True where the region and its image can be solved as one."""
         return self.axis >= 0 and (self.partner >= 0).all() != self.image
 
     @property

@@ -1,4 +1,4 @@
-"""Whether faces are inside out, from the mesh around them."""
+"""Decides whether faces are inside out, by the mesh around them."""
 import numpy as np
 
 # Flux relative to area times size below which an open surface is too flat to have an inside; a bonnet has 0.03.

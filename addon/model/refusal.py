@@ -1,4 +1,4 @@
-"""Refusals: requests that cannot be met. Nothing has been changed then, and operators report the sentence."""
+"""The exception of requests that cannot be met: nothing has been changed, and operators report its sentence."""
 
 
 class Refusal(Exception):

@@ -11,12 +11,12 @@ from .patch import Patch
 class SolveSettings:
     """The parameters that every solve needs beside its target."""
     border: str
-    length: float  # detail finer than this counts as wobble, world units; 0: a share of the patch's diagonal
+    length: float  # detail finer than this counts as wobble, world units; 0: a fraction of the patch's diagonal
 
 
 @dataclass(frozen=True)
 class PressReport:
-    """How an automatic press of Smooth ended, by the names that native.Report has; lengths in world units."""
+    """The outcome of an automatic press of Smooth, by the names that native.Report has; lengths in world units."""
     termination: str     # of the last solve; "not_applied" where nothing was moved
     message: str
     iterations: int      # of the last solve
@@ -41,7 +41,7 @@ class Solution:
     score_after: float
     notes: tuple[str, ...]
     automatic_length: float = 0.0  # what the length 0 stands for in this patch, world units
-    remedy: str = ""  # the border that would let a larger share of the wish be reached; empty where this one does
+    remedy: str = ""  # a border with which more of the target could be reached; empty where there is none
     automatic_limit: float = 0.0  # what the limit 0 stood for, world units; 0 where it is not known
 
     def to_last_solve(self) -> "LastSolve":
@@ -50,7 +50,7 @@ class Solution:
 
 @dataclass(frozen=True)
 class LastSolve:
-    """What is remembered of the last solve of an object and saved with the file (state/persistence.py)."""
+    """The record of the last solve of an object, saved with the file (state/persistence.py)."""
     patch: Patch
     positions: np.ndarray  # #V x 3, world space
     residual: np.ndarray   # #F; empty where it is not known

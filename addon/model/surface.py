@@ -6,8 +6,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Topology:
-    """A triangulation and what it follows from: as long as corners, sizes and visible faces stay, so do the triangles.
-    """
+    """A triangulation with the data that determine it: the triangles stay while corners, sizes and visible faces do."""
     corners: np.ndarray     # #corners: their vertices
     sizes: np.ndarray       # #faces
     shown: np.ndarray       # #faces, bool

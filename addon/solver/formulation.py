@@ -1,7 +1,7 @@
-"""Formulations: how a patch is posed to the native solver, and how its arrays are read back.
+"""Formulations: the ways to pose a patch to the native solver and to read its arrays back.
 
 There are four: the patch alone, a patch that is symmetric in itself, a patch joined with the image that a Mirror
-modifier adds, and a cage. Which one holds is decided once, by `choose_formulation`; everything else asks the result.
+modifier adds, and a cage. `choose_formulation` decides once which one holds; all other code uses its result.
 """
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ from ..model.patch import Patch
 from ..model.view import View
 from ..targets import mirror_target
 
-BORDER_CODES = {"free": 0, "fixed": 1, "clamped": 2}  # of borders, vertex by vertex
+BORDER_CODES = {"free": 0, "fixed": 1, "clamped": 2}  # codes of a vertex's border
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Formulation:
 
     @property
     def is_symmetric(self) -> bool:
-        """Whether the solve keeps the symmetry of the patch."""
+        """True where the solve keeps the symmetry of the patch."""
         return False
 
     def choose_directions(self) -> dict[str, np.ndarray]:
@@ -34,7 +34,7 @@ class Formulation:
 
     @property
     def is_alone(self) -> bool:
-        """Whether the vertices that are solved for are those of the patch and no others."""
+        """True where the solved vertices are those of the patch and no others."""
         return True
 
     def choose_border(self, border: str) -> str | np.ndarray:
@@ -119,7 +119,7 @@ class CageFormulation(Formulation):
     def is_alone(self) -> bool:
         return False
 
-    def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.ShapeOptimizer":
+    def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.CageOptimizer":
         return native.reflines.CageOptimizer(**self.patch.cage.build_arguments(self.is_symmetric),
                                              **self.choose_directions(), progress=progress, border=border,
                                              sparse=sparse, **self.patch.creases.build_cage_arguments())

@@ -21,11 +21,11 @@ def describe_marked_creases(patch: Patch) -> tuple[str, ...]:
     return (f"{count} edge{'s are' if count > 1 else ' is'} marked as creases; held",) if count else ()
 
 
-def describe_small_share(share: float, border: str) -> tuple[str, ...]:
-    """Says why only a share of the wish was reached. A border that stays keeps the mean of the gradient across it."""
+def describe_small_share(reached: float, border: str) -> tuple[str, ...]:
+    """Describes why only a part of the target was reached: a held border keeps the mean of the gradient across it."""
     why = ("no smooth surface has such lines here: ask for less, or over a larger radius" if border == "free" else
            f"the border {border.capitalize()} keeps the lines' mean")
-    return (f"Only {max(share, 0.0):.0%} of the wish was reached: {why}",)
+    return (f"Only {max(reached, 0.0):.0%} of the wish was reached: {why}",)
 
 
 def describe_far_move(patch: Patch, move: float, border: str) -> tuple[str, ...]:

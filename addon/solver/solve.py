@@ -1,4 +1,4 @@
-"""One solve of one patch, from arrays to arrays; no state is kept, and Blender is not needed."""
+"""One solve of one patch, from arrays to arrays, without state and without Blender."""
 import numpy as np
 
 from .. import native
@@ -9,12 +9,12 @@ from .formulation import choose_formulation
 from .live_optimizer import BuildTarget, LiveOptimizer
 
 AUTOMATIC_LENGTH = 1.0 / 6.0  # relative to the patch's diagonal
-SMALL_SHARE = 0.2  # of the wish: a solve that reaches less says why
-SMALL_WISH = 0.01  # of the lines' gradient: smaller ones are not missed
+SMALL_SHARE = 0.2  # reached fraction of a target below which a solve explains why
+SMALL_CHANGE = 0.01  # wanted change, relative to the lines' gradient, below which nothing is explained
 
 
 def choose_length(patch: Patch, length: float) -> float:
-    """Returns the length below which detail counts as wobble: the given one, or for 0 a share of the patch's diagonal.
+    """Returns the length below which detail counts as wobble: the given one, or for 0 a fraction of the diagonal.
     """
     return length or AUTOMATIC_LENGTH * patch.diagonal
 
@@ -56,12 +56,12 @@ def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveS
 
 
 def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lacking: float, left: float) -> bool:
-    """Returns whether less than SMALL_SHARE of a wish was reached. Wishes below SMALL_WISH do not count: lines that are
-    as wanted already lack as little.
+    """Returns whether less than SMALL_SHARE of a target was reached. Wanted changes below SMALL_CHANGE do not count:
+    lines that are already as wanted differ by as much.
     """
     if left <= (1.0 - SMALL_SHARE) * lacking:
         return False
-    return lacking > SMALL_WISH * compute_rms(optimizer, target, np.linalg.norm(optimizer.field(), axis=1))
+    return lacking > SMALL_CHANGE * compute_rms(optimizer, target, np.linalg.norm(optimizer.field(), axis=1))
 
 
 def compute_rms_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:

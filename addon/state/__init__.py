@@ -1,1 +1,1 @@
-"""What outlives an operator: the optimizer cache, the solve history, and what of it is saved with the file."""
+"""State beyond one operator: the optimizer cache, the solve history, and the part of it that is saved with the file."""

@@ -28,14 +28,14 @@ def build_direction_target(optimizer: "native.ShapeOptimizer", settings: Directi
     """Builds a target of constant direction and linearly varying density, blended with the present lines by the
     influence.
     """
-    share = compute_influence(optimizer, settings.falloff, settings.strength)
+    influence = compute_influence(optimizer, settings.falloff, settings.strength)
     gradient = TURN / settings.count if settings.count else 1.0  # |grad theta| of one line a unit
     direction = project_to_plane(optimizer, settings.direction)
     axis = compute_density_axis(optimizer, direction, settings.axis)
     return native.reflines.uniform(
         optimizer, direction=direction, density=gradient * settings.density,
         relative=settings.count == 0, density_end=gradient * settings.density_end if axis.any() else -1.0, axis=axis,
-        influence=share, weight=compute_weight(share, settings.emphasis))
+        influence=influence, weight=compute_weight(influence, settings.emphasis))
 
 
 def compute_density_axis(optimizer: "native.ShapeOptimizer", direction: np.ndarray, kind: str) -> np.ndarray:

@@ -34,11 +34,11 @@ def compute_influence(optimizer: "native.ShapeOptimizer", falloff: Falloff | Non
                                               radius=falloff.radius, curve=np.clip(falloff.curve, 0.0, 1.0))
 
 
-def compute_weight(share: np.ndarray, factor: float) -> np.ndarray:
+def compute_weight(influence: np.ndarray, factor: float) -> np.ndarray:
     """Returns the weight of each triangle: #F, `factor` (>= 1) where the influence is 1, and 1 where it is 0 (the
     paper's c >= 1).
     """
-    return 1.0 + (factor - 1.0) * share
+    return 1.0 + (factor - 1.0) * influence
 
 
 def project_to_plane(optimizer: "native.ShapeOptimizer", vector: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ import numpy as np
 
 from .. import native
 
-COVERED = 0.5  # share of the patch's area that must lie over the dense mesh
+COVERED = 0.5  # least fraction of the patch's area that lies over the dense mesh
 
 
 @dataclass(frozen=True)
@@ -34,10 +34,10 @@ class Fit:
     view_direction: np.ndarray
     line_direction: np.ndarray
     match: tuple = field(default=(), init=False)
-    optimizer: "native.ShapeOptimizer | None" = field(default=None, init=False)
+    optimizer: "native.CageOptimizer | None" = field(default=None, init=False)
     before: Misfit | None = field(default=None, init=False)
 
-    def __call__(self, optimizer: "native.ShapeOptimizer") -> "native.Target":
+    def __call__(self, optimizer: "native.CageOptimizer") -> "native.Target":
         self.optimizer = optimizer
         try:
             dense = native.reflines.ShapeOptimizer(self.dense.V, self.dense.F, view_direction=self.view_direction,

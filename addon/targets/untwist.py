@@ -7,7 +7,7 @@ from .falloff import Falloff, compute_influence, compute_weight
 
 @dataclass(frozen=True)
 class Untwist:
-    """The angle of the turn, and where it acts."""
+    """The angle of the turn, and its fall-off."""
     angle: float  # radians, counter-clockwise as the viewer sees it, where the influence is full
     falloff: Falloff | None = None
     emphasis: float = 1.0
@@ -15,6 +15,6 @@ class Untwist:
 
 def build_untwist_target(optimizer: "native.ShapeOptimizer", settings: Untwist) -> "native.Target":
     """Builds the target of the present lines turned by the angle times the influence."""
-    share = compute_influence(optimizer, settings.falloff)
-    return native.reflines.turn(optimizer, angle=settings.angle, influence=share,
-                                weight=compute_weight(share, settings.emphasis))
+    influence = compute_influence(optimizer, settings.falloff)
+    return native.reflines.turn(optimizer, angle=settings.angle, influence=influence,
+                                weight=compute_weight(influence, settings.emphasis))

@@ -25,9 +25,9 @@ class Lattice:
     def same(self, other: "Lattice") -> bool:
         return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
 
-    def scaled(self, share: float) -> "Lattice":
+    def scaled(self, factor: float) -> "Lattice":
         """Returns the lattice with its control points' moves scaled; a factor of 1 changes no bit."""
-        return replace(self, moves=share * self.moves)
+        return replace(self, moves=factor * self.moves)
 
 
 @dataclass(frozen=True)
@@ -55,8 +55,8 @@ def build_warp_target(optimizer: "native.ShapeOptimizer", settings: Warp) -> "na
     position = rest + evaluate_moves(settings.lattice, local) @ to_plane[:, :3].T
     target = native.reflines.warp(optimizer, low=low, high=high, columns=settings.cells, rows=settings.cells,
                                   position=position, by_value=settings.by_value)[0]
-    # A live warp follows with loose tolerances, at which the solver takes nothing out of a wish: what is kept would
-    # jump by more than a twentieth of the move from what was seen.
+    # Not reduced to its reachable part: a live warp follows with loose tolerances, at which the solver does not reduce
+    # targets, and the final shape would differ from the one shown by more than a twentieth of the move.
     target.reachable_only = False
     return target
 

@@ -1,4 +1,5 @@
-// What each binding file adds to the module `reflines`. The Python names, shapes and units are in reflines.pyi.
+// The functions that add the classes and functions of each binding file to the module `reflines`. The Python names,
+// shapes and units are in reflines.pyi.
 #pragma once
 
 #include <pybind11/pybind11.h>

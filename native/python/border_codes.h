@@ -1,4 +1,4 @@
-// Borders as Python gives them: one name for all vertices, or a code for each.
+// Reads borders from Python: one name for all vertices, or a code for each.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace reflines {
 
 using Codes = std::variant<std::string, Indices>;
 
-// #V borders of "free", "fixed" or "clamped", or of #V codes 0, 1, 2. Throws InvalidInput for others.
+// Returns #V borders from "free", "fixed" or "clamped", or from #V codes 0, 1, 2. Throws InvalidInput for others.
 std::vector<Border> border_codes(const Codes& border, Eigen::Index vertex_count);
 
 }  // namespace reflines

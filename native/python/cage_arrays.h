@@ -14,7 +14,7 @@ namespace reflines {
 
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-// What a cage and its subdivision are called in Python; empty arrays where there are no creases or corners.
+// The arrays and names from which Python describes a cage; empty arrays where there are no creases or corners.
 struct CageArrays {
   Indices face_offsets, face_vertices, creases;
   Numbers crease_sharpness;

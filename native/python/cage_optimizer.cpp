@@ -14,26 +14,45 @@
 #include "reflines/mirror_pairs.h"
 
 namespace reflines {
+
+// An attribute of the Python class: its base is the C++ object's surface.
+struct BaseIsSurface {};
+
+}  // namespace reflines
+
+namespace pybind11::detail {
+
+// Makes a CageOptimizer of Python a ShapeOptimizer, too, so that builders and readings take it: where one is asked for,
+// pybind11 passes the surface. It needs the attribute multiple_inheritance, for the two have different addresses.
+template <>
+struct process_attribute<reflines::BaseIsSurface> : process_attribute_default<reflines::BaseIsSurface> {
+  static void init(const reflines::BaseIsSurface& /*attribute*/, type_record* record) {
+    record->add_base(typeid(reflines::ShapeOptimizer),
+                     [](void* cage) -> void* { return &static_cast<reflines::CageOptimizer*>(cage)->surface(); });
+  }
+};
+
+}  // namespace pybind11::detail
+
+namespace reflines {
 namespace {
 
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-// A subdivided surface is smooth but at the cage's own creases. With 30 degrees rails that dents bend by 8 to 15
-// degrees were cut, and smoothing left 28 degrees of wobble on a dented roof instead of 21.
-// With 60 (15 in a chain) the sharp line of a fender of 12 degrees was no crease: 149 degrees of wobble.
+// The crease angle of a cage's surface, which is smooth except at the cage's own creases. With 30 degrees, rails that
+// dents bend by 8 to 15 degrees were cut, and smoothing left 28 degrees of wobble on a dented roof instead of 21. With
+// 60 (15 in a chain) the sharp line of a fender of 12 degrees was no crease: 149 degrees of wobble.
 constexpr double kCageCreaseAngle = 1.5 * kCreaseAngle;
 
-std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
-                                    const Vector3& view_direction, const Eigen::MatrixXd& line_direction,
-                                    const std::optional<Mask>& region, const std::string& border,
-                                    const std::optional<Mask>& fixed, const std::optional<Indices>& partner, int level,
-                                    const std::string& scheme, const std::string& boundary, const Indices& creases,
-                                    const Numbers& crease_sharpness, const Indices& corners,
-                                    const Numbers& corner_sharpness, bool limit, bool sparse,
-                                    const std::string& stencil, const std::string& linear_solver,
-                                    const std::string& crease_rule, double crease_angle, double proximity,
-                                    std::shared_ptr<Progress> progress) {
+std::unique_ptr<CageOptimizer> build_optimizer(
+    const Positions& V, const Indices& face_offsets, const Indices& face_vertices, const Vector3& view_direction,
+    const Eigen::MatrixXd& line_direction, const std::optional<Mask>& region, const std::string& border,
+    const std::optional<Mask>& fixed, const std::optional<Indices>& partner, int level, const std::string& scheme,
+    const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness, const Indices& corners,
+    const Numbers& corner_sharpness, bool limit, bool sparse, const std::string& stencil,
+    const std::string& linear_solver, const std::string& crease_rule, double crease_angle, double proximity,
+    std::shared_ptr<Progress> progress) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions options;
@@ -57,14 +76,15 @@ std::unique_ptr<CageOptimizer> make(const Positions& V, const Indices& face_offs
 
 void bind_cage_optimizer(py::module_& module) {
   const CageOptions defaults;
-  py::class_<CageOptimizer, ShapeOptimizer>(module, "CageOptimizer", py::module_local())
-      .def(py::init(&make), "V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a,
+  py::class_<CageOptimizer>(module, "CageOptimizer", BaseIsSurface(), py::multiple_inheritance(), py::module_local())
+      .def(py::init(&build_optimizer), "V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a,
            "line_direction"_a, "region"_a = py::none(), "border"_a = "clamped", "fixed"_a = py::none(),
            "partner"_a = py::none(), "level"_a = defaults.subdivision.level, "scheme"_a = "catmull_clark",
            "boundary"_a = "all", "creases"_a = Indices(), "crease_sharpness"_a = Numbers(), "corners"_a = Indices(),
            "corner_sharpness"_a = Numbers(), "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse,
            "stencil"_a = "consistent", "linear_solver"_a = "cholmod", "crease_rule"_a = "automatic",
            "crease_angle"_a = kCageCreaseAngle, "proximity"_a = defaults.shape.proximity, "progress"_a = py::none())
+      .def_property_readonly("region", py::cpp_function(release_gil(&CageOptimizer::region)))
       .def_property_readonly("cage_positions", py::cpp_function(release_gil(&CageOptimizer::cage_positions)))
       .def_property_readonly("cage_free", &CageOptimizer::cage_free)
       .def_property_readonly("triangles", &CageOptimizer::triangles)

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kChanged = -1;
 
-// Locked for the look at the table only, with or without Python's lock.
+// Guards the table during each look-up only, with or without the GIL.
 std::mutex table_mutex;
-std::map<const void*, int> table;  // how many read each object, or kChanged
+std::map<const void*, int> table;  // number of readers of each object, or kChanged
 
 }  // namespace
 

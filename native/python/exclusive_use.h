@@ -1,6 +1,6 @@
-// Optimizers keep what they work out, and their work runs without Python's lock: two threads at work on one overwrote
-// each other's arrays (a segmentation fault within some ten solves). Waiting for the other could block Blender's window
-// for as long as a solve takes, so the second one is refused.
+// Exclusive use of an optimizer by one thread. Optimizers cache what they compute, and work without the GIL: two
+// threads in one optimizer overwrote each other's arrays (a segmentation fault within some ten solves). Waiting for the
+// other thread could block Blender's window for the time of a solve, so the second call is refused.
 #pragma once
 
 #include <type_traits>
@@ -8,16 +8,18 @@
 
 #include "geometry/normal_fit.h"
 #include "python/gil_handover.h"
+#include "reflines/cage_optimizer.h"
 #include "reflines/shape_optimizer.h"
 
 namespace reflines {
 
-// An object taken for the time of a call. Several threads may read one, and one alone may change it; else InvalidInput,
-// at once.
+// Reserves an object for the time of a call. Several threads may read it, or one may change it; otherwise the
+// constructor throws InvalidInput at once.
 class ExclusiveUse {
  public:
   enum class Use { kReads, kChanges };
   ExclusiveUse(const ShapeOptimizer& optimizer, Use use) : ExclusiveUse(&optimizer, use, "optimizer") {}
+  ExclusiveUse(const CageOptimizer& optimizer, Use use) : ExclusiveUse(optimizer.surface(), use) {}
   ExclusiveUse(const NormalFit& fit, Use use) : ExclusiveUse(&fit, use, "normal fit") {}
   ~ExclusiveUse();
   ExclusiveUse(const ExclusiveUse&) = delete;
@@ -29,8 +31,8 @@ class ExclusiveUse {
   const void* object_;
 };
 
-// Native work on it, without Python's lock. It is free again before the lock comes back: a worker may wait for its
-// turn.
+// The scope of a native call on an object, without the GIL. The object is released before the GIL is taken back, since
+// a worker thread may have to wait for its turn.
 template <typename Object>
 class NativeCall {
  public:
@@ -42,7 +44,7 @@ class NativeCall {
   const ExclusiveUse exclusive_use_;
 };
 
-// Methods as such calls; they return copies, since the object may change as soon as it is free.
+// Wraps a method as such a call. The method returns a copy, since the object may change as soon as it is released.
 template <typename Object, typename Result, typename... Arguments>
 auto release_gil(Result (Object::*method)(Arguments...) const) {
   return [method](const Object& object, Arguments... arguments) -> std::remove_cvref_t<Result> {

@@ -52,7 +52,7 @@ std::unique_ptr<NormalFit> make_fit(const Positions& V, const Indices& F, double
   return std::make_unique<NormalFit>(V, triangles, refit_angle);
 }
 
-// (F, vertex): see split_at_creases.
+// Returns (F, vertex); see split_at_creases.
 std::pair<Triangles, Eigen::VectorXi> split(const Positions& V, const Indices& F, double angle) {
   const Triangles triangles = triangles_of(F);
   const ReleaseGil release;
@@ -60,7 +60,7 @@ std::pair<Triangles, Eigen::VectorXi> split(const Positions& V, const Indices& F
   return {result.F, Eigen::Map<const Eigen::VectorXi>(result.vertex.data(), result.vertex.size())};
 }
 
-// #E x 2: see crease_edges.
+// Returns #E x 2; see crease_edges.
 Edges creases(const Positions& V, const Indices& F, double angle) {
   const Triangles triangles = triangles_of(F);
   const ReleaseGil release;

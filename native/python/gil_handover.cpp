@@ -7,7 +7,7 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
-// Of a worker thread; when that ends, whoever lends a turn need not wait for it any more.
+// The hand-over of the current worker thread; when the thread ends, the owner need not wait for it any more.
 struct OwnTurn {
   ~OwnTurn() {
     if (turn != nullptr) turn->end();
@@ -16,9 +16,10 @@ struct OwnTurn {
 };
 thread_local OwnTurn own;
 
-constexpr std::chrono::seconds kStart{5};  // within which a thread that was started takes its turn, on a busy machine
+constexpr std::chrono::seconds kStart{5};  // time limit for a started thread to take its first turn, on a busy machine
 
-// What Python holds. Once that is collected nobody can lend any more, and the worker's next call would wait for ever.
+// The owner's handle in Python. Its collection ends the hand-over: nobody can lend any more, and the worker's next call
+// would wait for ever.
 class OwnersTurn {
  public:
   OwnersTurn() : turn_(std::make_shared<PythonTurn>()) {}

@@ -1,10 +1,10 @@
-// A hand-over of Python's lock (GIL) between Blender's own thread and a worker thread.
+// A hand-over of Python's global interpreter lock (GIL) between Blender's main thread and a worker thread.
 //
-// Blender lets go of Python's lock while its own C code runs, and asks whether *any* thread has the lock where it means
-// "am I being called from Python" (PyC_IsInterpreterActive). With a second thread that takes the lock now and then the
-// answer is wrong once in a while, and Blender then uses Python objects without the lock: a segmentation fault in about
-// one of twenty window tests, within a second where a script runs operators with a context of its own. So a worker of
-// ours runs Python only while Blender's thread waits for it, and native code, without the lock, at any time.
+// Blender releases the GIL while its own C code runs, and tests whether *any* thread holds it where it means "am I
+// being called from Python" (PyC_IsInterpreterActive). With a second thread that takes the GIL from time to time the
+// test is sometimes wrong, and Blender then uses Python objects without the GIL: a segmentation fault in about one of
+// twenty window tests, within a second where a script runs operators with a context of its own. Therefore a worker
+// thread runs Python only while Blender's thread waits for it, and native code, without the GIL, at any time.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -16,23 +16,24 @@
 
 namespace reflines {
 
-// The hand-over for one worker thread. `lend`, `take` and `rest` wait; they are called with Python's lock and let go of
-// it meanwhile. The thread that has taken it keeps it alive: every native call of that thread asks it.
+// The hand-over for one worker thread. `lend`, `take` and `rest` are called with the GIL, release it and wait. The
+// thread that has taken the hand-over keeps it alive: every native call of that thread uses it.
 class PythonTurn : public std::enable_shared_from_this<PythonTurn> {
  public:
-  // The owner: the worker may run Python until it rests, or until it comes to native code when `seconds` are over.
-  // Returns within 5 s more where no thread has taken the turn yet.
+  // Lets the worker run Python until it rests, or until it enters native code after `seconds`; for the owner. Returns
+  // within a further 5 s where no thread has taken the turn yet.
   void lend(double seconds);
-  // The owner: whether the worker waits for its turn, native code being done.
+  // Returns whether the worker has finished its native code and waits for its turn; for the owner.
   bool wanted() const;
-  // The owner, at the end: the worker may run Python whenever it wants, so that it can be joined.
+  // Lets the worker run Python at any time, so that it can be joined; for the owner, at the end.
   void give_away();
 
-  // The worker's first call, from its own thread: from here on its native calls end in turns only.
+  // Waits for the first turn; for the worker, from its own thread. From here on its native calls return only in its
+  // turns.
   void take();
-  // The worker has nothing to do before its next turn.
+  // Ends a turn and waits for the next; for the worker when it has nothing to do.
   void rest();
-  // The worker's thread has ended.
+  // Marks the worker's thread as ended.
   void end();
 
  private:
@@ -50,12 +51,13 @@ class PythonTurn : public std::enable_shared_from_this<PythonTurn> {
   Worker worker_ = Worker::kWaiting;
   bool taken_ = false, ended_ = false;
   bool lent_ = false;
-  bool entered_ = false;   // since it was lent
-  Clock::time_point end_;  // of what is lent
+  bool entered_ = false;   // the worker has run since the turn was lent
+  Clock::time_point end_;  // end of the turn that is lent
   bool given_away_ = false;
 };
 
-// In place of pybind11::gil_scoped_release: the lock comes back in the thread's turn only.
+// Releases the GIL for a scope, in place of pybind11::gil_scoped_release: a worker thread takes it back only in its
+// turn.
 class ReleaseGil {
  public:
   ReleaseGil();

@@ -1,5 +1,5 @@
-// Whole numbers from Python: triangles, faces, partners, codes. numpy's own casts would cut fractions off and wrap what
-// is too large for an int, both in silence: another vertex than the one that was meant.
+// Checked conversion of integers from Python: triangles, faces, partners, codes. numpy's own casts would silently
+// truncate fractions and wrap numbers too large for an int, and so name another vertex.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -14,16 +14,16 @@ class Indices : public pybind11::array_t<int, pybind11::array::c_style> {
   using pybind11::array_t<int, pybind11::array::c_style>::array_t;
 };
 
-// Any array of integers, of any shape; an empty one may be of any numbers. Throws InvalidInput: numbers of another
-// kind, numbers that are no int.
+// Converts an array of integers of any kind and shape; an empty one may be of any kind. Throws InvalidInput: numbers
+// that are no integers, integers that do not fit an int.
 Indices indices_of(const pybind11::array& array);
 
 IndexVector index_vector(const Indices& indices);
 
-// InvalidInput where they are not #F x 3.
+// Throws InvalidInput where the array is not #F x 3.
 Triangles triangles_of(const Indices& indices);
 
-// InvalidInput where they are not #E x 2.
+// Throws InvalidInput where the array is not #E x 2.
 Edges edges_of(const Indices& indices);
 
 }  // namespace reflines

@@ -7,7 +7,7 @@
 
 namespace reflines {
 
-// Of 3 numbers, or of #families x 3. InvalidInput for other shapes.
+// Converts 3 numbers, or #families x 3. Throws InvalidInput for other shapes.
 std::vector<Vector3> read_line_directions(const Eigen::MatrixXd& lines);
 
 }  // namespace reflines

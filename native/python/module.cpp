@@ -3,7 +3,7 @@
 
 namespace reflines {
 
-// Errors and classes are this copy's own: of two installed copies of the add-on each must see its own ones only.
+// Exceptions and classes are local to this module: of two installed copies of the add-on each must use its own.
 void bind_errors(pybind11::module_& module) {
   pybind11::register_local_exception<InvalidInput>(module, "InvalidInput", PyExc_ValueError);
   pybind11::register_local_exception<SolverFailure>(module, "SolverFailure", PyExc_RuntimeError);
@@ -14,8 +14,8 @@ namespace {
 
 namespace py = pybind11;
 
-// In the place of pybind11's own, so that Python refuses `T.__new__(T)` and copies by it with a TypeError: pybind11
-// would take the memory of an object that was never made for one.
+// Replaces pybind11's tp_new, so that Python's `T.__new__(T)` and copies by it raise a TypeError: pybind11 would treat
+// uninitialized memory as an object.
 PyObject* allocate(PyTypeObject* type, PyObject* arguments, PyObject* keywords) {
   const auto* base = reinterpret_cast<PyTypeObject*>(py::detail::get_internals().instance_base);
   return base->tp_new(type, arguments, keywords);

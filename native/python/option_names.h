@@ -10,7 +10,7 @@
 
 namespace reflines {
 
-// The enumerator of a name, or InvalidInput that lists the names.
+// Returns the enumerator of a name; throws InvalidInput that lists the names.
 template <typename Enum>
 Enum find_named(const std::map<std::string, Enum>& names, const std::string& name, const std::string& what) {
   const auto found = names.find(name);

@@ -15,39 +15,41 @@ Scheme = Literal["catmull_clark", "loop"]
 Boundary = Literal["all", "preserve_corners"]
 
 class InvalidInput(ValueError):
-    """The arrays cannot be used. The text is one sentence: what, how many, what to do."""
+    """Raised for arrays that cannot be used. The text is one sentence: what, how many, what to do."""
 
 class SolverFailure(RuntimeError):
-    """A numerical breakdown; nothing was changed."""
+    """Raised at a numerical breakdown; nothing was changed."""
 
 class Cancelled(Exception):
-    """A watching Progress was cancelled while something was made: there is no result. A solve reports it instead."""
+    """Raised where a Progress was cancelled before there was a result. A solve reports it instead."""
 
 class Progress:
-    """Shared by the thread that solves and the thread that watches. Thread safe."""
+    """The state of one computation, for the thread that computes and threads that watch or cancel it. Thread safe."""
     fraction: float  # read only, 0..1
     stage: str       # read only, e.g. "factorizing"
     cancelled: bool  # read only
     def __init__(self) -> None: ...
     def cancel(self) -> None:
-        """Asks the work that this watches to stop at its next step. Thread safe, and final."""
+        """Asks the computation to stop at its next step. Final."""
 
 class PythonTurn:
-    """A hand-over of Python's lock (GIL) between an owner's thread and one worker's. In between the worker is in native code, where
-    every call of a worker ends with waiting for its turn, or rests."""
-    wanted: bool  # read only: the worker waits for its turn
+    """A hand-over of the global interpreter lock (GIL) between an owner's thread and one worker thread.
+
+    The worker runs Python only in its turns. Between them it rests or is in native code, whose calls return in its turns.
+    """
+    wanted: bool  # read only: the worker has finished its native code and waits for its turn
     def __init__(self) -> None: ...
     def lend(self, seconds: float) -> None:
-        """Owner: waits while the worker runs Python, until it rests, or is in native code when the seconds are over."""
+        """Waits while the worker runs Python, until it rests, or is in native code after the seconds. For the owner."""
     def give_away(self) -> None:
-        """Owner: from now on the worker runs Python whenever it wants; then its thread can be joined."""
+        """Lets the worker run Python at any time, so that its thread can be joined. For the owner, at the end."""
     def take(self) -> None:
-        """Worker: its first call. Waits for its turn."""
+        """Waits for the first turn. For the worker, as its first call."""
     def rest(self) -> None:
-        """Worker: nothing to do; waits for its next turn."""
+        """Ends the turn and waits for the next. For the worker."""
 
 class Region:
-    """What became of the faces and vertices that were handed in. Counts; `messages` are sentences for the user."""
+    """Counts of a region's triangles and vertices by their roles; `messages` are sentences for the user."""
     triangles: int
     free: int
     fixed: int
@@ -65,19 +67,19 @@ class Region:
     messages: list[str]
 
 class Target:
-    """One wanted gradient of theta and one weight per triangle, for one family of lines. Each array that is read is a copy:
-    assign the changed one to change it."""
+    """One wanted gradient of theta and one weight per triangle, for one family of lines. Arrays are copied when read and when
+    assigned."""
     gradient: np.ndarray  # #F x 2, image plane, radians / length
     weight: np.ndarray    # #F, >= 0
     theta: np.ndarray     # #F wanted theta for a value fit (eq. 3), empty for a gradient fit (eq. 4). The gradient then
                           # only keeps the surface smooth at the scale of the triangles, and may be 0 x 2
     family: int           # which of the optimizer's line directions
-    reachable_only: bool  # asks for the part that heights can reach; the builders of new lines set it, `smooth` does not
+    reachable_only: bool  # fits only the part that heights can reach; set by the builders of new lines, not by `smooth`
     def __init__(self, gradient: np.ndarray, weight: np.ndarray | None = None, *, theta: np.ndarray | None = None,
                  family: int = 0, reachable_only: bool = False) -> None: ...
 
 class Report:
-    """How a solve ended, and what it cost."""
+    """The termination of a solve, its counts of work, and the change of the energy."""
     termination: str   # "converged", "already_optimal", "no_progress", "iteration_limit", "cancelled"
     converged: bool
     message: str       # one sentence with the numbers compared
@@ -102,11 +104,11 @@ class Report:
     residual_rms: float   # rms of |grad theta - target| over the triangles that can change, radians / length
 
 class ShapeOptimizer:
-    """The live optimizer of one region seen from one view. Expensive to build, cheap to step.
+    """The optimizer of one region seen from one view, expensive to build and cheap to solve again.
 
-    Raises InvalidInput for data that cannot be used; never changes the arrays handed in. Its work lets other threads run, but
-    is for one thread at a time: what another one asks of it meanwhile (a builder of targets, too) raises InvalidInput at once,
-    but for what never changes (frame, free, active, changeable, xy, centers, area). Any number may read it at once.
+    Raises InvalidInput for data that cannot be used; never changes the arrays handed in. It computes without the GIL, for one
+    thread at a time: a call from another thread meanwhile (of a builder of targets, too) raises InvalidInput at once, except
+    for constant data (frame, free, active, changeable, xy, centers, area). Any number of threads may read it at once.
     """
     region: Region
     frame: np.ndarray      # 3 x 3, rows: image-plane x, y and z = view_direction, in world coordinates
@@ -131,31 +133,31 @@ class ShapeOptimizer:
                  progress: Progress | None = None,               # watches from the start, see `watch`
                  ) -> None: ...
     def theta(self, family: int = 0) -> np.ndarray:
-        """The reflection function of every triangle (#F), radians in (-pi, pi]."""
+        """Returns the reflection function of every triangle (#F), radians in (-pi, pi]."""
     def field(self, family: int = 0) -> np.ndarray:
-        """The gradient of theta in every triangle (#F x 2), in the image plane, radians / length."""
+        """Returns the gradient of theta in every triangle (#F x 2), in the image plane, radians / length."""
     def energy(self, target: Target | list[Target]) -> float:
-        """The energy that `solve` minimises, at the current heights; for several targets the sum of theirs."""
+        """Returns the energy that `solve` minimises, at the current heights; for several targets the sum of theirs."""
     def residual(self, target: Target) -> np.ndarray:
-        """|grad theta - target| of every triangle (#F), radians / length."""
+        """Returns |grad theta - target| of every triangle (#F), radians / length."""
     def score(self, length: float, family: int = 0) -> float:
-        """The wobble of the lines in degrees: how far, within one `length`, they stray from their own smooth course."""
+        """Returns the wobble of the lines in degrees: their deviation within one `length` from their smoothed course."""
     def solve(self, target: Target | list[Target], *, strategy: Strategy = "adaptive", gradient_tolerance: float = 1e-6,
               max_iterations: int = 100, limit: float | np.ndarray | None = None, progress: Progress | None = None) -> Report:
         """Moves the heights to a minimum of the energy, from where they are. Not converging is no error: see
         Report.termination. A cancelled solve or one that raises SolverFailure leaves the heights as they were.
 
         `limit`: no vertex moves further along the view than this length from the heights the optimizer was built with, or,
-        of #V x 2, beyond its lowest (<= 0) and highest (>= 0) move; infinity is no limit. It holds to the bit, for
+        of #V x 2, beyond its lowest (<= 0) and highest (>= 0) move; infinity is no limit. It holds to the last bit, for
         `positions` too, until the next solve or a reset. Not for cages (InvalidInput)."""
     def watch(self, progress: Progress | None) -> None:
-        """Tells `progress` between the steps of building, of smoothing and of the score, and raises Cancelled there where it
-        asks to stop. A solve looks at its own."""
+        """Reports the stages of smoothing and of the score to `progress`, and raises Cancelled there where it was cancelled.
+        A solve has a progress of its own."""
     def reset(self) -> None:
-        """Takes the heights back to those that it was built with."""
+        """Restores the heights that the optimizer was built with."""
 
 class SmoothPanelReport:
-    """What `smooth_panel` did."""
+    """The report of `smooth_panel`."""
     solve: Report              # of the last solve
     length: float              # the size of the flaws that was used
     limit: float               # no vertex moved further than this
@@ -188,8 +190,9 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
 
 class CageOptimizer(ShapeOptimizer):
     """The optimizer of a region of a subdivision surface whose unknowns are the heights of its cage; see
-    native/cage_optimizer.h. The surface, cut into triangles, is the region of ShapeOptimizer: every builder of targets takes
-    it. Faces, creases, corners, scheme and boundary are those of Subdivision; `level` says how finely the surface is sampled.
+    native/include/reflines/cage_optimizer.h. The surface, cut into triangles, is the region of ShapeOptimizer: every builder
+    of targets takes it. Faces, creases, corners, scheme and boundary are those of Subdivision; `level` says how finely the
+    surface is sampled.
     """
     cage_positions: np.ndarray  # #V x 3; vertices that did not move carry the bits they came with
     cage_free: np.ndarray       # #V bool
@@ -201,82 +204,88 @@ class CageOptimizer(ShapeOptimizer):
                  region: np.ndarray | None = None,    # #faces bool: those that may change; default all
                  border: Border = "clamped",          # of the region, on the surface: its limit position and tangents stay
                  fixed: np.ndarray | None = None,     # #V bool: held whatever the border says
-                 partner: np.ndarray | None = None,   # #V of mirror_pairs, mutual, -1: none. Partners rise alike
+                 partner: np.ndarray | None = None,   # #V of mirror_pairs, mutual, -1: none. Partners keep equal moves
                  level: int = 2, scheme: Scheme = "catmull_clark", boundary: Boundary = "all",
                  creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                  corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit: bool = True,
-                 sparse: bool = False,                # for drags: from level 3 on, few of the triangles count for all
+                 sparse: bool = False,                # for drags: from level 3 on, the energy is sampled on few triangles
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
                  crease_rule: CreaseRule = "automatic", crease_angle: float = 1.0472,
                  proximity: float = -1.0, progress: Progress | None = None) -> None: ...
     def fit(self, heights: np.ndarray, weight: np.ndarray) -> None:
         """Moves the cage so that its surface is nearest to these heights along the view (#region vertices), by least squares;
-        `weight` is the area each speaks for, 0 where there is no such height. Later solves are drawn to the heights."""
+        `weight` is the area of each, 0 where there is none. Later solves are pulled to the heights."""
 
 def mirror_pairs(V: np.ndarray, *, point: Sequence[float], normal: Sequence[float], tolerance: float) -> np.ndarray:
-    """#V: the vertex in the place of each one's mirror image, itself on the plane, -1 where there is none."""
+    """Returns the vertex at each one's mirror image: #V, itself on the plane, -1 where there is none."""
 
-# Builders of targets. `family` says which light lines; `weight` (#F, >= 0) multiplies each triangle's share of the energy;
+# Builders of targets. `family` says which light lines; `weight` (#F, >= 0) multiplies each triangle's term in the energy;
 # `influence` (#F in [0, 1]) blends from the current field, 0 keeps it bit for bit. Directions and positions with two
 # coordinates are in the image plane: (p @ optimizer.frame[0], p @ optimizer.frame[1]) of a world point or direction p.
 
 def smooth(optimizer: ShapeOptimizer, *, length: float, strength: float = 1.0, directional: bool = False,
            family: int = 0, weight: np.ndarray | None = None) -> Target:
-    """The current field without its detail finer than `length` (scene units); see native/src/reflection/line_smoother.h."""
+    """Builds the target of the current field without its detail finer than `length` (scene units); see
+    native/src/reflection/line_smoother.h."""
 
 def uniform(optimizer: ShapeOptimizer, *, direction: Sequence[float] = (0, 0), density: float = 1.0, relative: bool = True,
             density_end: float = -1.0, axis: Sequence[float] = (0, 0), influence: np.ndarray | None = None,
             weight: np.ndarray | None = None, family: int = 0) -> Target:
-    """Lines of one direction ((0, 0): that of the region's mean) and density (a factor of the mean's, or |grad theta| in
-    radians / length); along `axis` the density goes linearly from density to density_end."""
+    """Builds the target of lines of one direction ((0, 0): that of the region's mean) and density (a factor of the mean's, or
+    |grad theta| in radians / length); along `axis` the density goes linearly from density to density_end."""
 
 def turn(optimizer: ShapeOptimizer, *, angle: float, influence: np.ndarray | None = None, weight: np.ndarray | None = None,
          family: int = 0) -> Target:
-    """The current gradients turned by `angle` radians, counter-clockwise in the image plane, times the influence."""
+    """Builds the target of the current gradients turned by `angle` radians, counter-clockwise in the image plane, times the
+    influence."""
 
 def falloff(optimizer: ShapeOptimizer, *, centre: Sequence[float], radius: float, curve: np.ndarray) -> np.ndarray:
-    """#F: the curve, tabulated at equal steps from 0 to radius, at each triangle's distance from `centre`."""
+    """Returns the curve, tabulated at equal steps from 0 to radius, at each triangle's distance from `centre`: #F."""
 
 def warp(optimizer: ShapeOptimizer, *, low: Sequence[float], high: Sequence[float], columns: int, rows: int,
          position: np.ndarray, by_value: bool = False, family: int = 0) -> tuple[Target, int]:
-    """Lines carried along by a map of the image plane: `position` ((rows + 1) * (columns + 1) x 2, x fastest) is where the nodes
-    of a regular grid over low .. high go. Also the number of triangles that would show lines from outside the region."""
+    """Builds the target of lines carried along by a map of the image plane: `position` ((rows + 1) * (columns + 1) x 2, x
+    fastest) is where the nodes of a regular grid over low .. high go. Also returns the number of triangles that would show
+    lines from outside the region."""
 
 def pattern(optimizer: ShapeOptimizer, *, image: np.ndarray, strength: float = 1.0, blur: float = 0.0, keep: float = 1.0,
             centre: Sequence[float] = (0, 0), width: float = 1.0, angle: float = 0.0, by_value: bool = False,
             weight: np.ndarray | None = None, family: int = 0) -> Target:
-    """`strength` radians of theta between black and white of a grey image (#rows x #columns, first row at the bottom), added
-    to `keep` times the current lines; by value each line is asked to lie where the image puts it, not only to run so (eq. 3);
-    see native/include/reflines/pattern_target.h."""
+    """Adds `strength` radians of theta between black and white of a grey image (#rows x #columns, first row at the bottom)
+    to `keep` times the current lines; by value the target is theta itself (eq. 3), not only its gradient; see
+    native/include/reflines/pattern_target.h."""
 
 def match_dense(optimizer: ShapeOptimizer, dense: ShapeOptimizer, *, family: int = 0
                 ) -> tuple[Target, np.ndarray, np.ndarray, np.ndarray]:
-    """The lines of another mesh as a target, with weight 0 where the view meets none of it; theta there (#F), its heights at
-    the region's vertices (#V), and the area each speaks for: what CageOptimizer.fit takes. Both have the same view and lines."""
+    """Builds the target of another mesh's lines, with weight 0 where the view meets none of it. Also returns theta there
+    (#F), its heights at the region's vertices (#V), and the area of each, the arguments of CageOptimizer.fit. Both have the
+    same view and lines."""
 
 def crease_edges(V: np.ndarray, F: np.ndarray, *, angle: float = 0.5236) -> np.ndarray:
-    """#E x 2: the edges whose bend jumps against the surface across them, as crease_rule "automatic" finds them. InvalidInput
-    for what can be no surface."""
+    """Returns the edges (#E x 2) that crease_rule "automatic" finds. Raises InvalidInput for arrays that are no surface."""
 
 def split_at_creases(V: np.ndarray, F: np.ndarray, *, angle: float = 0.5236) -> tuple[np.ndarray, np.ndarray]:
-    """(F, vertex): the same triangles (#F x 3) of vertices that are split where edges bend by more than `angle` (radians), and
-    the vertex that each was (#S, the first #V themselves). Normals of V[vertex] are then those of each side of a crease."""
+    """Returns (F, vertex): the same triangles (#F x 3) of vertices that are split where edges bend by more than `angle`
+    (radians), and the original of each (#S, the first #V themselves). Normals of V[vertex] are then those of each side of a
+    crease."""
 
 class NormalFit:
     """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""
     def __init__(self, V: np.ndarray, F: np.ndarray, *, refit_angle: float = 0.35) -> None: ...
     def normals(self, V: np.ndarray) -> np.ndarray:
-        """Unit normals (#V x 3) for the positions V; vertices without a triangle get (0, 0, 1)."""
+        """Returns unit normals (#V x 3) for the positions V; vertices without a triangle get (0, 0, 1)."""
     def kept_normals(self, V: np.ndarray) -> np.ndarray:
-        """The same without fitting any vertex anew: changes nothing, so any number of threads may call it at once."""
+        """Returns the normals by the present fits: changes nothing, so any number of threads may call it at once."""
     def copy(self) -> "NormalFit":
-        """An independent copy of the fit, with its kept coefficients."""
+        """Returns an independent copy of the fit, with its kept coefficients."""
 
 class Subdivision:
-    """A cage under a Subdivision Surface, with the modifier's rules: refined vertices are a matrix S times the cage's vertices.
+    """A cage under a Subdivision Surface, with the modifier's rules: refined vertices are a matrix S times the cage's
+    vertices.
 
-    Face f has the vertices face_vertices[face_offsets[f]:face_offsets[f + 1]]. Sharpness is 0 (smooth) to 10 (sharp): a crease
-    c of Blender is 10 c^2. The first refined vertices are the cage's own in their order; see native/include/reflines/subdivision.h.
+    Face f has the vertices face_vertices[face_offsets[f]:face_offsets[f + 1]]. Sharpness is 0 (smooth) to 10 (sharp): a
+    crease c of Blender is 10 c^2. The first refined vertices are the cage's own in their order; see
+    native/include/reflines/subdivision.h.
     """
     faces: np.ndarray        # #refined faces x 4 (loop: x 3)
     face_parent: np.ndarray  # #refined faces: the cage's face
@@ -286,16 +295,16 @@ class Subdivision:
                  corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,   # #K vertices, #K
                  limit: bool = True) -> None: ...                                 # on the limit surface, or refined only
     def positions(self, V: np.ndarray) -> np.ndarray:
-        """The refined vertices (#refined x 3) of a cage's (#V x 3)."""
+        """Returns the refined vertices (#refined x 3) of a cage's (#V x 3)."""
     def normals(self, V: np.ndarray) -> np.ndarray:
-        """Unit normals of the limit surface at the refined vertices (#refined x 3)."""
+        """Returns unit normals of the limit surface at the refined vertices (#refined x 3)."""
     def matrix(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """S as compressed rows: data, column indices, row starts."""
+        """Returns S as compressed rows: data, column indices, row starts."""
 
 def image_plane(view_direction: Sequence[float], line_direction: Sequence[float]) -> np.ndarray:
-    """3 x 3, rows a_perp, a_v, v. InvalidInput where the two directions are parallel."""
+    """Returns the rows a_perp, a_v, v (3 x 3). Raises InvalidInput where the two directions are parallel."""
 
 def theta(normals: np.ndarray, view_direction: np.ndarray, line_direction: Sequence[float]) -> np.ndarray:
-    """theta of #N x 3 normals (any length); view_direction is 3 or #N x 3."""
+    """Returns theta (#N) of normals (#N x 3, any length); view_direction is 3 or #N x 3."""
 
 __version__: str

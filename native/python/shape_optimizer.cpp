@@ -21,7 +21,8 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
-using Limit = std::variant<double, PlanePositions>;  // one length either way, or the lowest and highest of each vertex
+using Limit =
+    std::variant<double, PlanePositions>;  // one length for both directions, or each vertex's lowest and highest move
 using Targets = std::variant<Target, std::vector<Target>>;
 
 const std::map<std::string, Strategy> kStrategies = {{"adaptive", Strategy::kAdaptive},
@@ -34,12 +35,12 @@ std::vector<Target> list_targets(const Targets& targets) {
   return std::get<std::vector<Target>>(targets);
 }
 
-std::unique_ptr<ShapeOptimizer> make(const Positions& V, const Indices& F, const Vector3& view_direction,
-                                     const Eigen::MatrixXd& line_direction, const Codes& border,
-                                     const std::optional<Mask>& fixed, const std::string& stencil,
-                                     const std::string& linear_solver, const std::string& crease_rule,
-                                     const Indices& marked_creases, double crease_angle, double proximity,
-                                     std::shared_ptr<Progress> progress) {
+std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
+                                                const Eigen::MatrixXd& line_direction, const Codes& border,
+                                                const std::optional<Mask>& fixed, const std::string& stencil,
+                                                const std::string& linear_solver, const std::string& crease_rule,
+                                                const Indices& marked_creases, double crease_angle, double proximity,
+                                                std::shared_ptr<Progress> progress) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -80,7 +81,7 @@ Eigen::Matrix3d frame_rows(const ShapeOptimizer& optimizer) {
   return rows;
 }
 
-int checked_family(const ShapeOptimizer& optimizer, int family) {
+int check_family(const ShapeOptimizer& optimizer, int family) {
   if (family >= 0 && family < optimizer.family_count()) return family;
   throw InvalidInput("There is no family " + std::to_string(family) + " of light lines; there are " +
                      std::to_string(optimizer.family_count()) + ".");
@@ -88,12 +89,12 @@ int checked_family(const ShapeOptimizer& optimizer, int family) {
 
 Vector theta(const ShapeOptimizer& optimizer, int family) {
   const NativeCall call(optimizer, ExclusiveUse::Use::kReads);
-  return optimizer.theta(checked_family(optimizer, family));
+  return optimizer.theta(check_family(optimizer, family));
 }
 
 PlaneVectors field(const ShapeOptimizer& optimizer, int family) {
   const NativeCall call(optimizer, ExclusiveUse::Use::kReads);
-  return optimizer.field(checked_family(optimizer, family));
+  return optimizer.field(check_family(optimizer, family));
 }
 
 double energy(ShapeOptimizer& optimizer, const Targets& targets) {
@@ -104,7 +105,7 @@ double energy(ShapeOptimizer& optimizer, const Targets& targets) {
 
 double score(ShapeOptimizer& optimizer, double length, int family) {
   const NativeCall call(optimizer);
-  return optimizer.score(length, checked_family(optimizer, family));
+  return optimizer.score(length, check_family(optimizer, family));
 }
 
 }  // namespace
@@ -115,7 +116,7 @@ void bind_optimizer(py::module_& module) {
   using Shape = ShapeOptimizer;
   using Release = py::call_guard<ReleaseGil>;
   py::class_<ShapeOptimizer>(module, "ShapeOptimizer", py::module_local())
-      .def(py::init(&make), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
+      .def(py::init(&build_optimizer), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
            py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
            py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
            py::arg("crease_rule") = "automatic", py::arg("marked_creases") = Indices(),

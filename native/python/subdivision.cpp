@@ -19,16 +19,17 @@ namespace py = pybind11;
 using py::literals::operator""_a;
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-// A subdivided cage and how many vertices the cage has.
+// A subdivided cage with the number of the cage's vertices.
 struct SubdividedCage {
   int vertices;
   Subdivision result;
 };
 
-std::unique_ptr<SubdividedCage> make(const Indices& face_offsets, const Indices& face_vertices, int vertices, int level,
-                                     const std::string& scheme, const std::string& boundary, const Indices& creases,
-                                     const Numbers& crease_sharpness, const Indices& corners,
-                                     const Numbers& corner_sharpness, bool limit) {
+std::unique_ptr<SubdividedCage> build_subdivision(const Indices& face_offsets, const Indices& face_vertices,
+                                                  int vertices, int level, const std::string& scheme,
+                                                  const std::string& boundary, const Indices& creases,
+                                                  const Numbers& crease_sharpness, const Indices& corners,
+                                                  const Numbers& corner_sharpness, bool limit) {
   const Cage cage =
       cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness}, vertices);
   const SubdivisionOptions options = subdivision_options(level, scheme, boundary, limit);
@@ -52,7 +53,7 @@ Positions normals(const SubdividedCage& cage, const Numbers& V) {
   return limit_normals(cage.result, cage_positions(cage, V));
 }
 
-// (data, indices, indptr), the way scipy.sparse.csr_matrix takes them.
+// Returns (data, indices, indptr), the arguments of scipy.sparse.csr_matrix.
 py::tuple matrix(const SubdividedCage& cage) {
   const RowMatrix rows = cage.result.positions;
   return py::make_tuple(py::array_t<double>(rows.nonZeros(), rows.valuePtr()),
@@ -65,7 +66,7 @@ py::tuple matrix(const SubdividedCage& cage) {
 void bind_subdivision(py::module_& module) {
   const SubdivisionOptions defaults;
   py::class_<SubdividedCage>(module, "Subdivision", py::module_local())
-      .def(py::init(&make), "face_offsets"_a, "face_vertices"_a, py::kw_only(), "vertices"_a,
+      .def(py::init(&build_subdivision), "face_offsets"_a, "face_vertices"_a, py::kw_only(), "vertices"_a,
            "level"_a = defaults.level, "scheme"_a = "catmull_clark", "boundary"_a = "all", "creases"_a = Indices(),
            "crease_sharpness"_a = Numbers(), "corners"_a = Indices(), "corner_sharpness"_a = Numbers(),
            "limit"_a = defaults.limit)

@@ -12,14 +12,14 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
-// A copy both ways: a view of the member would dangle as soon as another array is put in its place.
+// Copies in both directions: a view of the member would dangle as soon as another array is assigned.
 template <typename Array>
-py::cpp_function copy_of(Array Target::*member) {
+py::cpp_function make_getter(Array Target::*member) {
   return [member](const Target& target) { return target.*member; };
 }
 
 template <typename Array>
-py::cpp_function copy_into(Array Target::*member) {
+py::cpp_function make_setter(Array Target::*member) {
   return [member](Target& target, const Array& array) { target.*member = array; };
 }
 
@@ -33,9 +33,9 @@ void bind_target(py::module_& module) {
            }),
            py::arg("gradient"), py::arg("weight") = py::none(), py::kw_only(), py::arg("theta") = py::none(),
            py::arg("family") = Target().family, py::arg("reachable_only") = Target().reachable_only)
-      .def_property("gradient", copy_of(&Target::gradient), copy_into(&Target::gradient))
-      .def_property("weight", copy_of(&Target::weight), copy_into(&Target::weight))
-      .def_property("theta", copy_of(&Target::theta), copy_into(&Target::theta))
+      .def_property("gradient", make_getter(&Target::gradient), make_setter(&Target::gradient))
+      .def_property("weight", make_getter(&Target::weight), make_setter(&Target::weight))
+      .def_property("theta", make_getter(&Target::theta), make_setter(&Target::theta))
       .def_readwrite("family", &Target::family)
       .def_readwrite("reachable_only", &Target::reachable_only);
 }

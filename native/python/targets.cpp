@@ -68,7 +68,7 @@ Target pattern(ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double s
   return set_weight(build_pattern_target(optimizer.region_field(family), image, options), weight);
 }
 
-// The dense panel is looked up where the region has its vertices, in the image plane of both.
+// Throws where the frames differ: the dense panel is evaluated at the region's vertices in their common image plane.
 void check_same_view(const ImagePlane& one, const ImagePlane& other) {
   constexpr double kSame = 1e-9;
   if ((one.z() - other.z()).norm() < kSame && (one.x() - other.x()).norm() < kSame) return;
@@ -85,7 +85,7 @@ py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int fami
     if (&dense != &optimizer) dense_use.emplace(dense, ExclusiveUse::Use::kChanges);
     check_same_view(optimizer.frame(), dense.frame());
     wanted = sample_dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());
-    lines = optimizer.lines_of(wanted.height, wanted.area, family);
+    lines = optimizer.evaluate_lines(wanted.height, wanted.area, family);
   }
   return py::make_tuple(lines.target, lines.theta, wanted.height, wanted.area);
 }

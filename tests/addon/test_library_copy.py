@@ -16,14 +16,14 @@ CONTENT = b"\x7fELF" + bytes(range(256)) * 4000
 @pytest.fixture
 def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A library, and a cache folder that is empty; none in the folder of temporary files."""
-    monkeypatch.setattr(library_copy, "cache_folders", lambda: (tmp_path / "cache" / "library",))
+    monkeypatch.setattr(library_copy, "find_cache_folders", lambda: (tmp_path / "cache" / "library",))
     path = tmp_path / "reflines.so"
     path.write_bytes(CONTENT)
     return path
 
 
 def places(library: Path) -> list[Path]:
-    return list(library_copy.copies(library, library_copy.digest_of(library)))
+    return list(library_copy.find_copies(library, library_copy.compute_digest(library)))
 
 
 def cache(library: Path) -> Path:
@@ -35,7 +35,7 @@ def test_the_loaded_module_is_a_copy_of_the_installed_one() -> None:
     path = Path(native.reflines.__file__)
     assert installation.FOLDER not in path.parents
     assert path.read_bytes() == (installation.FOLDER / path.name).read_bytes()
-    assert library_copy.digest_of(path) in path.parts
+    assert library_copy.compute_digest(path) in path.parts
 
 
 def test_the_copy_comes_first_and_is_made_once(library: Path) -> None:

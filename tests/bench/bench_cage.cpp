@@ -61,19 +61,19 @@ void cage_solve(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     const std::unique_ptr<CageOptimizer> optimizer = cage_optimizer(false);
-    const std::vector<Target> target = {smooth_target(*optimizer, 1.0)};
+    const std::vector<Target> target = {smooth_target(optimizer->surface(), 1.0)};
     state.ResumeTiming();
-    count(state, optimizer->solve(target));
+    count(state, optimizer->surface().solve(target));
   }
 }
 
 // The same triangles and the same target, with a height for each vertex.
 void dense_solve(benchmark::State& state) {
   const std::unique_ptr<CageOptimizer> cage = cage_optimizer(false);
-  const std::vector<Target> target = {smooth_target(*cage, 1.0)};
+  const std::vector<Target> target = {smooth_target(cage->surface(), 1.0)};
   for (auto _ : state) {
     state.PauseTiming();
-    ShapeOptimizer dense(cage->positions(), cage->triangles(), kView, {kLines});
+    ShapeOptimizer dense(cage->surface().positions(), cage->triangles(), kView, {kLines});
     state.ResumeTiming();
     count(state, dense.solve(target));
   }
@@ -82,13 +82,13 @@ void dense_solve(benchmark::State& state) {
 // What a drag of the smoothing's strength does for every move of the mouse: the target, and the shape after it.
 void cage_warm_step(benchmark::State& state) {
   const std::unique_ptr<CageOptimizer> start = cage_optimizer(false), follower = cage_optimizer(true);
-  follower->solve({smooth_target(*start, 0.5)});
+  follower->surface().solve({smooth_target(start->surface(), 0.5)});
   MinimizerOptions drag;
   drag.gradient_tolerance = 1e-2;
   int update = 0;
   for (auto _ : state) {
     const double strength = update++ % 2 == 0 ? 0.6 : 0.5;
-    count(state, follower->solve({smooth_target(*start, strength)}, drag));
+    count(state, follower->surface().solve({smooth_target(start->surface(), strength)}, drag));
     benchmark::DoNotOptimize(follower->cage_positions());
   }
 }

@@ -8,8 +8,8 @@
 
 namespace reflines {
 
-// Sharpness of creases and corners: 0 is smooth, kSharp and above stay sharp at every level. Blender's crease c in [0,
-// 1] is the sharpness 10 c^2.
+// The sharpness from which creases and corners stay sharp at every level; 0 is smooth. Blender's crease c in [0, 1] is
+// the sharpness 10 c^2.
 inline constexpr double kSharp = 10.0;
 
 struct Cage {
@@ -27,10 +27,10 @@ struct CageEdge {
   int faces;          // 1 on the border, 2 inside, more where the cage is not manifold
 };
 
-// Every edge of the faces once, sorted by (first, second).
+// Returns every edge of the faces once, sorted by (first, second).
 std::vector<CageEdge> cage_edges(const Cage& cage);
 
-// The cage with one quad a row of `quads` (or triangle), without creases and corners.
+// Builds the cage with one quad (or triangle) for each row of `quads`, without creases and corners.
 Cage cage_from_faces(int vertices, const Eigen::MatrixXi& faces);
 
 // Throws InvalidInput: no face, offsets that do not fit, a face with fewer than 3 vertices or with a vertex twice, an

@@ -1,6 +1,6 @@
-// The optimizer of a region of a subdivision surface whose unknowns are heights of the cage: what the artist edits. The
-// energy, the targets and the minimizer are those of the surface's triangles: z = S x + c, gradient S^T g, Hessian S^T
-// H S.
+// The optimizer of a region of a subdivision surface whose unknowns are heights of the cage: what the artist edits. It
+// owns a ShapeOptimizer of the surface's triangles, which has the energy, the targets and the minimizer: z = S x + c,
+// gradient S^T g, Hessian S^T H S.
 #pragma once
 
 #include <memory>
@@ -19,21 +19,28 @@ struct CageOptions {
   Mask region;                     // #cage faces that may change; empty: all
   Border hold = Border::kClamped;  // of the region's border on the subdivided surface
   Mask held;                       // #V or empty: vertices that stay whatever the border says
-  IndexVector partner;             // #V or empty: mirror_pairs, whose partners rise alike
+  IndexVector partner;             // #V or empty: see mirror_pairs; partners keep equal moves along the view
   SubdivisionOptions subdivision;
-  // From level 3 on: only every eighth triangle (Loop: fourth) counts, evenly spread and for the others, too. For
-  // drags: updates take a fraction of the time, and shapes differ by 0.6 % of the move (those of level 2 by 7 %).
+  // Samples the energy: from level 3 on only every eighth triangle (Loop: fourth), evenly spread, with a larger weight.
+  // Meant for drags: updates take a fraction of the time, and shapes differ by 0.6 % of the move (those of level 2 by 7
+  // %).
   bool sparse = false;
   ShapeOptions shape;  // its border, held, B, start and quadrature_weight are not read
 };
 
-class CageOptimizer : public ShapeOptimizer {
+class CageOptimizer {
  public:
-  // V (#V x 3) of the cage. The region handed on to ShapeOptimizer is that of the subdivided surface.
-  // Throws InvalidInput: what make_cage_surface and ShapeOptimizer refuse.
+  // V (#V x 3) are the positions of the cage. Throws InvalidInput: what make_cage_surface and ShapeOptimizer refuse.
   CageOptimizer(const Cage& cage, const Positions& V, const Vector3& view_direction,
                 const std::vector<Vector3>& line_directions, const CageOptions& options = {});
   ~CageOptimizer();
+
+  // Returns the optimizer of the surface, for targets, solves and readings; its solves move the cage.
+  ShapeOptimizer& surface() { return surface_optimizer_; }
+  const ShapeOptimizer& surface() const { return surface_optimizer_; }
+
+  // Returns the region of the surface, with the counts of the cage's free and fixed vertices.
+  Region region() const;
 
   Positions cage_positions() const;  // #V x 3; vertices that did not move carry the bits they came with
   Mask cage_free() const;            // #V
@@ -43,19 +50,18 @@ class CageOptimizer : public ShapeOptimizer {
   const IndexVector& refined() const;  // #region vertices: number among all refined ones
 
   // Moves the cage so that its surface is nearest to these heights along the view (#region vertices) by least squares;
-  // `weight` (#region vertices) is the area each speaks for, 0 where there is no such height. Until a reset, solves are
-  // drawn to the heights: of a shape longer than four faces of the cage they decide, of a shorter one the lines.
-  // Vertices of the cage that no weighted height depends on stay; where that are all, nothing changes. Throws
-  // InvalidInput: other lengths, a weight that is negative or not finite, a weighted height that is not finite.
+  // `weight` (#region vertices) is the area of each height, 0 where there is none. Until a reset, solves are pulled to
+  // the heights: they decide about shapes longer than four faces of the cage, the lines about shorter ones. Vertices of
+  // the cage on which no weighted height depends stay; where that are all, nothing changes. Throws InvalidInput: other
+  // lengths, a weight that is negative or not finite, a weighted height that is not finite.
   void fit(const Vector& heights, const Vector& weight);
 
  private:
-  double height_density();  // of the pull to fitted heights, per area
-  CageOptimizer(std::unique_ptr<const CageSurface> surface, const Positions& V, const Vector3& view_direction,
-                const std::vector<Vector3>& line_directions, const ShapeOptions& options);
+  double height_density();  // weight of the pull to fitted heights, per area
 
   Positions V_;
-  std::unique_ptr<const CageSurface> surface_;
+  std::unique_ptr<const CageSurface> cage_surface_;
+  ShapeOptimizer surface_optimizer_;
 };
 
 }  // namespace reflines

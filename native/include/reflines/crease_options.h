@@ -5,10 +5,10 @@
 
 namespace reflines {
 
-// Edges that bend by more than this (30 degrees) are creases unless the surface is round there (see crease_edges).
+// The bend of an edge (30 degrees) above which it is a crease, unless the surface is round there (see crease_edges).
 constexpr double kCreaseAngle = 0.5235987755982988;
 
-// Which edges are creases.
+// The rule by which edges become creases.
 enum class CreaseRule {
   kAutomatic,  // those found by their bend, and those marked
   kMarked,     // those marked

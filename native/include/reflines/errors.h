@@ -7,19 +7,20 @@
 
 namespace reflines {
 
-// The caller's data cannot be used. The text is one sentence: what, how many (or which index), what to do.
+// Thrown where the caller's data cannot be used. The text is one sentence: what, how many (or which index), what to do.
 class InvalidInput : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-// A numerical breakdown inside a solve (for instance a singular matrix); the caller's data are untouched.
+// Thrown at a numerical breakdown inside a solve (for instance a singular matrix); the caller's data are untouched.
 class SolverFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Progress::cancel was called before there was anything to keep. A solve does not throw it: there it is a Termination.
+// Thrown where Progress::cancel was called before there was a result. A solve does not throw it: it returns a
+// Termination.
 class Cancelled : public std::exception {
  public:
   const char* what() const noexcept override { return "Cancelled: nothing was made and nothing was changed."; }

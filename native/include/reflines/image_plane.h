@@ -5,12 +5,12 @@
 
 namespace reflines {
 
-// Orthonormal, right-handed: x = a_perp, y = a_v (the projection of a into the image plane), z = v.
-// The view direction points from the surface towards the viewer.
+// The orthonormal, right-handed axes x = a_perp, y = a_v (the projection of a into the image plane), z = v. The view
+// direction points from the surface towards the viewer.
 class ImagePlane {
  public:
-  // Directions of any length. Throws InvalidInput where one is zero or not finite, or the two are parallel (to 0.06
-  // degrees).
+  // Takes directions of any length. Throws InvalidInput where one is zero or not finite, or the two are parallel (to
+  // 0.06 degrees).
   ImagePlane(const Vector3& view_direction, const Vector3& line_direction);
 
   const Vector3& x() const { return x_; }

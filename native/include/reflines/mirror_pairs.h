@@ -10,9 +10,9 @@ struct MirrorPlane {
   Vector3 normal;  // any length
 };
 
-// #V: the vertex where a vertex's mirror image lies, within `tolerance` (a length): itself on the plane, -1 where there
-// is none. Partners are mutual. Of vertices in one place the first are paired with the first. Throws InvalidInput: a
-// normal of length 0.
+// Returns for each vertex (#V) the vertex at its mirror image within `tolerance` (a length): itself on the plane, -1
+// where there is none. Partners are mutual. Of coincident vertices the first are paired with the first. Throws
+// InvalidInput: a normal of length 0.
 IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double tolerance);
 
 }  // namespace reflines

@@ -1,11 +1,11 @@
-// How far a solve may move vertices along the view, from the heights that the optimizer was built with.
+// The limit of the moves of vertices along the view, relative to the heights that the optimizer was built with.
 #pragma once
 
 #include "reflines/types.h"
 
 namespace reflines {
 
-// No vertex of ShapeOptimizer::positions is beyond it, by no bit.
+// The range of each vertex's move; ShapeOptimizer::positions respects it exactly, to the last bit.
 struct MoveLimit {
   Vector lowest, highest;  // #V each, lowest <= 0 <= highest, infinite where there is none; empty: no limit
 

@@ -7,15 +7,16 @@
 
 namespace reflines {
 
-// Thread safe without locks: one thread solves and reports, any number of threads read and may cancel.
+// The state of one computation, thread safe without locks: one thread writes it, any number of threads read and may
+// cancel.
 class Progress {
  public:
-  // `fraction` in [0, 1]; `stage` must be a string literal (it is kept by address).
+  // Sets the state: `fraction` in [0, 1]; `stage` must be a string literal (it is kept by address).
   void report(double fraction, const char* stage) {
     fraction_.store(fraction, std::memory_order_relaxed);
     stage_.store(stage, std::memory_order_relaxed);
   }
-  // The same for work that throws Cancelled where it was told to stop.
+  // Sets the state likewise, and throws Cancelled where the computation was cancelled.
   void enter(double fraction, const char* stage) {
     report(fraction, stage);
     if (cancelled()) throw Cancelled();
@@ -23,7 +24,7 @@ class Progress {
   double fraction() const { return fraction_.load(std::memory_order_relaxed); }
   const char* stage() const { return stage_.load(std::memory_order_relaxed); }
 
-  // Asks the solver to give up at its next look; the unknowns are then left as they were.
+  // Asks the computation to stop at its next check; the unknowns are then left as they were.
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
 

@@ -10,14 +10,14 @@ struct Region {
   int triangles = 0;  // in height-field pieces
   int free = 0, fixed = 0, clamped = 0;
   int pieces = 0;
-  int silhouettes = 0;                // triangles left out, seen at less than 12 degrees: |n.v| < 0.2
-  int turned_away = 0;                // triangles left out, n.v < 0
-  int unused_pieces = 0;              // pieces without a free vertex
-  int creases = 0;                    // edges held as creases
-  int marked_creases = 0;             // those of them that were marked
-  int hidden = 0;                     // triangles of less weight: their reflected ray is nearly parallel to the lines
-  int features = 0;                   // triangles the tools leave alone: strong bends that run on (see strong_features)
-  bool closed = false;                // the region has no border edge
+  int silhouettes = 0;     // triangles left out, seen at less than 12 degrees: |n.v| < 0.2
+  int turned_away = 0;     // triangles left out, n.v < 0
+  int unused_pieces = 0;   // pieces without a free vertex
+  int creases = 0;         // edges held as creases
+  int marked_creases = 0;  // those of them that were marked
+  int hidden = 0;          // triangles of reduced weight: their reflected ray is nearly parallel to the lines
+  int features = 0;        // triangles whose lines the tools keep: extended strong bends (see strong_features)
+  bool closed = false;     // the region has no border edge
   std::vector<std::string> messages;  // sentences for the user
 };
 

@@ -23,10 +23,10 @@ struct Report {
   Strategy strategy = Strategy::kAdaptive;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
 
-  // Counts.
+  // The counts of the work done.
   int unknowns = 0;
   int iterations = 0;         // accepted steps
-  int coarse_iterations = 0;  // accepted steps along the smooth motions, before
+  int coarse_iterations = 0;  // accepted steps of the coarse correction, before those
   int evaluations = 0;        // of the energy, with or without gradient
   int assemblies = 0;         // of a Hessian
   int analyses = 0;           // symbolic
@@ -39,21 +39,18 @@ struct Report {
   double gradient_after = 0.0;
   double seconds = 0.0;
 
-  int put_back = 0;  // unknowns of the start outside the bounds, moved into them before anything else
+  int put_back = 0;  // unknowns outside the bounds at the start, moved into them before anything else
 
-  // Filled in by the owner of the geometry: the minimizer knows of neither.
+  // The results in terms of the surface, filled in by the owner of the geometry: the minimizer does not know it.
   int limited = 0;             // vertices that touch the limit; see ShapeOptimizer::at_limit
-  double limited_share = 0.0;  // of the free ones
+  double limited_share = 0.0;  // those as a fraction of the free vertices
   double largest_move = 0.0;   // along the view direction, scene units
-  double residual_rms = 0.0;   // of |grad theta - target| over the triangles that can change, radians / length
+  double residual_rms =
+      0.0;  // root mean square of |grad theta - target| over the triangles that can change, radians / length
 
   bool converged() const {
     return termination == Termination::kConverged || termination == Termination::kAlreadyOptimal;
   }
 };
-
-// Adds the report on one piece to that on the pieces before it: counts and energies add up, and the least favourable
-// termination stands for all.
-void add_piece_report(const Report& piece, Report& sum);
 
 }  // namespace reflines

@@ -32,26 +32,29 @@ struct ShapeOptions {
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
   CreaseOptions creases;  // which edges are held, and no stencil reaches across
-  // The heights' affine map z = B x + c, where they follow fewer unknowns than there are vertices, as those of a
-  // subdivided cage do: B is #V x n, `start` (n) are the unknowns at the start. Without them every free vertex is an
-  // unknown.
+  // The linear part of the heights' affine map z = B x + c, for heights that depend on fewer unknowns than there are
+  // vertices, as those of a subdivided cage do: B is #V x n, `start` (n) holds the unknowns at the start. Without them
+  // every free vertex is an unknown.
   SparseMatrix B;
   Vector start;
-  double proximity = -1.0;             // weight of staying near the start; negative: see PieceProblem
-  std::shared_ptr<Progress> progress;  // or none: see ShapeOptimizer::watch; while it is built, too
-  // #F, or empty for 1 everywhere: the factor of each triangle's term in the energy; those with 0 cost nothing.
+  double proximity = -1.0;             // weight of the quadratic pull to the start; negative: see PieceProblem
+  std::shared_ptr<Progress> progress;  // null or the watcher of building and later work, see ShapeOptimizer::watch
+  // The quadrature weights (#F, or empty for 1 everywhere): factors of each triangle's term in the energy. A triangle
+  // of weight 0 is not evaluated.
   Vector quadrature_weight;
 };
 
 class ShapeOptimizer {
  public:
-  // V (#V x 3), F (#F x 3) the region's triangles; `line_directions` one or more families, all seen from the same view.
-  // The first one sets the frame. Throws InvalidInput; keeps no reference to its arguments.
+  // V (#V x 3) and F (#F x 3) are the region's vertices and triangles; `line_directions` has one or more families of
+  // light lines, all seen from the same view, the first of which sets the frame. Throws InvalidInput; keeps no
+  // reference to its arguments.
   ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
                  const std::vector<Vector3>& line_directions, const ShapeOptions& options = {});
   ~ShapeOptimizer();
 
-  // Tells `progress` (or none) between the steps of all that is made, and throws Cancelled there where it asks to stop.
+  // Reports the stages of later work other than solves to `progress` (or to nobody); that work throws Cancelled where
+  // it was cancelled.
   void watch(std::shared_ptr<Progress> progress);
 
   const Region& region() const { return region_; }
@@ -59,12 +62,12 @@ class ShapeOptimizer {
   int triangle_count() const;
   int family_count() const { return family_count_; }
 
-  // In the image plane, the same for all heights.
+  // These depend on the image plane only, not on the heights.
   PlanePositions xy() const;       // #V x 2
   PlanePositions centers() const;  // #F x 2, the triangles' centroids
   Vector area() const;             // #F, projected; 0 where not active
 
-  // Current state. Rows of triangles outside the pieces are zero.
+  // These depend on the current heights. Rows of triangles outside the pieces are zero.
   Vector heights() const;                // #V, along the view
   Positions positions() const;           // #V x 3; vertices that did not move carry the bits they came with
   Mask free() const;                     // #V
@@ -73,56 +76,54 @@ class ShapeOptimizer {
   Vector theta(int family) const;        // #F, radians
   PlaneVectors field(int family) const;  // #F x 2, grad theta
 
-  // All that the builders of targets in reflection/ need of the current state.
-  // Valid until a solve or a reset, or until another family is asked for.
+  // Returns the input of the builders in targets/ at the current heights; valid until a solve, a reset, or a call for
+  // another family.
   const RegionField& region_field(int family);
 
-  // Energy and |grad theta - target| (#F) of the current heights.
+  // Return the energy, and |grad theta - target| (#F), at the current heights.
   double energy(const std::vector<Target>& targets);
   Vector residual(const Target& target) const;
 
-  // Smooths the current field of a family, for build_smooth_target. Valid until the optimizer is destroyed; counts the
-  // features that it leaves alone in region().
+  // Returns the smoother of a family's current field for build_smooth_target. Valid until the optimizer is destroyed;
+  // using it updates the count of features in region().
   FieldSmoother smoother(int family);
 
-  // The lines that the surface would have with these heights along the view (#V); triangles that depend on a vertex of
-  // weight 0 have weight 0. Read as a solve reads its own, so that heights that it can reach are met exactly.
+  // The lines that the surface would have with other heights along the view (#V); triangles that depend on a vertex of
+  // weight 0 have weight 0. The lines are evaluated as in a solve, so that reachable heights are reproduced exactly.
   struct Lines {
     Target target;
     Vector theta;  // #F, radians
   };
-  Lines lines_of(const Vector& heights, const Vector& weight, int family);
+  Lines evaluate_lines(const Vector& heights, const Vector& weight, int family);
 
-  // Wobble of the lines in degrees: the root mean square, over the triangles that can change and are no features, of
-  // |field - field smoothed at `length`| times `length`: how far, within one length, the lines stray from their own
-  // smooth course.
+  // Returns the wobble of the lines in degrees: the root mean square, over the triangles that can change and are no
+  // features, of |field - field smoothed at `length`| times `length`, which is the deviation of the lines from their
+  // smoothed course within one length.
   double score(double length, int family);
 
-  // Moves the heights towards the targets, every piece on its own: to the minimum of the energy; of targets that ask
-  // for it, to what can be reached of them. On cancel or failure nothing has moved. Within a limit, and until the next
-  // solve or reset, no vertex is beyond it by a bit; heights that were, of a solve before, are first put back to it.
-  // Throws InvalidInput for a limit that does not fit, and for one of a cage.
+  // Moves the heights to a minimum of the targets' energy, every piece on its own; for targets with reachable_only, see
+  // ReachableTarget. On cancellation or failure the heights are unchanged. With a limit no vertex is beyond it, to the
+  // last bit, until the next solve or reset; heights beyond it from an earlier solve are first moved back to it. Throws
+  // InvalidInput for a limit that does not fit, and for any limit of a cage.
   Report solve(const std::vector<Target>& targets, const MinimizerOptions& options = {}, Progress* progress = nullptr,
                const MoveLimit& limit = MoveLimit::none());
 
-  // #V: -1 or 1 where the last solve's limit holds a vertex at its lowest or highest move, else 0.
+  // Returns for each vertex (#V) -1 or 1 where the last solve's limit holds it at its lowest or highest move, else 0.
   IndexVector at_limit() const;
 
-  // The second-order model at the current heights that a solve would factor: lower triangle over the free vertices, the
-  // pieces one after another.
+  // Returns the second-order model that a solve would factor at the current heights: the lower triangle over the free
+  // vertices, the pieces one after another.
   SparseMatrix hessian(const std::vector<Target>& targets, HessianModel model);
 
-  void reset();  // the heights it was built with
+  void reset();  // restores the heights that the optimizer was built with
 
- protected:
-  // Where the heights follow fewer unknowns: the numbers of those that can move, and their values. Else empty.
+  // These are for heights that depend on fewer unknowns (see ShapeOptions::B), which make one piece: the indices of the
+  // unknowns that can move, and their values. free_unknowns is empty without B.
   const std::vector<int>& free_unknowns() const { return free_unknowns_; }
   const Vector& unknowns() const;
-  void rest_at(const Vector& unknowns);  // sets them, and what the proximity pulls to
-  // Pulls vertices towards heights along the view with these weights (#V each) until a reset. Of one piece.
+  void rest_at(const Vector& unknowns);  // sets them, and the rest position of the proximity term
+  // Adds a quadratic pull of the vertices towards heights along the view with these weights (#V each) until a reset.
   void pull_to(const Vector& heights, const Vector& weight);
-
-  Region region_;
 
  private:
   void enter(double fraction, const char* stage) const;
@@ -132,12 +133,13 @@ class ShapeOptimizer {
   void measure(const std::vector<Target>& targets, Report& report) const;
   void tell_limit(Report& report) const;
 
+  Region region_;
   std::unique_ptr<RegionPieces> pieces_;
   int family_count_;
   double feature_length_ = 0.0;  // see RegionField::feature
   std::shared_ptr<Progress> progress_;
   std::vector<int> free_unknowns_;
-  bool sampled_ = false;  // few triangles count
+  bool sampled_ = false;  // some triangles have the quadrature weight 0
   std::optional<RegionField> region_field_;
 };
 

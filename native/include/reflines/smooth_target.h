@@ -12,18 +12,18 @@ namespace reflines {
 struct SmoothOptions {
   double length = 0.0;       // wavelength that is halved, in the mesh's unit of length; 0 changes nothing
   bool directional = false;  // only along the lines: they become straight, their spacing across stays
-  // |grad theta|, radians a length: gradients and changes that are longer count as if they were so long, since they are
-  // read off a thin triangle.
+  // The largest trusted |grad theta| in radians / length: longer gradients, and longer changes by smoothing, are
+  // shortened to it, since they are artefacts of thin triangles.
   double longest = std::numeric_limits<double>::infinity();
 };
 
-// Returns a region's field of gradients (#F x 2) without its detail finer than options.length; see
+// A function that returns a region's field of gradients (#F x 2) without its detail finer than options.length; see
 // ShapeOptimizer::smoother.
 using FieldSmoother = std::function<PlaneVectors(const SmoothOptions&)>;
 
-// The field `gradient` (#F x 2) of a family of light lines, blended by `strength` in [0, 1] with what the smoother
-// makes of it. Strength 0 and length 0 keep it bit for bit, and call no smoother. Throws InvalidInput: a length that is
-// negative or not finite, a strength outside [0, 1].
+// Builds the target that blends the field `gradient` (#F x 2) of a family, by `strength` in [0, 1], with its smoothed
+// field. Strength 0 and length 0 keep the field bit for bit without a call of the smoother. Throws InvalidInput: a
+// length that is negative or not finite, a strength outside [0, 1].
 Target build_smooth_target(const PlaneVectors& gradient, const FieldSmoother& smoother, const SmoothOptions& options,
                            double strength, int family);
 

@@ -3,7 +3,7 @@
 
 namespace reflines {
 
-// How the Hessian of a triangle is computed from the heights around it.
+// The method by which the Hessian of a triangle is computed from the heights around it.
 enum class StencilKind {
   kAveraged,    // eq. 6 as re-derived: jumps of the gradient over the three edges; consistent on regular meshes only
   kQuadratic,   // the quadratic through the six points (appendix), kAveraged on the region's border, where there are

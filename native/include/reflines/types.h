@@ -27,8 +27,8 @@ enum class HessianModel {
   kNewton,       // full second derivatives at x, projected to positive semi-definite element by element
 };
 
-// A loop over fewer vertices or triangles than this takes less than a millisecond: waking a second thread, and waiting
-// for one that another program holds up, costs more than it gains.
+// The number of vertices or triangles from which a loop runs on several threads: a shorter loop takes less than a
+// millisecond, and waking a second thread, or waiting for one that another program delays, costs more than it gains.
 constexpr int kWorthThreads = 30000;
 
 }  // namespace reflines

@@ -7,8 +7,8 @@ namespace {
 
 Vector2 corner(const HeightField& field, int t, int i) { return field.xy.row(field.F(t, i)); }
 
-// Outward perpendicular of the edge opposite corner i, with the edge's length (counter-clockwise triangle).
-Vector2 outward(const HeightField& field, int t, int i) {
+// Returns the outward perpendicular of the edge opposite corner i, with the edge's length (counter-clockwise triangle).
+Vector2 compute_outward(const HeightField& field, int t, int i) {
   const Vector2 edge = corner(field, t, (i + 2) % 3) - corner(field, t, (i + 1) % 3);
   return {edge.y(), -edge.x()};
 }
@@ -20,7 +20,7 @@ void add_gradient(const HeightField& field, int s, const Vector2& direction, dou
     size_t slot = 0;
     while (slot < stencil.vertex.size() && stencil.vertex[slot] != v) ++slot;
     if (slot == stencil.vertex.size()) stencil.vertex.push_back(v);
-    const Vector2 gradient = outward(field, s, j) * (-0.5 * scale / field.area(s));
+    const Vector2 gradient = compute_outward(field, s, j) * (-0.5 * scale / field.area(s));
     stencil.weight(0, slot) += gradient.x() * direction.x();
     stencil.weight(1, slot) += 0.5 * (gradient.x() * direction.y() + gradient.y() * direction.x());
     stencil.weight(2, slot) += gradient.y() * direction.y();
@@ -37,7 +37,7 @@ HessianStencil averaged_hessian(const HeightField& field, int t) {
   for (int i = 0; i < 3; ++i) {
     const int other = field.neighbors(t, i);
     if (other < 0) continue;
-    const Vector2 direction = outward(field, t, i);
+    const Vector2 direction = compute_outward(field, t, i);
     add_gradient(field, other, direction, scale, stencil);
     add_gradient(field, t, direction, -scale, stencil);
   }

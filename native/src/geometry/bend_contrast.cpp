@@ -8,32 +8,32 @@
 namespace reflines {
 namespace {
 
-// Widths grow by this factor. The first one is a little over the height of the larger triangle: on equal quads each
-// strip beside the edge then holds an edge like it.
+// The smallest width relative to the larger triangle's height, and the growth of the widths. The first is large enough
+// that on equal quads each strip beside the edge holds an edge of the same kind.
 constexpr double kFirstWidth = 1.2, kWidthGrowth = 1.5;
-// Width of a strip beside, over that of the strip in the middle. On equal quads of step 1 and a width of 2 and a bit
-// the middle holds 3 edges, and one no wider beside it 1 or 2.
+// The width of a strip beside, relative to the strip in the middle. On equal quads of step 1 and a width slightly above
+// 2 the middle holds 3 edges, and a strip of equal width beside it 1 or 2.
 constexpr double kBeside = 1.5;
-// A walk ends here at the latest: crossings of a very fine mesh beside a very coarse triangle.
+// The limit of crossings of a walk, for a very fine mesh beside a very coarse triangle.
 constexpr int kMostCrossings = 1000;
-// A side where the surface ends within the window counts only if it turns by this share of the edge: what is there
-// shows a round shape, what is missing shows nothing.
+// The least turning, relative to the bend of the edge, of a side where the surface ends within the window: the part
+// that exists may prove a round shape, the missing part proves nothing.
 constexpr double kTellingShare = 0.25;
 
 struct Crossing {
-  double distance, turning;  // from the edge; radians
+  double distance, turning;  // distance from the edge; radians
 };
 
 struct Path {
   std::vector<Crossing> crossings;
-  double length = 0.0;  // how far the surface goes on
+  double length = 0.0;  // distance to the end of the surface
 };
 
 Vector3 edge_direction(const BentSurface& surface, int t, int i) {
   return (surface.V.row(surface.F(t, (i + 2) % 3)) - surface.V.row(surface.F(t, (i + 1) % 3))).normalized();
 }
 
-double height_over(const BentSurface& surface, int t, int i) {
+double measure_height(const BentSurface& surface, int t, int i) {
   const Vector3 start = surface.V.row(surface.F(t, (i + 1) % 3)), apex = surface.V.row(surface.F(t, i));
   return edge_direction(surface, t, i).cross(apex - start).norm();
 }
@@ -41,7 +41,7 @@ double height_over(const BentSurface& surface, int t, int i) {
 // A straight walk over the surface, unfolded triangle by triangle.
 class Walk {
  public:
-  // Into t over the middle of the edge opposite corner i, at right angles to it.
+  // Starts in t at the middle of the edge opposite corner i, at right angles to it.
   Walk(const BentSurface& surface, int t, int i) : surface_(surface), t_(t), entry_(i) {
     const Vector3 normal = surface.normals.row(t);
     direction_ = normal.cross(edge_direction(surface, t, i));
@@ -62,8 +62,8 @@ class Walk {
   }
 
  private:
-  // The corner opposite of the edge through which the walk leaves t, and in step_ how far that is; -1 in the corner
-  // itself.
+  // Returns the corner opposite the edge through which the walk leaves t, and sets step_ to the distance to that edge;
+  // returns -1 where the walk meets a vertex.
   int next_exit() {
     const Vector3 normal = surface_.normals.row(t_);
     int exit = -1;
@@ -81,7 +81,7 @@ class Walk {
     return exit;
   }
 
-  // Goes on into the next triangle; the angle by which the walk's direction turns there.
+  // Enters the next triangle and returns the angle by which the walk's direction turns.
   double cross(int exit) {
     const Vector3 edge = edge_direction(surface_, t_, exit);
     const double along = direction_.dot(edge), across = direction_.dot(edge.cross(Vector3(surface_.normals.row(t_))));
@@ -89,7 +89,7 @@ class Walk {
     const int next = surface_.neighbors(t_, exit);
     place_ += step_ * direction_;
     direction_ = (along * edge + across * edge.cross(Vector3(surface_.normals.row(next)))).normalized();
-    entry_ = facing_corner(surface_, t_, exit);
+    entry_ = find_facing_corner(surface_, t_, exit);
     t_ = next;
     return turning;
   }
@@ -100,7 +100,7 @@ class Walk {
   Vector3 place_, direction_;
 };
 
-double turning_between(const Path& path, double from, double to) {
+double measure_turning(const Path& path, double from, double to) {
   double sum = 0;
   for (const Crossing& crossing : path.crossings) {
     if (crossing.distance >= from && crossing.distance < to) sum += crossing.turning;
@@ -108,11 +108,11 @@ double turning_between(const Path& path, double from, double to) {
   return sum;
 }
 
-double contrast_at(const Path (&sides)[2], double bend, double width) {
+double measure_contrast(const Path (&sides)[2], double bend, double width) {
   double inside = bend, beside = -1;
   for (const Path& side : sides) {
-    inside += turning_between(side, 0, 0.5 * width);
-    const double turning = turning_between(side, 0.5 * width, (0.5 + kBeside) * width);
+    inside += measure_turning(side, 0, 0.5 * width);
+    const double turning = measure_turning(side, 0.5 * width, (0.5 + kBeside) * width);
     if (side.length >= (0.5 + kBeside) * width || turning > kTellingShare * bend) beside = std::max(beside, turning);
   }
   if (beside < 0) return -1;
@@ -121,7 +121,7 @@ double contrast_at(const Path (&sides)[2], double bend, double width) {
 
 }  // namespace
 
-int facing_corner(const BentSurface& surface, int t, int i) {
+int find_facing_corner(const BentSurface& surface, int t, int i) {
   const int other = surface.neighbors(t, i), start = surface.F(t, (i + 1) % 3), end = surface.F(t, (i + 2) % 3);
   int corner = 0;
   while (surface.F(other, corner) == start || surface.F(other, corner) == end) ++corner;
@@ -129,13 +129,13 @@ int facing_corner(const BentSurface& surface, int t, int i) {
 }
 
 double bend_contrast(const BentSurface& surface, int t, int i, double widest) {
-  const int other = surface.neighbors(t, i), facing = facing_corner(surface, t, i);
-  const double first = kFirstWidth * std::max(height_over(surface, t, i), height_over(surface, other, facing));
+  const int other = surface.neighbors(t, i), facing = find_facing_corner(surface, t, i);
+  const double first = kFirstWidth * std::max(measure_height(surface, t, i), measure_height(surface, other, facing));
   const double reach = (0.5 + kBeside) * std::max(first, widest);
   const Path sides[2] = {Walk(surface, t, i).go(reach), Walk(surface, other, facing).go(reach)};
   double largest = -1;
   for (double width = first; width <= std::max(first, widest); width *= kWidthGrowth) {
-    largest = std::max(largest, contrast_at(sides, surface.bend(t, i), width));
+    largest = std::max(largest, measure_contrast(sides, surface.bend(t, i), width));
   }
   return largest;
 }

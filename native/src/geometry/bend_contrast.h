@@ -1,4 +1,4 @@
-// How far the bend of an edge stands out against the turning of the surface across it.
+// The contrast between the bend of an edge and the turning of the surface beside it.
 #pragma once
 
 #include "geometry/crease.h"
@@ -6,7 +6,7 @@
 
 namespace reflines {
 
-// A triangle surface with what walks over it need.
+// A triangle surface with the data of geodesic walks on it.
 struct BentSurface {
   const Positions& V;          // #V x 3
   const Triangles& F;          // #F x 3
@@ -15,15 +15,15 @@ struct BentSurface {
   EdgeBends bend;              // see edge_bends
 };
 
-// The turning of the surface within a strip along the edge opposite corner i of t, over the larger one of the two
-// strips beside it: the largest such ratio over widths from the triangles' own height up to `widest`. The turning is
-// summed (without signs) along the geodesic that leaves the middle of the edge at right angles. A cylinder, a cone or a
-// sphere turns alike everywhere, however coarse its polygons are: about 1; an edge of a fillet, a hem or a gap turns in
-// a strip between calm neighbours. Infinite where both neighbours are flat; negative where the surface ends too soon on
-// both sides to tell.
+// Returns the turning of the surface within a strip along the edge opposite corner i of t, divided by the larger
+// turning in the two strips beside it: the largest such ratio over strip widths from the triangles' own height up to
+// `widest`. The turning is summed (unsigned) along the geodesic perpendicular to the edge through its midpoint.
+// Cylinders, cones and spheres turn uniformly, however coarse their polygons: about 1; the turning of a fillet, a hem
+// or a gap is concentrated. Infinite where both neighbours are flat; negative where the surface ends too soon on both
+// sides to decide.
 double bend_contrast(const BentSurface& surface, int t, int i, double widest);
 
-// The corner, in the triangle across it, that the edge opposite corner i of t is opposite of.
-int facing_corner(const BentSurface& surface, int t, int i);
+// Returns the corner of the neighbouring triangle that is opposite the edge shared with corner i of t.
+int find_facing_corner(const BentSurface& surface, int t, int i);
 
 }  // namespace reflines

@@ -18,7 +18,7 @@ void mark_columns(const SparseMatrix& matrix, const Mask& rows, Mask* columns) {
 
 }  // namespace
 
-Mask refined_border(const Subdivision& subdivision, const Mask& region) {
+Mask find_refined_border(const Subdivision& subdivision, const Mask& region) {
   const auto& faces = subdivision.faces;
   std::vector<std::array<int, 2>> edges;
   for (int f = 0; f < faces.rows(); ++f) {
@@ -38,8 +38,8 @@ Mask refined_border(const Subdivision& subdivision, const Mask& region) {
   return border;
 }
 
-Mask held_by_border(const Subdivision& subdivision, const Mask& region, Border hold) {
-  const Mask border = refined_border(subdivision, region);
+Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, Border hold) {
+  const Mask border = find_refined_border(subdivision, region);
   Mask held = Mask::Constant(subdivision.positions.cols(), false);
   if (hold != Border::kFree) mark_columns(subdivision.positions, border, &held);
   if (hold == Border::kClamped) {

@@ -1,5 +1,5 @@
-// Finds the vertices of a cage that must stay so that the border of the subdivided surface stays. Borders are those of
-// the refined surface, and the subdivision matrices say which vertices of the cage it depends on.
+// Finds the vertices of a cage that must be held so that the border of the subdivided surface stays. Borders are those
+// of the refined surface; the subdivision matrices tell on which vertices of the cage it depends.
 #pragma once
 
 #include "reflines/border.h"
@@ -8,16 +8,17 @@
 
 namespace reflines {
 
-// #refined: the vertices on edges of exactly one refined face of the region. `region` (#cage faces) are the cage's
-// faces that may change; where they end inside the surface, that is a border like the surface's own.
-Mask refined_border(const Subdivision& subdivision, const Mask& region);
+// Returns the refined vertices (#refined) on edges of exactly one refined face of the region. `region` (#cage faces)
+// are the cage's faces that may change; where they end inside the surface, there is a border too.
+Mask find_refined_border(const Subdivision& subdivision, const Mask& region);
 
-// #V: the cage vertices to hold, those of no region face among them. Worked out from the matrices, and always this:
-// * where the region ends at the surface's own border, positions need that border's ring of the cage, and tangents
-//   one ring more: the vertices that share a face with it. Extraordinary vertices, n-gons and creases change nothing.
-// * where the region ends inside the surface, both need its border's ring and one ring more. All refined vertices
-//   outside stay then, too, and with them the curvature across the border where the surface is regular.
-// None is held without need: on a sheet, positions and tangents of the border determine every held vertex.
-Mask held_by_border(const Subdivision& subdivision, const Mask& region, Border hold);
+// Returns the cage vertices to hold (#V), including those of no region face. They follow from the matrices, with these
+// results:
+// * where the region ends at the surface's own border, positions depend on that border's ring of the cage, and tangents
+// on one ring more: the vertices that share a face with it. Extraordinary vertices, n-gons and creases change nothing.
+// * where the region ends inside the surface, both depend on its border's ring and one ring more. All refined vertices
+// outside stay then, too, and with them the curvature across the border where the surface is regular.
+// The set is minimal: on a sheet, positions and tangents of the border determine every held vertex.
+Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, Border hold);
 
 }  // namespace reflines

@@ -12,18 +12,19 @@ namespace {
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-constexpr double kSameMark = 1e-12;  // sums of weights that differ by rounding; the marks of 1e5 rows lie 1e-5 apart
+constexpr double kSameMark = 1e-12;  // tolerance of sums that differ by rounding; the marks of 1e5 rows lie 1e-5 apart
 constexpr double kNoMark = 1e3;
 
-// Numbers between 0 and 1 without any order.
-double mark(int index) {
+// Returns a pseudo-random number between 0 and 1 for an index.
+double hash_index(int index) {
   const double x = 43758.5453 * std::sin(12.9898 * (index + 1));
   return x - std::floor(x);
 }
 
-// The first vertex without a partner within the tolerance of a place, nearest first; -1 where there is none.
-int nearest(const Positions& V, const std::vector<int>& by_x, const IndexVector& partner, const Vector3& place,
-            double tolerance) {
+// Returns the nearest vertex without a partner within the tolerance of a place, the first of equally near ones; -1
+// where there is none.
+int find_nearest(const Positions& V, const std::vector<int>& by_x, const IndexVector& partner, const Vector3& place,
+                 double tolerance) {
   const auto left = [&](int vertex, double x) { return V(vertex, 0) < x; };
   int best = -1;
   double best_distance = tolerance;
@@ -54,7 +55,7 @@ IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double to
   for (int v = 0; v < V.rows(); ++v) {
     if (partner[v] >= 0) continue;
     const Vector3 image = V.row(v).transpose() - 2 * side[v] * normal;
-    const int other = nearest(V, by_x, partner, image, tolerance);
+    const int other = find_nearest(V, by_x, partner, image, tolerance);
     if (other < 0 || other == v) continue;
     partner[v] = other;
     partner[other] = v;
@@ -62,7 +63,7 @@ IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double to
   return partner;
 }
 
-SparseMatrix cage_unknowns(const Mask& held, const IndexVector& partner) {
+SparseMatrix build_cage_unknowns(const Mask& held, const IndexVector& partner) {
   std::vector<Eigen::Triplet<double>> entries;
   int unknowns = 0;
   for (int v = 0; v < held.size(); ++v) {
@@ -77,9 +78,9 @@ SparseMatrix cage_unknowns(const Mask& held, const IndexVector& partner) {
   return B;
 }
 
-IndexVector refined_partners(const SparseMatrix& S, const IndexVector& partner) {
+IndexVector find_refined_partners(const SparseMatrix& S, const IndexVector& partner) {
   Positions marks(S.cols(), 3), image = Positions::Constant(S.cols(), 3, kNoMark);
-  for (int v = 0; v < S.cols(); ++v) marks.row(v) << mark(3 * v), mark(3 * v + 1), mark(3 * v + 2);
+  for (int v = 0; v < S.cols(); ++v) marks.row(v) << hash_index(3 * v), hash_index(3 * v + 1), hash_index(3 * v + 2);
   for (int v = 0; v < S.cols(); ++v) {
     if (partner[v] >= 0) image.row(v) = marks.row(partner[v]);
   }
@@ -99,7 +100,7 @@ IndexVector refined_partners(const SparseMatrix& S, const IndexVector& partner) 
   return result;
 }
 
-SparseMatrix symmetrized(const SparseMatrix& S, const IndexVector& partner, const IndexVector& refined_partner) {
+SparseMatrix symmetrize(const SparseMatrix& S, const IndexVector& partner, const IndexVector& refined_partner) {
   const RowMatrix rows = S;
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(S.nonZeros());
@@ -116,15 +117,16 @@ SparseMatrix symmetrized(const SparseMatrix& S, const IndexVector& partner, cons
   return result;
 }
 
-Positions symmetric_positions(const SparseMatrix& S, const IndexVector& partner, const IndexVector& refined_partner,
-                              const Positions& V) {
+Positions multiply_symmetric(const SparseMatrix& S, const IndexVector& partner, const IndexVector& refined_partner,
+                             const Positions& V) {
   const RowMatrix rows = S;
   Positions result = Positions::Zero(S.rows(), 3);
   for (int row = 0; row < rows.rows(); ++row) {
     const int other = refined_partner[row], source = other >= 0 && other < row ? other : row;
     for (RowMatrix::InnerIterator it(rows, source); it; ++it) {
       const int column = static_cast<int>(it.col()), image = other >= 0 ? partner[column] : column;
-      if (other == row && image < column) continue;  // added together with its partner: what leaves the plane cancels
+      if (other == row && image < column)
+        continue;  // added together with its partner: the components normal to the plane cancel
       if (other == row && image != column) {
         result.row(row) += it.value() * (V.row(column) + V.row(image));
       } else {

@@ -13,16 +13,16 @@
 namespace reflines {
 namespace {
 
-constexpr double kChainShare = 0.25;  // of the crease angle: edges of a chain
-constexpr double kChainReach = 0.08;  // of the region's extent: the shortest chain and the widest strip
-// Turning of a crease over that of the surface beside it. Of 240 coarse round shapes of 12 to 64 sides (cylinders,
-// cones, barrels, spheres, tori, ellipses of 2 to 1, cut along diagonals by chance) none exceeds 1.9 but the tips of
-// cones. Of the edges that bend by more than 30 degrees or in a long chain on 11 selections of a car body 92 % do, half
-// of them 20 times; most others are on wheels and mirrors, whose triangles are about as large as their radii.
+constexpr double kChainShare = 0.25;  // bend of the edges of a chain, relative to the crease angle
+constexpr double kChainReach = 0.08;  // shortest chain and widest strip, relative to the region's extent
+// The least contrast (see bend_contrast) of a crease. Of 240 coarse round shapes of 12 to 64 sides (cylinders, cones,
+// barrels, spheres, tori, ellipses of 2 to 1, cut along random diagonals) none exceeds 1.9 but the tips of cones. Of
+// the edges that bend by more than 30 degrees or in a long chain on 11 selections of a car body 92 % do, half of them
+// 20 times; most others are on wheels and mirrors, whose triangles are about as large as their radii.
 constexpr double kJump = 2.0;
 
-// For every vertex the extent of the chain of marked edges it belongs to: twice the largest distance from its centre.
-// The diagonal of a box would depend on how the object is turned.
+// Returns for every vertex the extent of the chain of marked edges that it belongs to: twice the largest distance from
+// its centre. The diagonal of a box would depend on the object's rotation.
 Vector chain_extent(const Positions& V, const Triangles& F, const EdgeMask& marked) {
   UnionFind chains(V.rows());
   for (int t = 0; t < F.rows(); ++t) {
@@ -53,9 +53,10 @@ double region_extent(const Positions& V, const Triangles& F) {
   return 2 * radius;
 }
 
-// Edges that bend by more than `least` and jump; `sharp` ones also where the surface ends too soon to tell. Each edge
-// is judged once, from its first triangle: from the other one the sums round differently.
-EdgeMask jumping_edges(const BentSurface& surface, double least, double sharp, double widest) {
+// Marks edges that bend by more than `least` and have the contrast of a crease; those that bend by more than `sharp`
+// also where the surface ends too soon to decide. Each edge is tested once, from its first triangle: from the other one
+// the sums round differently.
+EdgeMask find_contrasting_edges(const BentSurface& surface, double least, double sharp, double widest) {
   EdgeMask result = EdgeMask::Constant(surface.F.rows(), 3, false);
 #pragma omp parallel for schedule(dynamic, 1024) if (surface.F.rows() > kWorthThreads)
   for (int t = 0; t < static_cast<int>(surface.F.rows()); ++t) {
@@ -67,17 +68,17 @@ EdgeMask jumping_edges(const BentSurface& surface, double least, double sharp, d
   }
   for (int t = 0; t < surface.F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      if (result(t, i)) result(surface.neighbors(t, i), facing_corner(surface, t, i)) = true;
+      if (result(t, i)) result(surface.neighbors(t, i), find_facing_corner(surface, t, i)) = true;
     }
   }
   return result;
 }
 
-EdgeMask found_edges(const Positions& V, const Triangles& F, const Triangles& neighbors, double angle) {
+EdgeMask find_bent_edges(const Positions& V, const Triangles& F, const Triangles& neighbors, double angle) {
   const double reach = kChainReach * region_extent(V, F);
   const Positions normals = triangle_normals(V, F);
   const BentSurface surface{V, F, neighbors, normals, edge_bends(normals, neighbors)};
-  EdgeMask result = jumping_edges(surface, kChainShare * angle, angle, reach);
+  EdgeMask result = find_contrasting_edges(surface, kChainShare * angle, angle, reach);
   if (!result.any()) return result;
   const Vector extent = chain_extent(V, F, result);
   for (int t = 0; t < F.rows(); ++t) {
@@ -132,7 +133,7 @@ EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& n
                       const CreaseOptions& options) {
   if (options.rule == CreaseRule::kNone) return EdgeMask::Constant(F.rows(), 3, false);
   const EdgeMask marked = marked_edges(F, options) && neighbors.array() >= 0;
-  return options.rule == CreaseRule::kMarked ? marked : marked || found_edges(V, F, neighbors, options.angle);
+  return options.rule == CreaseRule::kMarked ? marked : marked || find_bent_edges(V, F, neighbors, options.angle);
 }
 
 }  // namespace reflines

@@ -1,4 +1,4 @@
-// Finds the edges at which a mesh is no fair surface: gaps, folds, hems.
+// Finds the creases of a mesh: edges of gaps, folds and hems, across which the surface is not smooth.
 #pragma once
 
 #include "reflines/crease_options.h"
@@ -6,25 +6,26 @@
 
 namespace reflines {
 
-// #T x 3, unit; 0 for triangles without area.
+// Returns unit normals (#T x 3); 0 for triangles without area.
 Positions triangle_normals(const Positions& V, const Triangles& F);
 
-// #T x 3: the angle between the normals (#T x 3) on both sides of the edge opposite that corner, radians; 0 on borders.
+// The angles between the normals (#T x 3) on both sides of the edge opposite each corner (#T x 3), radians; 0 on
+// borders.
 using EdgeBends = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 EdgeBends edge_bends(const Positions& normals, const Triangles& neighbors);
 
-// #T x 3, true where the edge opposite that corner is a crease: marked, or found. Found is an edge whose bend jumps
-// against the surface across it (see bend_contrast), at the width of one triangle or of any strip up to 8 % of the
-// region, and that bends by more than the angle, or belongs to a connected chain of edges that jump, bend by more than
-// a quarter of the angle each and reach over 8 % of the region. Where the surface ends too soon to tell, an edge
-// sharper than the angle is one. Round shapes bend alike all over and have none, however coarse they are. A few
-// vertices out of place bend edges as sharply as a crease, but not in a long chain: they are to be faired, the gap to
-// the windscreen is not. Measured on a car's bonnet selected across that gap, 140 rad / m against 0.5 on the panel:
+// Marks the creases, #T x 3 by the corner opposite the edge: marked edges, and found ones. An edge is found where its
+// bend stands out against the surface beside it (see bend_contrast), at the width of one triangle or of any strip up to
+// 8 % of the region, and where it bends by more than the angle, or belongs to a connected chain of such edges that bend
+// by more than a quarter of the angle each and reach over 8 % of the region. Where the surface ends too soon to decide,
+// an edge sharper than the angle is a crease. Round shapes turn uniformly and have none, however coarse they are. A few
+// displaced vertices bend edges as sharply as a crease, but not in a long chain: they are to be faired, whereas the gap
+// to the windscreen is not. Measured on a car's bonnet selected across that gap, 140 rad / m against 0.5 on the panel:
 // solved as one surface, vertices move by 92 mm; with the gap held, by 0.7 mm.
 using EdgeMask = Eigen::Array<bool, Eigen::Dynamic, 3, Eigen::RowMajor>;
 EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& neighbors, const CreaseOptions& options);
 
-// #T x 3, true where the edge opposite that corner is one of the marked ones.
+// Marks the edges of options.marked, #T x 3 by the corner opposite the edge.
 EdgeMask marked_edges(const Triangles& F, const CreaseOptions& options);
 
 }  // namespace reflines

@@ -11,11 +11,11 @@
 namespace reflines {
 namespace {
 
-// Height over longest edge below which the normal of a triangle of rounded positions is noise (a vertex on the straight
-// side of an n-gon leaves such a triangle).
+// The ratio of height to longest edge below which the normal of a triangle with rounded positions is noise (a vertex on
+// the straight side of an n-gon leaves such a triangle).
 constexpr double kThin = 1e-3;
 
-// The corner opposite the longest edge of a thin triangle; -1 for others.
+// Returns the corner opposite the longest edge of a thin triangle; -1 for others.
 int blunt_corner(const Positions& V, const Triangles& F, int t) {
   const Vector3 p[3] = {V.row(F(t, 0)), V.row(F(t, 1)), V.row(F(t, 2))};
   int corner = 0;
@@ -28,8 +28,9 @@ int blunt_corner(const Positions& V, const Triangles& F, int t) {
   return (p[1] - p[0]).cross(p[2] - p[0]).norm() < kThin * longest * longest ? corner : -1;
 }
 
-// Thin triangles have the normal of their neighbour across the longest edge: they bend no edge themselves.
-Positions trusted_normals(const Positions& V, const Triangles& F, const Triangles& neighbors) {
+// Returns the normals, where a thin triangle has that of its neighbour across the longest edge and so bends no edge
+// itself.
+Positions compute_trusted_normals(const Positions& V, const Triangles& F, const Triangles& neighbors) {
   const Positions own = triangle_normals(V, F);
   Positions normals = own;
   for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
@@ -39,7 +40,7 @@ Positions trusted_normals(const Positions& V, const Triangles& F, const Triangle
   return normals;
 }
 
-// Corner i of triangle t is 3 t + i. Those of a fan have one representative.
+// The fans of triangles around vertices as disjoint sets of corners; corner i of triangle t is 3 t + i.
 class Fans {
  public:
   explicit Fans(const Triangles& F) : F_(F), corners_(F.size()) {}
@@ -61,7 +62,7 @@ class Fans {
 
 Fans fans_between_creases(const Positions& V, const Triangles& F, double angle) {
   const Triangles neighbors = edge_neighbors(F);
-  const EdgeBends bend = edge_bends(trusted_normals(V, F, neighbors), neighbors);
+  const EdgeBends bend = edge_bends(compute_trusted_normals(V, F, neighbors), neighbors);
   Fans fans(F);
   for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
     for (int i = 0; i < 3; ++i) {

@@ -9,11 +9,11 @@ namespace reflines {
 
 struct SplitSurface {
   Triangles F;              // #F x 3: the same triangles, of split vertices
-  std::vector<int> vertex;  // #S: the vertex that each split vertex was; the first #V are themselves
+  std::vector<int> vertex;  // #S: original vertex of each split vertex; the first #V are themselves
 };
 
-// Each vertex once for every fan of its triangles that hangs together over edges which bend by no more than `angle`
-// (radians). V is #V x 3. Throws InvalidInput for indices out of range.
+// Splits each vertex (V is #V x 3) into one for every fan of its triangles that are connected over edges which bend by
+// no more than `angle` (radians). Throws InvalidInput for indices out of range.
 SplitSurface split_at_creases(const Positions& V, const Triangles& F, double angle);
 
 }  // namespace reflines

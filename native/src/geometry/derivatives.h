@@ -6,24 +6,24 @@
 
 namespace reflines {
 
-// f_x, f_y, f_xx, f_xy, f_yy of one triangle.
+// The derivatives f_x, f_y, f_xx, f_xy, f_yy of one triangle.
 using Vector5 = Eigen::Matrix<double, 5, 1>;
-// #T x 5, one row a triangle.
+// The derivatives of all triangles, #T x 5.
 using TriangleDerivatives = Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor>;
 
-// Which stencil entries name each vertex: the rows of D^T. Gathering by vertex instead of scattering by triangle makes
-// the sums independent of the number of threads.
+// The stencil entries of each vertex: the rows of D^T. Gathering by vertex instead of scattering by triangle makes the
+// sums independent of the number of threads.
 struct StencilEntries {
   Incidence entries_of_vertex;
-  std::vector<int> triangle;  // #entries: whose stencil an entry belongs to
+  std::vector<int> triangle;  // #entries: triangle of the stencil that an entry belongs to
 
   StencilEntries(const Stencils& stencils, int vertex_count);
 };
 
-// u = D z for heights z (#V); `u` keeps its memory.
+// Computes u = D z for heights z (#V); `u` keeps its memory.
 void apply_stencils(const Stencils& stencils, const Vector& z, TriangleDerivatives& u);
 
-// Those of triangle t alone.
+// Computes the derivatives of triangle t alone.
 inline Vector5 apply_stencil(const Stencils& stencils, int t, const Vector& z) {
   const int first = stencils.offset[t];
   const double* weight = stencils.gradient.data() + 6 * static_cast<size_t>(t);
@@ -39,9 +39,9 @@ inline Vector5 apply_stencil(const Stencils& stencils, int t, const Vector& z) {
   return {weight[0] * a + weight[2] * b + weight[4] * c, weight[1] * a + weight[3] * b + weight[5] * c, xx, xy, yy};
 }
 
-// D^T y is made in two passes, both of which read the large arrays in order (fetching an entry's weights from the
-// vertex's side took five times as long, for they lie far apart): a triangle's y times the weights of its entries into
-// `products` (#entries), then the sum over each vertex's entries.
+// Computes the first pass of D^T y, which takes two passes that both read the large arrays in order (fetching an
+// entry's weights from the vertex's side took five times as long, for they lie far apart): a triangle's y times the
+// weights of its entries go to `products` (#entries), and `sum_products` sums those of each vertex into `result` (#V).
 inline void multiply_stencil(const Stencils& stencils, int t, const Vector5& y, Vector& products) {
   const int first = stencils.offset[t];
   const double* gradient = stencils.gradient.data() + 6 * static_cast<size_t>(t);
@@ -51,6 +51,6 @@ inline void multiply_stencil(const Stencils& stencils, int t, const Vector5& y, 
   }
   for (int i = 0; i < 3; ++i) products(first + i) += gradient[2 * i] * y(0) + gradient[2 * i + 1] * y(1);
 }
-void sum_products(const StencilEntries& entries, const Vector& products, Vector& result);  // result: #V
+void sum_products(const StencilEntries& entries, const Vector& products, Vector& result);
 
 }  // namespace reflines

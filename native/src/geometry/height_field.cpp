@@ -23,7 +23,7 @@ Facing facing(const Positions& V, const Triangles& F, int t, const Vector3& view
   return cosine > 0 ? Facing::kViewer : Facing::kAway;
 }
 
-// Fills F, source and the counts; returns the vertices of the triangles that were left out.
+// Fills F, source and the counts; returns the vertices of the triangles that are left out.
 Mask keep_facing(const Positions& V, const Triangles& F, const Vector3& view, HeightField& field) {
   Mask left_out = Mask::Constant(V.rows(), false);
   field.F.resize(F.rows(), 3);
@@ -75,7 +75,7 @@ void hold(std::vector<VertexRole>& role, int v, VertexRole how) {
   if (role[v] == VertexRole::kFree) role[v] = how;
 }
 
-// The region's border and its creases: where the border's condition holds.
+// Returns the vertices of the region's border and of its creases, where the border's condition holds.
 Mask edge_vertices(const Triangles& F, const Triangles& neighbors, const Mask& on_crease) {
   Mask result = on_crease;
   for (int t = 0; t < F.rows(); ++t) {

@@ -1,5 +1,5 @@
-// A region of a mesh as height fields over the image plane: which triangles face the viewer, what each vertex may do,
-// and which triangles are coupled into pieces (paper, section 3).
+// A region of a mesh as height fields over the image plane: the triangles that face the viewer, the role of each
+// vertex, and the pieces of coupled triangles (paper, section 3).
 #pragma once
 
 #include <vector>
@@ -12,11 +12,11 @@
 
 namespace reflines {
 
-// What a vertex may do in a solve.
+// The role of a vertex in a solve.
 enum class VertexRole : signed char {
   kUnused,   // touches no triangle of a height-field piece
   kFree,     // moves along the view
-  kFixed,    // stays, by a border, a silhouette or because the caller holds it
+  kFixed,    // stays, because of a border, a silhouette or the caller's mask
   kClamped,  // stays because a clamped border vertex is one edge away
 };
 
@@ -27,7 +27,7 @@ struct Boundary {
   bool hold_creases = true;  // false: no stencil reaches across a crease, but its vertices may move
 };
 
-// Triangles whose unit normal n has |n.v| below this are silhouettes, seen at less than 12 degrees: there a move along
+// The |n.v| of a unit normal n below which a triangle is a silhouette, seen at less than 12 degrees: there a move along
 // the view slides the surface five times as far as it lifts it. On 25 careless selections of car bodies (smoothed, all
 // automatic) 254 faces turn by more than 90 degrees with 0.02, and 112 with 0.2 (18 with the gradients that smoothing
 // shortens, see SmoothOptions::longest); selections without such faces keep their bits.
@@ -35,11 +35,11 @@ constexpr double kSilhouette = 0.2;
 
 struct HeightField {
   Triangles F;              // #T x 3: the triangles that face the viewer, indices into the region's vertices
-  std::vector<int> source;  // #T: which triangle of the region each one is
+  std::vector<int> source;  // #T: index of each one among the triangles of the region
   Triangles neighbors;      // #T x 3: the one across the edge opposite each corner, or -1; also -1 across a crease
   Vector area;              // #T: projected area, > 0
-  PlanePositions xy;        // #V x 2, from the region's centroid
-  Vector z;                 // #V, from the region's centroid
+  PlanePositions xy;        // #V x 2, relative to the region's centroid
+  Vector z;                 // #V, relative to the region's centroid
   Incidence triangles_of_vertex;  // among F
   std::vector<VertexRole> role;   // #V
   std::vector<int> piece;         // #T: 0 .. piece_count - 1
@@ -47,17 +47,17 @@ struct HeightField {
   int silhouette_count = 0;   // triangles left out: |n.v| < kSilhouette
   int turned_away_count = 0;  // triangles left out: n.v < 0, turned away or folded over
   int crease_count = 0;       // edges that are creases
-  int marked_count = 0;       // those of them that were marked
+  int marked_count = 0;       // marked edges among the creases
   bool closed = false;        // the region has no border edge
 
   int vertex_count() const { return static_cast<int>(xy.rows()); }
   int triangle_count() const { return static_cast<int>(F.rows()); }
   bool has_free_vertex(int t) const;
-  double diagonal() const;  // of the bounding box of the used vertices in the image plane
+  double diagonal() const;  // diagonal of the used vertices' bounding box in the image plane
 };
 
-// Splits a checked region (see check_surface) at its silhouettes and creases (see crease_edges). Vertices of triangles
-// left out and of creases are fixed. Pieces are coupled sets: triangles that share an edge or any other vertex belong
+// Splits a checked region (see check_surface) at its silhouettes and creases (see crease_edges). Vertices of excluded
+// triangles and of creases are fixed. Pieces are coupled sets: triangles that share an edge or any other vertex belong
 // to one piece. Throws InvalidInput where no triangle faces the viewer.
 HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame,
                               const Boundary& boundary);

@@ -8,10 +8,10 @@
 namespace reflines {
 namespace {
 
-// sin of the smallest angle between view and lines: below it theta turns by 2 pi within a pixel and shows nothing.
+// The sine of the smallest angle between view and lines: below it theta turns by 2 pi within a pixel.
 constexpr double kParallel = 1e-3;
 
-Vector3 unit(const Vector3& direction, const std::string& name) {
+Vector3 normalize(const Vector3& direction, const std::string& name) {
   if (!direction.allFinite() || direction.norm() == 0.0) {
     throw InvalidInput("The " + name + " has no direction (zero length or not a number); give three finite numbers.");
   }
@@ -21,8 +21,8 @@ Vector3 unit(const Vector3& direction, const std::string& name) {
 }  // namespace
 
 ImagePlane::ImagePlane(const Vector3& view_direction, const Vector3& line_direction) {
-  z_ = unit(view_direction, "view direction");
-  const Vector3 a = unit(line_direction, "line direction");
+  z_ = normalize(view_direction, "view direction");
+  const Vector3 a = normalize(line_direction, "line direction");
   const Vector3 projected = a - a.dot(z_) * z_;
   if (projected.norm() < kParallel) {
     throw InvalidInput(

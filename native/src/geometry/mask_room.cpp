@@ -16,12 +16,12 @@ using std::to_string;
 constexpr int kReserved = 16;
 constexpr const char* kRemedy = "delete the inner ones until at most two share an edge.";
 
-CageEdge most_crowded(const std::vector<CageEdge>& edges) {
+CageEdge find_most_crowded(const std::vector<CageEdge>& edges) {
   return *std::max_element(edges.begin(), edges.end(),
                            [](const CageEdge& a, const CageEdge& b) { return a.faces < b.faces; });
 }
 
-int largest_face(const Cage& cage) {
+int find_largest_face(const Cage& cage) {
   const Eigen::Index faces = cage.face_offsets.size() - 1;
   return (cage.face_offsets.tail(faces) - cage.face_offsets.head(faces)).maxCoeff();
 }
@@ -35,8 +35,8 @@ void check_mask_room(const Cage& cage) {
   for (const int vertex : cage.face_vertices) ++faces_at[vertex];
   // The first level keeps these numbers and puts a vertex with 2 + k edges and 2 k faces on an edge of k faces, and one
   // with as many edges as corners, and no more faces, into each face.
-  const CageEdge crowded = most_crowded(edges);
-  const int room = std::max({kReserved, edges_at.maxCoeff(), largest_face(cage), 2 + crowded.faces});
+  const CageEdge crowded = find_most_crowded(edges);
+  const int room = std::max({kReserved, edges_at.maxCoeff(), find_largest_face(cage), 2 + crowded.faces});
   if (2 * crowded.faces > room) {
     throw InvalidInput(to_string(crowded.faces) + " faces of the cage share the edge between the vertices " +
                        to_string(crowded.first) + " and " + to_string(crowded.second) +

@@ -10,10 +10,12 @@
 namespace reflines {
 namespace {
 
-// float32 positions round a collinear triangle to a height of about 1e-7 of its longest edge; thinner is no triangle.
+// The ratio of height to longest edge below which a triangle is degenerate: float32 positions give a collinear one
+// about 1e-7.
 constexpr double kFlatTriangle = 1e-7;
 
-// Stencils spread around a pole couple all of its spokes: 4,000 take 7.5 s and 600 MB to factor, 2,000 a second.
+// The largest valence of a pole: stencils spread around it couple all of its spokes, and 4,000 take 7.5 s and 600 MB to
+// factor, 2,000 a second.
 constexpr int kMostSpokes = 2000;
 
 struct HalfEdge {
@@ -21,29 +23,30 @@ struct HalfEdge {
   int triangle, corner;
 };
 
-// Within one lower vertex.
+// Compares half-edges of one lower vertex.
 bool comes_first(const HalfEdge& a, const HalfEdge& b) {
   return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
 }
 
 bool same_edge(const HalfEdge& a, const HalfEdge& b) { return a.low == b.low && a.high == b.high; }
 
-HalfEdge half_edge(const Triangles& F, int triangle, int corner) {
+HalfEdge make_half_edge(const Triangles& F, int triangle, int corner) {
   const int a = F(triangle, (corner + 1) % 3), b = F(triangle, (corner + 2) % 3);
   return {std::min(a, b), std::max(a, b), triangle, corner};
 }
 
-// By lower vertex, then higher vertex, then triangle. Dealt into one short list a lower vertex first: linear in the
-// size of the mesh, where one long sort took four times as long at a million vertices.
-std::vector<HalfEdge> sorted_half_edges(const Triangles& F) {
+// Sorts half-edges by lower vertex, then higher vertex, then triangle. They are distributed into one short list for
+// each lower vertex first: linear in the size of the mesh, where one long sort took four times as long at a million
+// vertices.
+std::vector<HalfEdge> sort_half_edges(const Triangles& F) {
   const int count = static_cast<int>(F.size()), vertex_count = count > 0 ? F.maxCoeff() + 1 : 0;
   std::vector<int> start(vertex_count + 1, 0);
-  for (int k = 0; k < count; ++k) ++start[half_edge(F, k / 3, k % 3).low + 1];
+  for (int k = 0; k < count; ++k) ++start[make_half_edge(F, k / 3, k % 3).low + 1];
   for (int v = 0; v < vertex_count; ++v) start[v + 1] += start[v];
   std::vector<HalfEdge> edges(count);
   std::vector<int> next(start.begin(), start.end() - 1);
   for (int k = 0; k < count; ++k) {
-    const HalfEdge edge = half_edge(F, k / 3, k % 3);
+    const HalfEdge edge = make_half_edge(F, k / 3, k % 3);
     edges[next[edge.low]++] = edge;
   }
 #pragma omp parallel for schedule(static) if (vertex_count > kWorthThreads)
@@ -88,7 +91,7 @@ void check_poles(const Triangles& F) {
                      ": divide the large face or fan there, or deselect it.");
 }
 
-// A copy of a triangle meets the first one across all its three edges, with the same third vertex.
+// Throws where a triangle is doubled: its copy meets it across all three edges, with the same third vertex.
 void check_doubled(const Triangles& F, const std::vector<HalfEdge>& edges) {
   const auto third = [&F](const HalfEdge& edge) { return F(edge.triangle, edge.corner); };
   int meetings = 0;
@@ -132,14 +135,14 @@ void check_surface(const Positions& V, const Triangles& F) {
   check_finite(V, F);
   check_area(V, F);
   check_poles(F);
-  const std::vector<HalfEdge> edges = sorted_half_edges(F);
+  const std::vector<HalfEdge> edges = sort_half_edges(F);
   check_doubled(F, edges);
   check_manifold(edges);
 }
 
 Triangles edge_neighbors(const Triangles& F) {
   Triangles neighbors = Triangles::Constant(F.rows(), 3, -1);
-  const std::vector<HalfEdge> edges = sorted_half_edges(F);
+  const std::vector<HalfEdge> edges = sort_half_edges(F);
   for (size_t k = 1; k < edges.size(); ++k) {
     if (!same_edge(edges[k], edges[k - 1])) continue;
     neighbors(edges[k].triangle, edges[k].corner) = edges[k - 1].triangle;

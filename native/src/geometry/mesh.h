@@ -8,7 +8,7 @@
 
 namespace reflines {
 
-// Lists of varying length stored one behind the other: the entries of list i are items[begin(i)] .. items[end(i) - 1].
+// Lists of varying length in consecutive memory: the entries of list i are items[begin(i)] .. items[end(i) - 1].
 struct Incidence {
   std::vector<int> offset;
   std::vector<int> items;
@@ -26,14 +26,15 @@ void check_indices(const Positions& V, const Triangles& F);
 // triangles.
 void check_surface(const Positions& V, const Triangles& F);
 
-// #F x 3: the triangle across the edge opposite corner i, or -1 on the border. F must have passed check_surface.
+// Returns the triangle across the edge opposite each corner (#F x 3), -1 on the border. F must have passed
+// check_surface.
 Triangles edge_neighbors(const Triangles& F);
 
-// For every vertex 0 .. vertex_count - 1 the triangles that touch it, ascending.
+// Returns for every vertex 0 .. vertex_count - 1 the triangles that touch it, ascending.
 Incidence vertex_triangles(const Triangles& F, int vertex_count);
 
-// The border of F as closed loops of vertices, each in the order of its triangles' orientation; empty for a closed
-// surface.
+// Returns the border of F as closed loops of vertices, each in the order of its triangles' orientation; empty for a
+// closed surface.
 std::vector<std::vector<int>> border_loops(const Triangles& F, const Triangles& neighbors);
 
 }  // namespace reflines

@@ -11,17 +11,17 @@
 namespace reflines {
 namespace {
 
-// Singular values below this share of the largest are treated as zero: the fit is then the one of smallest
+// The singular values, relative to the largest, that are treated as zero: the fit is then the one of smallest
 // coefficients.
 constexpr double kRank = 1e-6;
 
-// Radians. Vertices that face so far away from the vertex of a fit hardly count in it: a bend that one row of triangles
-// makes (27 degrees at the rounded edge of a car's bonnet) is no quadratic, and tilted the normals beside it by as
-// much.
+// The angle in radians between normals at which a vertex hardly counts in a fit: a bend within one row of triangles (27
+// degrees at the rounded edge of a car's bonnet) is no quadratic, and tilted the normals beside it by as much.
 constexpr double kSameSurface = 0.2;
 
-// A full quadratic through v has five coefficients. Corners of a border have fewer neighbours; with another ring added
-// their normals are of second order too (measured on a jittered cylinder: largest error 0.018 without, 0.002 with).
+// The number of vertices below which another ring is added to a fit. A full quadratic through v has five coefficients,
+// and corners of a border have few neighbours; with the ring their normals are of second order too (measured on a
+// jittered cylinder: largest error 0.018 without, 0.002 with).
 constexpr size_t kEnoughVertices = 9;
 
 void sort_unique(std::vector<int>& list) {
@@ -49,24 +49,25 @@ std::vector<int> fit_vertices(const Triangles& F, const Triangles& neighbors, co
   return around;
 }
 
-Vector3 twice_area(const Positions& V, const Triangles& F, int t) {
+Vector3 compute_area_vector(const Positions& V, const Triangles& F, int t) {
   const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
   return (b - a).cross(c - a);
 }
 
-// #V x 3: sum of the normals of the triangles around each vertex, each as long as twice its area.
+// Returns the sum of the normals of the triangles around each vertex (#V x 3), each as long as twice the triangle's
+// area.
 Positions area_normals(const Positions& V, const Triangles& F, const Incidence& triangles_of_vertex) {
   Positions normals = Positions::Zero(V.rows(), 3);
 #pragma omp parallel for schedule(dynamic, 1024)
   for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
     for (int k = triangles_of_vertex.begin(v); k < triangles_of_vertex.end(v); ++k) {
-      normals.row(v) += twice_area(V, F, triangles_of_vertex.items[k]).transpose();
+      normals.row(v) += compute_area_vector(V, F, triangles_of_vertex.items[k]).transpose();
     }
   }
   return normals;
 }
 
-// How much a vertex counts in a fit in the plane of `initial`, given its area normal.
+// Returns the weight of a vertex with this area normal in a fit in the plane of `initial`.
 double weight_of(const Vector3& area_normal, const Vector3& initial) {
   const double angle = std::atan2(initial.cross(area_normal).norm(), initial.dot(area_normal)) / kSameSurface;
   return area_normal.norm() * std::exp(-angle * angle);
@@ -114,7 +115,7 @@ void NormalFit::fit(const Positions& V, const Positions& area_normals, int v) {
     M.row(k - 1) << x, y, x * x, x * y, y * y;
   }
   weight /= std::max(weight.maxCoeff(), std::numeric_limits<double>::min());
-  // Like the paper's singular value decomposition it gives the coefficients of smallest norm.
+  // Gives the coefficients of smallest norm, like the paper's singular value decomposition.
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 5>> decomposition;
   decomposition.setThreshold(kRank);
   decomposition.compute(weight.asDiagonal() * M);

@@ -9,20 +9,21 @@
 
 namespace reflines {
 
-// Fits over the triangles around a vertex and those sharing an edge with them, in the plane of an initial normal, with
-// minimum-norm coefficients. Other than in the paper vertices count by the area around them, and hardly at all where
-// they face far away from the vertex of the fit: where a panel is folded into a hem of thin triangles, its own lines
-// run straight to the edge. The 2 x K coefficients of each vertex are kept: new positions give new normals by a small
-// product, and a vertex is fitted anew only when its normal has turned by more than refit_angle since its last fit.
+// The fits around all vertices: over the triangles around a vertex and those sharing an edge with them, in the plane of
+// an initial normal, with minimum-norm coefficients. Unlike in the paper, vertices are weighted by the area around
+// them, and hardly count where they face far away from the vertex of the fit: where a panel is folded into a hem of
+// thin triangles, its own lines run straight to the edge. The 2 x K coefficients of each vertex are kept: new positions
+// give new normals by a small product, and a vertex is fitted anew only when its normal has turned by more than
+// refit_angle since its last fit.
 class NormalFit {
  public:
   // V (#V x 3), F (#F x 3); refit_angle in radians. Throws InvalidInput for indices out of range.
   NormalFit(const Positions& V, const Triangles& F, double refit_angle = 0.35);
 
-  // #V x 3, unit, on the side the triangles face; (0, 0, 1) for vertices without triangles.
+  // Returns #V x 3 unit normals on the side that the triangles face; (0, 0, 1) for vertices without triangles.
   Positions normals(const Positions& V);
 
-  // The same with all fits as they are: what the refits would change is missing, and nothing is changed.
+  // Returns the normals by the present fits without refitting any, so that nothing is changed.
   Positions kept_normals(const Positions& V) const;
 
   int refit_count() const { return refit_count_; }  // vertices fitted anew since construction

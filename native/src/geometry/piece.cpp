@@ -31,7 +31,7 @@ void copy_vertices(const HeightField& whole, Piece& piece) {
   }
 }
 
-// Creases are cut in the whole field; they must stay cut.
+// Copies the neighbours within a piece, so that creases, which are cut in the whole field, stay cut.
 void copy_neighbors(const HeightField& whole, const std::vector<int>& triangles, const std::vector<int>& number,
                     Piece& piece) {
   piece.field.neighbors.resize(static_cast<int>(triangles.size()), 3);
@@ -47,7 +47,7 @@ void copy_neighbors(const HeightField& whole, const std::vector<int>& triangles,
 
 std::vector<Piece> split_pieces(const HeightField& field) {
   std::vector<std::vector<int>> triangles(field.piece_count);
-  std::vector<int> number(field.triangle_count());  // of a triangle within its piece
+  std::vector<int> number(field.triangle_count());  // index of each triangle within its piece
   for (int t = 0; t < field.triangle_count(); ++t) {
     number[t] = static_cast<int>(triangles[field.piece[t]].size());
     triangles[field.piece[t]].push_back(t);

@@ -1,4 +1,4 @@
-// Splits a height field into its pieces: coupled sets of triangles, each a height field with numbers of its own.
+// Splits a height field into its pieces: coupled sets of triangles, each a height field with its own indices.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace reflines {
 
 struct Piece {
   HeightField field;        // one piece; vertices 0 .. #vertex - 1; `source` still names the region's triangles
-  std::vector<int> vertex;  // the region's vertex for each of the piece's
+  std::vector<int> vertex;  // index in the region of each vertex of the piece
   int free_count = 0;       // vertices with VertexRole::kFree
 };
 

@@ -15,11 +15,11 @@
 namespace reflines {
 namespace {
 
-// Triple product of the three m over their lengths below which the six points count as lying on one conic; the same for
-// all affine images. Measured: sane irregular stencils have 1e-3 and more, exact conics 1e-16.
+// The triple product of the three m over their lengths below which the six points count as lying on one conic;
+// invariant under affine maps. Measured: sane irregular stencils have 1e-3 and more, exact conics 1e-16.
 constexpr double kOnConic = 1e-10;
 
-// The opposite corner of the triangle across the edge opposite corner i, or -1 on the border.
+// Returns the opposite corner of the triangle across the edge opposite corner i, or -1 on the border.
 int opposite_vertex(const HeightField& field, int t, int i) {
   const int other = field.neighbors(t, i);
   if (other < 0) return -1;
@@ -31,7 +31,7 @@ int opposite_vertex(const HeightField& field, int t, int i) {
   return -1;
 }
 
-// False on a border and at valence three, where points coincide.
+// Finds the three opposite vertices; returns false on a border and at valence three, where points coincide.
 bool find_opposite(const HeightField& field, int t, int (&opposite)[3]) {
   for (int i = 0; i < 3; ++i) {
     opposite[i] = opposite_vertex(field, t, i);
@@ -40,7 +40,7 @@ bool find_opposite(const HeightField& field, int t, int (&opposite)[3]) {
   return opposite[0] != opposite[1] && opposite[1] != opposite[2] && opposite[2] != opposite[0];
 }
 
-// Gradients of the barycentric coordinates, one a column.
+// Returns the gradients of the barycentric coordinates, one a column.
 Eigen::Matrix<double, 2, 3> barycentric_gradients(const HeightField& field, int t) {
   Eigen::Matrix<double, 2, 3> gradient;
   for (int i = 0; i < 3; ++i) {
@@ -50,7 +50,7 @@ Eigen::Matrix<double, 2, 3> barycentric_gradients(const HeightField& field, int 
   return gradient;
 }
 
-// Columns: (f_xx, f_xy, f_yy) of l1 l2, l2 l0 and l0 l1.
+// Returns (f_xx, f_xy, f_yy) of l1 l2, l2 l0 and l0 l1, one a column.
 Eigen::Matrix3d bubble_hessians(const Eigen::Matrix<double, 2, 3>& gradient) {
   Eigen::Matrix3d result;
   for (int i = 0; i < 3; ++i) {

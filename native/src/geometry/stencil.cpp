@@ -7,15 +7,15 @@
 namespace reflines {
 namespace {
 
-// The paper's C: a six-point stencil with a larger coefficient times l_max^2 counts as unstable.
+// The paper's constant C: a six-point stencil with a larger coefficient times l_max^2 counts as unstable.
 constexpr double kPaperThreshold = 5.0;
-// Ours. Recovering the sphere of Figure 5 on irregular meshes of 64 | 128 cells a side, the error in 1e-6 of the depth
-// is 20 | 3.8, 11 | 3.7, 9.2 | 2.8, 9.5 | 2.8, 10 | 2.7, 10 | 2.8, 10 | 2.8 for C = 5, 7, 10, 14, 20, 50, 1000;
-// regular, 4-8 and valence three meshes give the same for all of them. Accuracy does not ask for the ring on sane
-// stencils, and every ring costs fill. 20 leaves it to borders, valence three and points close to a conic.
+// The constant C of kConsistent. Recovering the sphere of Figure 5 on irregular meshes of 64 | 128 cells a side, the
+// error in 1e-6 of the depth is 20 | 3.8, 11 | 3.7, 9.2 | 2.8, 9.5 | 2.8, 10 | 2.7, 10 | 2.8, 10 | 2.8 for C = 5, 7,
+// 10, 14, 20, 50, 1000; regular, 4-8 and valence three meshes give the same for all of them. Accuracy does not need the
+// ring on sane stencils, and every ring costs fill. 20 leaves it to borders, valence three and points close to a conic.
 constexpr double kConsistentThreshold = 20.0;
 
-HessianStencil with_fallback(const HeightField& field, int t, StencilKind kind, bool& fell_back) {
+HessianStencil compute_with_fallback(const HeightField& field, int t, StencilKind kind, bool& fell_back) {
   if (kind == StencilKind::kAveraged) return averaged_hessian(field, t);
   HessianStencil six = quadratic_hessian(field, t);
   if (kind == StencilKind::kQuadratic) {
@@ -38,8 +38,8 @@ void set_gradient(const HeightField& field, int t, Stencils& stencils) {
   }
 }
 
-// The stencils of some neighbouring triangles, one behind the other. A million of separate ones would cost more memory
-// in the heap's book-keeping than in weights.
+// The stencils of a range of neighbouring triangles in consecutive memory. A million separate ones would take more
+// memory for the heap's book-keeping than for the weights.
 struct Chunk {
   std::vector<int> size;       // entries of each triangle; 0 where it has no stencil
   std::vector<int> vertex;     // #entries
@@ -62,7 +62,7 @@ std::vector<Chunk> make_chunks(const HeightField& field, StencilKind kind) {
     const int end = std::min((c + 1) * kChunkSize, field.triangle_count());
     for (int t = c * kChunkSize; t < end; ++t) {
       bool fell_back = false;
-      chunks[c].add(with_fallback(field, t, kind, fell_back));
+      chunks[c].add(compute_with_fallback(field, t, kind, fell_back));
       chunks[c].fallback_count += fell_back;
     }
   }

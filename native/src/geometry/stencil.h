@@ -10,41 +10,43 @@
 
 namespace reflines {
 
-// Derivatives as weights on heights. For triangle t the entries e = offset[t] .. offset[t + 1] - 1 name the vertices;
-// the first three are the triangle's own corners, which alone carry the gradient.
+// The first and second derivatives as weights on heights. For triangle t the entries e = offset[t] .. offset[t + 1] - 1
+// name the vertices; the first three are the triangle's own corners, which alone carry the gradient.
 struct Stencils {
   std::vector<int> offset;                                             // #T + 1
   std::vector<int> vertex;                                             // #entries
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> hessian;   // #entries x 3: weights of f_xx, f_xy, f_yy
   Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> gradient;  // #T x 6: weights of (f_x, f_y) for each corner
-  int fallback_count = 0;  // triangles where the six-point quadratic was not used though asked for
+  int fallback_count = 0;  // triangles whose six-point quadratic was wanted but is not used
 
   int triangle_count() const { return static_cast<int>(offset.size()) - 1; }
 };
 
-// Those of the triangles named, in that order.
+// Returns the stencils of the named triangles, in that order.
 Stencils select_stencils(const Stencils& all, const std::vector<int>& triangles);
 
-// One triangle's Hessian weights before they are packed.
+// The Hessian weights of one triangle before they are packed.
 struct HessianStencil {
   std::vector<int> vertex;  // the triangle's corners first
   Eigen::Matrix3Xd weight;  // 3 x #vertex
   bool empty() const { return vertex.empty(); }
 };
 
-// Stencils of the triangles of `field` in its order. Throws InvalidInput for kQuadratic where some triangle has none.
+// Computes the stencils of the triangles of `field` in its order. Throws InvalidInput for kQuadratic where some
+// triangle has none.
 Stencils make_stencils(const HeightField& field, StencilKind kind);
 
-// The single discretizations. Each returns an empty stencil where it is not defined.
+// Compute the single discretizations; each returns an empty stencil where it is not defined.
 HessianStencil averaged_hessian(const HeightField& field, int t);
 HessianStencil quadratic_hessian(const HeightField& field, int t);
 HessianStencil ring_hessian(const HeightField& field, int t);
 
-// #T: triangles at a border or crease whose own heights, and those across their edges, are all held. No six-point
-// stencil of theirs moves; a ring reaches for free heights beyond, all on one side, and is of first order only.
+// Marks triangles (#T) at a border or crease whose own heights, and those across their edges, are all held. Their
+// six-point stencils do not move; a ring would reach free heights beyond, all on one side, and is of first order only.
 Mask held_at_border(const HeightField& field);
 
-// Largest |weight| times l_max^2, l_max the longest edge of the six-point stencil: the paper's measure of instability.
+// Returns the paper's measure of instability: the largest |weight| times l_max^2, l_max the longest edge of the
+// six-point stencil.
 double stencil_magnitude(const HeightField& field, const HessianStencil& stencil);
 
 }  // namespace reflines

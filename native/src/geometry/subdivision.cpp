@@ -25,10 +25,10 @@ using Refiner = std::unique_ptr<Far::TopologyRefiner>;
 using StencilTable = Far::StencilTableReal<double>;
 
 constexpr double kMaxFaces = 8e6;
-constexpr double kParallel = 1e-8;   // a sine; on a car of slivers and doubled faces none is between 1e-4 and 1e-13
+constexpr double kParallel = 1e-8;   // a sine; on a car with slivers and doubled faces none is between 1e-4 and 1e-13
 constexpr double kRoundOff = 1e-15;  // weights are of order 1: smaller ones are cancelled sums
 
-constexpr int kRowsAtOnce = 4096;  // some milliseconds
+constexpr int kRowsAtOnce = 4096;  // chunk of work between two checks for cancellation: some milliseconds
 
 void look_at(const Progress* progress) {
   if (progress != nullptr && progress->cancelled()) throw Cancelled();
@@ -59,7 +59,7 @@ void check_options(const Cage& cage, const SubdivisionOptions& options) {
                      std::to_string(static_cast<int>(kMaxFaces / 1e6)) + " million: choose a lower level.");
 }
 
-// What OpenSubdiv's descriptor points to.
+// The arrays that OpenSubdiv's descriptor points to.
 struct Tags {
   std::vector<int> face_sizes;
   std::vector<float> crease_sharpness;
@@ -67,8 +67,9 @@ struct Tags {
   std::vector<float> corner_sharpness;
 };
 
-// Blender makes a vertex with exactly two edges (the corner of a sheet) as sharp as the softer of them, in addition to
-// its own sharpness: without this, creases along a border do not keep its corner.
+// Returns the sharpness of vertices as Blender computes it: a vertex with exactly two edges (the corner of a sheet) is
+// as sharp as the softer of them, in addition to its own sharpness. Without this, creases along a border do not keep
+// its corner.
 Vector vertex_sharpness(const Cage& cage) {
   Vector sharpness = Vector::Zero(cage.vertices);
   for (int i = 0; i < cage.corners.size(); ++i) sharpness[cage.corners[i]] = cage.corner_sharpness[i];
@@ -118,10 +119,11 @@ Far::TopologyDescriptor describe(const Cage& cage, const Tags& tags) {
   return descriptor;
 }
 
-// Uniformly, though adaptive refinement with limit stencils is faster: a cage of 2,025 vertices at level 3 takes 0.37 s
-// of processor time, 0.12 s of it OpenSubdiv's, against 0.05 s and the same conversion; once a session. But patches
-// give the limit only, so that faces and refined positions need the uniform levels all the same, and they miss it where
-// uniform refinement does not: by 4e-3 of the size at the smooth corner of a sheet isolated to level 3.
+// Refines uniformly, though adaptive refinement with limit stencils is faster: a cage of 2,025 vertices at level 3
+// takes 0.37 s of processor time, 0.12 s of it OpenSubdiv's, against 0.05 s and the same conversion; once a session.
+// But patches give the limit only, so that faces and refined positions need the uniform levels all the same, and they
+// deviate from it where uniform refinement does not: by 4e-3 of the size at the smooth corner of a sheet isolated to
+// level 3.
 Refiner refine(const Cage& cage, const SubdivisionOptions& options) {
   Sdc::Options rules;
   rules.SetCreasingMethod(Sdc::Options::CREASE_UNIFORM);
@@ -135,12 +137,12 @@ Refiner refine(const Cage& cage, const SubdivisionOptions& options) {
   if (!refiner)
     throw InvalidInput("OpenSubdiv cannot connect the cage's faces: look for doubled faces and delete them.");
   Far::TopologyRefiner::UniformOptions uniform(options.level);
-  uniform.fullTopologyInLastLevel = true;  // limit masks ask for the neighbours of the last level's vertices
+  uniform.fullTopologyInLastLevel = true;  // limit masks need the neighbours of the last level's vertices
   refiner->RefineUniform(uniform);
   return refiner;
 }
 
-// Positions of the last level's vertices: a row a vertex, not sorted by column.
+// The positions of the last level's vertices: one row for each vertex, not sorted by column.
 struct RefinedRows {
   explicit RefinedRows(const Far::TopologyRefiner& refiner);
 
@@ -155,7 +157,7 @@ std::unique_ptr<const StencilTable> last_level(const Far::TopologyRefiner& refin
   return std::unique_ptr<const StencilTable>(Far::StencilTableFactoryReal<double>::Create(refiner, options));
 }
 
-// The table's arrays end in unused zeros, hence the sum of sizes.
+// Returns the start of each row, summed from the sizes, since the table's arrays end in unused zeros.
 std::vector<int> row_starts(const StencilTable& table) {
   std::vector<int> starts{0};
   for (const int size : table.GetSizes()) starts.push_back(starts.back() + size);
@@ -168,12 +170,12 @@ RefinedRows::RefinedRows(const Far::TopologyRefiner& refiner)
       matrix(table->GetNumStencils(), table->GetNumControlVertices(), starts.back(), starts.data(),
              table->GetControlIndices().data(), table->GetWeights().data()) {}
 
-// A value to "interpolate", so that OpenSubdiv hands out the masks themselves.
+// A value to "interpolate", by which OpenSubdiv exposes the masks themselves.
 struct Index {
   int value;
 };
 
-// Receives one mask a refined vertex: rows of (refined vertex, weight), one after the other.
+// Receives one mask for each refined vertex: rows of (refined vertex, weight) in consecutive memory.
 class Masks {
  public:
   explicit Masks(int rows) : begin_(rows), end_(rows) { terms_.reserve(9 * static_cast<size_t>(rows)); }
@@ -181,7 +183,7 @@ class Masks {
     row_ = row;
     return *this;
   }
-  // The names are OpenSubdiv's.
+  // Implement the interface of OpenSubdiv, whose names these are.
   void Clear() {  // NOLINT(readability-identifier-naming)
     begin_[row_] = end_[row_] = static_cast<int>(terms_.size());
   }
@@ -198,7 +200,8 @@ class Masks {
   int row_ = 0;
 };
 
-// Eigen's product sorts every row and takes three times as long; here the change of storage order sorts them all.
+// Multiplies the masks by the rows. Eigen's product sorts every row and takes three times as long; here the change of
+// storage order sorts them all.
 SparseMatrix Masks::times(const RefinedRows& rows, const Progress* progress) const {
   const auto& refined = rows.matrix;
   std::vector<double> weights, sum(refined.cols(), 0.0);

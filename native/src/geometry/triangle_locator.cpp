@@ -9,7 +9,7 @@ namespace reflines {
 namespace {
 
 constexpr double kOnBorder = -1e-12;
-constexpr double kMargin = 1e-6;  // of a bin: more than kOnBorder and rounding reach beyond a triangle
+constexpr double kMargin = 1e-6;  // of a bin: more than the reach of kOnBorder and rounding beyond a triangle
 
 struct BinRange {
   int left, right, bottom, top;
@@ -17,7 +17,7 @@ struct BinRange {
 
 BinRange clamped_range(const Vector2& low, const Vector2& high, const Vector2& origin, const Vector2& cell, int columns,
                        int rows) {
-  // Also of what is no number or fits into no integer.
+  // Handles NaN and values out of the range of int, too.
   const auto index = [](double value, int count) {
     return value > 0 ? static_cast<int>(std::min(value, count - 1.0)) : 0;
   };
@@ -25,13 +25,13 @@ BinRange clamped_range(const Vector2& low, const Vector2& high, const Vector2& o
           index((low.y() - origin.y()) / cell.y(), rows), index((high.y() - origin.y()) / cell.y(), rows)};
 }
 
-// Bins that triangles are listed in, a triangle on average: sane meshes need about 4.
+// The limit of bins in which a triangle is listed, on average: sane meshes need about 4.
 constexpr double kEntries = 64;
 
 int bounded(double count) { return static_cast<int>(std::clamp(count, 1.0, 4096.0)); }
 
-// Where the part of a triangle between two heights lies along x.
-std::pair<double, double> slab(const std::array<Vector2, 3>& corner, double bottom, double top) {
+// Returns the range of x of the part of a triangle between two values of y.
+std::pair<double, double> clip_to_slab(const std::array<Vector2, 3>& corner, double bottom, double top) {
   double left = INFINITY, right = -INFINITY;
   const auto reach = [&](double x) { left = std::min(left, x), right = std::max(right, x); };
   for (int i = 0; i < 3; ++i) {
@@ -46,7 +46,7 @@ std::pair<double, double> slab(const std::array<Vector2, 3>& corner, double bott
 
 }  // namespace
 
-// Calls take(row, first column, last column) for the bins that a triangle meets, and some beside it for its border.
+// Calls take(row, first column, last column) for the bins that a triangle meets, and a margin of them for its border.
 template <class Take>
 void TriangleLocator::for_each_row(int t, const Take& take) const {
   const std::array<Vector2, 3> corner = {xy_.row(F_(t, 0)), xy_.row(F_(t, 1)), xy_.row(F_(t, 2))};
@@ -60,7 +60,7 @@ void TriangleLocator::for_each_row(int t, const Take& take) const {
   const double margin = kMargin * cell_.y();
   for (int row = box.bottom; row <= box.top; ++row) {
     const double bottom = low_.y() + row * cell_.y() - margin;
-    const auto [left, right] = slab(corner, bottom, bottom + cell_.y() + 2 * margin);
+    const auto [left, right] = clip_to_slab(corner, bottom, bottom + cell_.y() + 2 * margin);
     if (!(left <= right)) continue;
     const Vector2 aside(kMargin * cell_.x(), 0);
     const BinRange range =

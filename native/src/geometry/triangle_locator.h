@@ -15,11 +15,12 @@ struct Location {
 
 class TriangleLocator {
  public:
-  // xy (#V x 2), F (#F x 3), kept by reference; triangles counter-clockwise. Build O(#F), a query O(1) on sane meshes;
-  // bins hold at most 64 #F entries on any mesh, and only triangles that reach into them.
+  // Takes xy (#V x 2) and F (#F x 3), counter-clockwise triangles, by reference. Builds in O(#F); a query takes O(1) on
+  // sane meshes. Bins hold at most 64 #F entries on any mesh, and only triangles that reach into them.
   TriangleLocator(const PlanePositions& xy, const Triangles& F);
 
-  // The triangle of smallest index that holds `point`, its border included (to 1e-12 of barycentric rounding).
+  // Returns the triangle of smallest index that contains `point`, its border included (to 1e-12 of barycentric
+  // rounding).
   Location locate(const Vector2& point) const;
 
  private:

@@ -1,4 +1,4 @@
-// Disjoint sets of the numbers 0 .. n - 1 (union-find with path halving), each named by its smallest member.
+// Disjoint sets of the numbers 0 .. n - 1 (union-find with path halving), each represented by its smallest member.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,10 +10,10 @@ namespace reflines {
 
 class UnionFind {
  public:
-  // Each of 0 .. size - 1 in a set of its own.
+  // Puts each of 0 .. size - 1 into a set of its own.
   explicit UnionFind(Eigen::Index size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  // The smallest member of the set that holds `member`.
+  // Returns the smallest member of the set that contains `member`.
   int find(int member) {
     while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
     return member;

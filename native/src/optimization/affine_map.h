@@ -10,23 +10,23 @@ namespace reflines {
 
 class AffineMap {
  public:
-  // A selection: one unknown for every vertex whose `is_free` (#V) is set, in order; the others keep their height in z
-  // (#V).
+  // Builds a selection: one unknown for every vertex whose `is_free` (#V) is set, in order; the others keep their
+  // height in z (#V).
   static AffineMap select_vertices(const Mask& is_free, const Vector& z);
 
-  // Any B (#V x n) with the start x (n) that gives the heights z (#V): c = z - B x.
+  // Takes any B (#V x n) with the start x (n) that gives the heights z (#V): c = z - B x.
   AffineMap(const SparseMatrix& B, Vector x, const Vector& z);
 
   int size() const { return static_cast<int>(start_.size()); }
   const Vector& start() const { return start_; }
   bool is_selection() const { return moving_transposed_.size() == 0; }
 
-  // #V: the number of a vertex among those that move, 0 .. moving_count() - 1 in order, or -1. Of a selection of
-  // vertices it is the unknown that is the vertex's height.
+  // Returns the index of each vertex (#V) among those that move, 0 .. moving_count() - 1 in order, or -1. In a
+  // selection it is the index of the unknown that is the vertex's height.
   const std::vector<int>& moving_index() const { return moving_index_; }
   int moving_count() const { return moving_count_; }
 
-  // Empty for a selection, else B^T over the moving vertices, n x #moving.
+  // Returns B^T over the moving vertices (n x #moving); empty for a selection.
   const SparseMatrix& moving_transposed() const { return moving_transposed_; }
 
   // Writes z = B x + c; heights that no unknown moves keep their bits.
@@ -37,8 +37,8 @@ class AffineMap {
  private:
   AffineMap() = default;
 
-  // One orientation for each product: Eigen runs products whose sums lie in a row of memory on all cores, and each sum
-  // on one of them.
+  // Both orientations, one for each product: Eigen runs products whose sums lie in a row of memory on all cores, and
+  // each sum on one of them.
   Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows_;        // B, #V x n; empty for a selection
   Eigen::SparseMatrix<double, Eigen::RowMajor, int> transposed_;  // B^T
   SparseMatrix moving_transposed_;

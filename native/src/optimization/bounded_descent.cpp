@@ -14,13 +14,14 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kMaxTrials = 40;
 
-// What a step with the kept factor may leave of the projected gradient because other unknowns are to be held now.
+// The largest part of the projected gradient that a step with the kept factor may leave because the set of held
+// unknowns has changed.
 constexpr double kWorthwhile = 0.1;
 
-// The model is solved to this share of the projected gradient: the energy is no quadratic function.
+// The tolerance of the model's solution relative to the projected gradient: the energy is no quadratic function.
 constexpr double kModelTolerance = 0.01;
 
-// A step by a model that leaves more of the projected gradient asks for a matrix of the new place.
+// The part of the projected gradient left by a step with the model above which a new matrix is assembled.
 constexpr double kTrusted = 0.1;
 
 }  // namespace
@@ -50,7 +51,7 @@ void BoundedDescent::descend() {
     if (!choose_destination()) break;
     if (find_step()) {
       take_step();
-    } else if (!blame_model()) {
+    } else if (!discard_model()) {
       break;
     }
   }
@@ -83,7 +84,7 @@ bool BoundedDescent::may_move() {
   return false;
 }
 
-// False where the run ends with it.
+// Starts with the unbounded minimum; returns false where that ends the run.
 bool BoundedDescent::start_near_free_minimum() {
   const Vector start = work_.x;
   Vector minimum = start;
@@ -106,7 +107,7 @@ bool BoundedDescent::start_near_free_minimum() {
   return true;
 }
 
-// As far as all can go together: without the kinks that each going as far as it can would leave.
+// Moves the start towards `minimum`, all unknowns by one factor: without the kinks of a move of each as far as it can.
 void BoundedDescent::start_on_the_way_to(const Vector& minimum) {
   const Vector way = minimum - work_.x;
   double step = 1.0;
@@ -150,11 +151,11 @@ bool BoundedDescent::choose_destination() {
 
 bool BoundedDescent::renew_model() {
   tell("assembling");
-  work_.matrix = problem_.hessian(work_.x, model_of(options_.strategy));
+  work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
   ++report_.assemblies;
   measure_rounding();
   report_.analyses += work_.analyze(work_.matrix, problem_);
-  work_.factored_model = model_of(options_.strategy);
+  work_.factored_model = choose_model(options_.strategy);
   assembled_at_ = report_.iterations;
   model_failed_ = false;
   return !is_cancelled() && !gradient_is_small();
@@ -164,7 +165,8 @@ void BoundedDescent::measure_rounding() {
   rounding_ = kEpsilon * problem_.rounding_weight(work_.matrix).cwiseProduct(work_.x).norm();
 }
 
-// A step with the factor at hand, unless it leaves too much to unknowns that it holds or lets go wrongly.
+// Tries a step with the present factor; returns false where it leaves too much to unknowns that should be held or
+// released.
 bool BoundedDescent::kept_factor_leads_on() {
   tell("iterating");
   const Bounds room = bounds_.seen_from(work_.x);
@@ -176,7 +178,7 @@ bool BoundedDescent::kept_factor_leads_on() {
   ++report_.solves;
   if (learns_from_steps()) work_.memory.after_solve(work_.direction);
   work_.direction += at_bounds;
-  if (missed_norm(model(), room, work_.held, work_.direction) > kWorthwhile * norm_) return false;
+  if (measure_missed_gradient(model(), room, work_.held, work_.direction) > kWorthwhile * norm_) return false;
   destination_ = bounds_.nearest(work_.x + work_.direction);
   return true;
 }
@@ -237,12 +239,12 @@ void BoundedDescent::take_step() {
   moved_ = true;
 }
 
-bool BoundedDescent::blame_model() {
+bool BoundedDescent::discard_model() {
   model_failed_ = !model_is_fresh();
   if (model_failed_) return true;
   stop(Termination::kNoProgress,
-       sentence("No step lowers the energy any further: the projected gradient is %.3g where %.3g was wanted.", norm_,
-                wanted_norm_));
+       format_sentence("No step lowers the energy any further: the projected gradient is %.3g where %.3g was wanted.",
+                       norm_, wanted_norm_));
   return false;
 }
 
@@ -256,25 +258,25 @@ void BoundedDescent::finish(Vector& x) {
 bool BoundedDescent::is_cancelled() {
   if (progress_ == nullptr || !progress_->cancelled()) return false;
   return stop(Termination::kCancelled,
-              sentence("Cancelled after %.0f steps with the projected gradient at %.3g; nothing was changed.",
-                       report_.iterations, norm_));
+              format_sentence("Cancelled after %.0f steps with the projected gradient at %.3g; nothing was changed.",
+                              report_.iterations, norm_));
 }
 
 bool BoundedDescent::gradient_is_small() {
   const bool small = norm_ <= wanted_norm_ && moved_;
   if (!small && norm_ > rounding_) return false;
-  return stop(
-      moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
-      sentence("The projected gradient is down to %.3g; %.3g was wanted.", norm_, std::max(wanted_norm_, rounding_)));
+  return stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
+              format_sentence("The projected gradient is down to %.3g; %.3g was wanted.", norm_,
+                              std::max(wanted_norm_, rounding_)));
 }
 
 bool BoundedDescent::iterations_are_used_up() {
   if (report_.iterations < options_.max_iterations) return false;
   return stop(Termination::kIterationLimit,
-              sentence(("The limit of " + std::to_string(options_.max_iterations) +
-                        " steps was reached with the projected gradient at %.3g where %.3g was wanted.")
-                           .c_str(),
-                       norm_, wanted_norm_));
+              format_sentence(("The limit of " + std::to_string(options_.max_iterations) +
+                               " steps was reached with the projected gradient at %.3g where %.3g was wanted.")
+                                  .c_str(),
+                              norm_, wanted_norm_));
 }
 
 bool BoundedDescent::stop(Termination termination, const std::string& message) {
@@ -284,11 +286,7 @@ bool BoundedDescent::stop(Termination termination, const std::string& message) {
 }
 
 void BoundedDescent::tell(const char* stage) {
-  if (progress_ == nullptr) return;
-  const double digits = std::log(report_.gradient_before / norm_);
-  const double digits_wanted = std::log(report_.gradient_before / std::max(wanted_norm_, rounding_));
-  const double fraction = digits_wanted > 0.0 ? std::clamp(digits / digits_wanted, 0.0, 1.0) : 0.0;
-  progress_->report(std::max(fraction, progress_->fraction()), stage);
+  report_digits(progress_, stage, report_.gradient_before, norm_, std::max(wanted_norm_, rounding_));
 }
 
 }  // namespace reflines

@@ -16,17 +16,19 @@
 
 namespace reflines {
 
-// Starts with the free minimum: where that lies within the bounds it is the result, to the bit. Else a quadratic model
-// with exact bounds (see BoundedQuadratic) says which unknowns are held, and steps with its factor, accelerated like
-// those of Descent, follow, as long as they hold the same ones. All points are within the bounds, to the bit. Ends
-// where the projected gradient, see Bounds, is down by the tolerance: a Karush-Kuhn-Tucker point.
+// One run of sequential quadratic programming. It starts with the unbounded minimum: where that lies within the bounds
+// it is the result, to the last bit. Otherwise a quadratic model with exact bounds (see BoundedQuadratic) determines
+// the held unknowns, and steps with its factor, accelerated like those of Descent, follow while these stay the same.
+// All points are within the bounds, to the last bit. It ends where the projected gradient, see Bounds, has reached the
+// tolerance: a Karush-Kuhn-Tucker point.
 class BoundedDescent {
  public:
-  // `progress` may be null; all five outlive the run.
+  // Takes what a run needs; all outlive it, and `progress` may be null.
   BoundedDescent(Problem& problem, const Bounds& bounds, const MinimizerOptions& options, Progress* progress,
                  Workspace& workspace);
 
-  // As Minimizer::minimize; `seconds` is left to the caller. A start outside the bounds is first moved into them.
+  // Implements Minimizer::minimize; `seconds` is left to the caller. A start outside the bounds is first moved into
+  // them.
   Report run(Vector& x);
 
  private:
@@ -37,7 +39,8 @@ class BoundedDescent {
   void descend();
   void finish(Vector& x);
 
-  // Steps of the loop. The boolean ones return false where the run is to stop or the step could not be made.
+  // These are the steps of the loop. Those that return bool return false where the run is to stop or the step could not
+  // be made.
   bool model_is_outdated() const;
   bool renew_model();
   void measure_rounding();
@@ -47,15 +50,15 @@ class BoundedDescent {
   bool find_step();
   void try_step(double step);
   void take_step();
-  bool blame_model();
+  bool discard_model();
 
-  // Stopping tests. Each that holds writes Report::termination and its sentence.
+  // These are the stopping tests. Each that holds writes Report::termination and its sentence.
   bool is_cancelled();
   bool gradient_is_small();
   bool iterations_are_used_up();
   bool stop(Termination termination, const std::string& message);
 
-  bool has_factor() const { return work_.has_bounded_factor_of(model_of(options_.strategy), work_.x.size()); }
+  bool has_factor() const { return work_.has_bounded_factor_of(choose_model(options_.strategy), work_.x.size()); }
   bool learns_from_steps() const { return options_.strategy == Strategy::kAdaptive; }
   bool model_is_fresh() const { return assembled_at_ == report_.iterations; }
   QuadraticModel model() const { return {work_.matrix, work_.gradient}; }
@@ -71,13 +74,13 @@ class BoundedDescent {
   RefactorPolicy policy_;
 
   LinePoint current_, trial_;
-  Vector destination_;  // of a whole step
+  Vector destination_;  // end of a full step
   bool moved_ = false;
-  double norm_ = 0.0;  // of the projected gradient
+  double norm_ = 0.0;  // norm of the projected gradient
   double wanted_norm_ = 0.0;
-  double rounding_ = 0.0;      // the change of the gradient that rounding x alone makes
-  int assembled_at_ = -1;      // the iteration whose point the matrix belongs to; -1: made before this run
-  bool model_failed_ = false;  // no step with it lowers the energy, or it foretold too little
+  double rounding_ = 0.0;      // change of the gradient by rounding x alone
+  int assembled_at_ = -1;      // iteration at whose point the matrix was assembled; -1: before this run
+  bool model_failed_ = false;  // no step with it lowers the energy, or its prediction was wrong
 };
 
 }  // namespace reflines

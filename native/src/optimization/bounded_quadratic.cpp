@@ -12,11 +12,12 @@ namespace {
 
 constexpr int kMaxRounds = 60;
 
-// The interior point costs as much as about this many rounds.
+// The cost of the interior point method in rounds of the active set method.
 constexpr double kRoundsOfInteriorPoint = 9.0;
 constexpr int kMaxInteriorSteps = 15;
 
-// Rounds until nothing changes any more, if the number of changes goes on falling as it did.
+// Returns whether many rounds are left until the set no longer changes, if the number of changes goes on falling at its
+// present rate.
 bool settles_slowly(int changes_before, int changes) {
   if (changes <= 1) return false;
   const double digits_a_round = std::log(static_cast<double>(changes_before) / changes);
@@ -41,7 +42,7 @@ Sides next_held(const Bounds& bounds, const Sides& held, const Vector& d, const 
   return next;
 }
 
-double missed_norm(const QuadraticModel& model, const Bounds& bounds, const Sides& held, const Vector& d) {
+double measure_missed_gradient(const QuadraticModel& model, const Bounds& bounds, const Sides& held, const Vector& d) {
   const Vector inside = bounds.nearest(d);
   const Vector cut = model.H.selfadjointView<Eigen::Lower>() * (inside - d);
   const Vector gradient = model.gradient_at(inside);

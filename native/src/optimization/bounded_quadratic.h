@@ -1,4 +1,4 @@
-// A quadratic model g.d + d.H d / 2 of an energy, minimised within bounds.
+// A quadratic model g.d + d.H d / 2 of an energy, minimized within bounds.
 #pragma once
 
 #include "optimization/bounds.h"
@@ -17,16 +17,17 @@ struct QuadraticModel {
 };
 
 // The primal-dual active set method, a semismooth Newton method (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13,
-// 2003): solve with the held unknowns at their bounds, hold what went beyond, let go what is not pressed. Where the set
-// settles too slowly, as on a smooth surface that leaves its bound row by row, InteriorPoint guesses it anew.
+// 2003): solve with the held unknowns at their bounds, hold those that violate a bound, release those with a multiplier
+// of the wrong sign. Where the set changes slowly, as on a smooth surface that leaves its bound row by row,
+// InteriorPoint estimates it anew.
 class BoundedQuadratic {
  public:
-  // `counts` is told of factorizations and solves. `progress` may be null.
+  // Takes the factor to use; `counts` collects factorizations and solves. `progress` may be null.
   BoundedQuadratic(HeldFactor& factor, Report& counts, Progress* progress)
       : factor_(factor), counts_(counts), progress_(progress) {}
 
-  // Finds d within `bounds` with a projected gradient of at most `wanted`, or as small as `max_rounds` allow. `held`:
-  // in, a guess; out, those of the factor that is left. False where told to stop.
+  // Finds d within `bounds` with a projected gradient of at most `wanted`, or as small as `max_rounds` allow. `held` is
+  // an estimate on entry, and the set of the remaining factor on return. Returns false where cancelled.
   bool minimize(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, Vector& d);
 
  private:
@@ -41,10 +42,12 @@ class BoundedQuadratic {
   double best_norm_ = 0.0;
 };
 
-// Those that a step went beyond, and of the held ones those that are still pressed against their bound.
+// Returns the unknowns that a step moved beyond their bound, and of the held ones those whose multiplier has the right
+// sign.
 Sides next_held(const Bounds& bounds, const Sides& held, const Vector& d, const Vector& gradient);
 
-// What a step d, cut off at the bounds, leaves of the projected gradient because of that and of unknowns held wrongly.
-double missed_norm(const QuadraticModel& model, const Bounds& bounds, const Sides& held, const Vector& d);
+// Returns the part of the projected gradient that a step d, projected onto the bounds, leaves because of the projection
+// and of wrongly held unknowns.
+double measure_missed_gradient(const QuadraticModel& model, const Bounds& bounds, const Sides& held, const Vector& d);
 
 }  // namespace reflines

@@ -1,4 +1,4 @@
-// The box low <= x <= high in which a minimum is looked for, and where a point touches it.
+// The box low <= x <= high of a bounded minimization, and the active bounds of a point.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace reflines {
 
 enum class Side : signed char { kLow = -1, kBetween = 0, kHigh = 1 };
-using Sides = std::vector<Side>;  // n: at which end of its range an unknown is held
+using Sides = std::vector<Side>;  // n: the end of its range at which an unknown is held
 
 struct Bounds {
   Vector low, high;  // n each, low <= high; infinite where there is none
@@ -19,11 +19,11 @@ struct Bounds {
 
   Vector ends(const Sides& held) const;  // 0 for those that are not held
   Vector nearest(const Vector& x) const { return x.cwiseMax(low).cwiseMin(high); }
-  Sides touched_by(const Vector& x) const;  // x outside touches the end it is beyond
-  Bounds seen_from(const Vector& x) const;  // of the step d from x: low <= x + d <= high
+  Sides touched_by(const Vector& x) const;  // x outside the bounds touches the end that it is beyond
+  Bounds seen_from(const Vector& x) const;  // the bounds of the step d from x: low <= x + d <= high
 
-  // The Karush-Kuhn-Tucker conditions hold at x where this is 0: the norm of the gradient without the entries of
-  // unknowns at an end of their range that are pressed against it.
+  // Returns the norm of the projected gradient, which is 0 where the Karush-Kuhn-Tucker conditions hold at x: entries
+  // of unknowns at an end of their range are left out where a descent would leave the range.
   double projected_norm(const Vector& x, const Vector& gradient) const;
 };
 

@@ -8,19 +8,21 @@ namespace reflines {
 
 namespace {
 
-// How near the coarse minimum has to be approached: what is left is the fine factor's work anyway.
+// The tolerance of the coarse minimum: the fine factor has to do the rest anyway.
 constexpr double kCoarseTolerance = 1e-2;
 constexpr int kMaxCoarseIterations = 10;
 
-// Dents and noise finer than the motions do not yield to them: where they leave more of the energy, they are forgotten.
+// The factor of the energy below which a coarse minimum is used: dents and noise finer than the coarse basis do not
+// yield to it.
 constexpr double kWorthwhile = 0.9;
 
-// Unknowns from which on a thread takes less time to wake than an analysis.
+// The number of unknowns from which the analysis takes longer than waking a thread.
 constexpr int kWorthAThread = 2000;
 
-// The first on the calling thread. Both belong to one team: a thread of its own for the second would share a core with
-// the team's idle ones, which go on looking for work for some milliseconds (10k unknowns: 48 instead of 37 ms).
-void side_by_side(const std::function<void()>& first, const std::function<void()>& second) {
+// Runs two functions in parallel, the first on the calling thread. Both belong to one OpenMP team: a separate thread
+// for the second would share a core with the team's idle threads, which spin for some milliseconds (10k unknowns: 48
+// instead of 37 ms).
+void run_in_parallel(const std::function<void()>& first, const std::function<void()>& second) {
   std::packaged_task<void()> tasks[] = {std::packaged_task<void()>(first), std::packaged_task<void()>(second)};
 #pragma omp parallel for schedule(static, 1)
   for (int k = 0; k < 2; ++k) tasks[k]();  // keeps what is thrown
@@ -29,16 +31,16 @@ void side_by_side(const std::function<void()>& first, const std::function<void()
 
 }  // namespace
 
-// The factor of a far start misleads: on the bumps of the benchmark it took 26 steps, or a second factor. With a
-// stand-in of few unknowns first, at one evaluation of the whole and the cost of some steps, the first factor is made
-// near the minimum, and 1 to 5 steps do. The stand-in keeps one thread busy, for about as long as the symbolic analysis
-// takes, which needs no values.
+// Moves the start near the minimum by the coarse problem before the first factorization: a factor at a distant start
+// needed 26 steps on the bumps of the benchmark, or a second factor, and one near the minimum needs 1 to 5, at the cost
+// of one evaluation of the fine problem and some steps. The coarse problem occupies one thread, for about as long as
+// the symbolic analysis, which needs no values, takes on another.
 void Descent::approach() {
   if (!learns_from_steps() || factor_is_kept() || is_cancelled() || gradient_is_small()) return;
   const SparseMatrix* pattern = problem_.size() > kWorthAThread ? problem_.pattern() : nullptr;
   int steps = 0;
   const auto move = [this, &steps] { steps = move_along_coarse(); };
-  pattern != nullptr ? side_by_side(move, [this, pattern] { analyze(*pattern); }) : move();
+  pattern != nullptr ? run_in_parallel(move, [this, pattern] { analyze(*pattern); }) : move();
   if (steps == 0) return;
   trial_.energy = problem_.evaluate(work_.trial, &work_.trial_gradient);
   ++report_.evaluations;
@@ -47,8 +49,8 @@ void Descent::approach() {
   accept_trial();
 }
 
-// Leaves the place it finds in the trial point; returns the steps taken, 0 where there are no motions or they do not
-// help, be it that they depend on each other on a ragged region.
+// Leaves the coarse minimum in the trial point; returns the steps taken, 0 where there is no coarse problem or it does
+// not help, for instance where its unknowns depend on each other on a ragged region.
 int Descent::move_along_coarse() {
   const std::unique_ptr<CoarseProblem> coarse = problem_.coarse(work_.x, work_.gradient);
   if (!coarse) return 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// Backtracking halves at least: after 40 trials a step has vanished.
+// The limit of trials of a line search: each at least halves the step, and after 40 it has vanished.
 constexpr int kMaxTrials = 40;
 
 }  // namespace
@@ -39,7 +39,7 @@ void Descent::descend() {
     if (step_is_rounding()) break;
     if (find_step()) {
       take_step();
-    } else if (!blame_factor()) {
+    } else if (!discard_factor()) {
       break;
     }
   }
@@ -73,7 +73,7 @@ void Descent::finish(Vector& x) {
   if (moved) x = work_.x;
 }
 
-bool Descent::factor_is_kept() const { return work_.has_factor_of(model_of(options_.strategy), work_.x.size()); }
+bool Descent::factor_is_kept() const { return work_.has_factor_of(choose_model(options_.strategy), work_.x.size()); }
 
 bool Descent::factor_is_outdated() const {
   if (!factor_is_kept() || factor_failed_) return true;
@@ -92,7 +92,7 @@ bool Descent::factor_is_outdated() const {
 
 bool Descent::renew_factor() {
   tell("assembling");
-  const SparseMatrix& hessian = problem_.hessian(work_.x, model_of(options_.strategy));
+  const SparseMatrix& hessian = problem_.hessian(work_.x, choose_model(options_.strategy));
   ++report_.assemblies;
   measure_rounding(problem_.rounding_weight(hessian));
   if (gradient_is_rounding() || is_cancelled()) return false;
@@ -102,7 +102,7 @@ bool Descent::renew_factor() {
   tell("factorizing");
   work_.solver.factorize(hessian);
   ++report_.factorizations;
-  work_.factored_model = model_of(options_.strategy);
+  work_.factored_model = choose_model(options_.strategy);
   work_.held.clear();
   work_.memory.clear();
   factored_at_ = report_.iterations;
@@ -123,7 +123,8 @@ void Descent::choose_direction() {
   current_.slope = work_.gradient.dot(work_.direction);
 }
 
-// A full step that an old factor gets refused says that the factor is wrong here: a shorter step would only creep.
+// Finds a step that lowers the energy enough. Where a full step with an old factor is refused, the factor is wrong at
+// this point, and a shorter step would make little progress: the search fails at once.
 bool Descent::find_step() {
   if (!(current_.slope < 0.0)) return false;
   try_step(1.0);
@@ -165,26 +166,26 @@ void Descent::accept_trial() {
   gradient_norm_ = work_.gradient.norm();
 }
 
-bool Descent::blame_factor() {
+bool Descent::discard_factor() {
   factor_failed_ = learns_from_steps() && !factor_is_fresh();
   if (factor_failed_) return true;
   stop(Termination::kNoProgress,
-       sentence("No step lowers the energy any further: the gradient is %.3g where %.3g was wanted.", gradient_norm_,
-                wanted_gradient_norm_));
+       format_sentence("No step lowers the energy any further: the gradient is %.3g where %.3g was wanted.",
+                       gradient_norm_, wanted_gradient_norm_));
   return false;
 }
 
 bool Descent::is_cancelled() {
   if (progress_ == nullptr || !progress_->cancelled()) return false;
   return stop(Termination::kCancelled,
-              sentence("Cancelled after %.0f steps with the gradient at %.3g; nothing was changed.", report_.iterations,
-                       gradient_norm_));
+              format_sentence("Cancelled after %.0f steps with the gradient at %.3g; nothing was changed.",
+                              report_.iterations, gradient_norm_));
 }
 
 bool Descent::gradient_is_small() {
   if (gradient_norm_ > wanted_gradient_norm_ || !has_moved()) return gradient_is_rounding();
   return stop(Termination::kConverged,
-              sentence("The gradient is down to %.3g; %.3g was wanted.", gradient_norm_, wanted_gradient_norm_));
+              format_sentence("The gradient is down to %.3g; %.3g was wanted.", gradient_norm_, wanted_gradient_norm_));
 }
 
 bool Descent::gradient_is_rounding() {
@@ -192,27 +193,29 @@ bool Descent::gradient_is_rounding() {
   const bool untouched = !has_moved();
   return stop(
       untouched ? Termination::kAlreadyOptimal : Termination::kConverged,
-      sentence(untouched ? "Nothing to do: the gradient of the start, %.3g, does not exceed its rounding error of %.3g."
-                         : "The gradient is down to %.3g, which does not exceed its rounding error of %.3g.",
-               gradient_norm_, gradient_rounding_));
+      format_sentence(
+          untouched ? "Nothing to do: the gradient of the start, %.3g, does not exceed its rounding error of %.3g."
+                    : "The gradient is down to %.3g, which does not exceed its rounding error of %.3g.",
+          gradient_norm_, gradient_rounding_));
 }
 
 bool Descent::step_is_rounding() {
   const double largest_step = work_.direction.lpNorm<Eigen::Infinity>();
   const double resolution = kEpsilon * work_.x.lpNorm<Eigen::Infinity>();
   if (!(largest_step <= resolution)) return false;
-  return stop(!has_moved() ? Termination::kAlreadyOptimal : Termination::kConverged,
-              sentence("The next step would move nothing by more than %.3g, below the resolution %.3g of the unknowns.",
-                       largest_step, resolution));
+  return stop(
+      !has_moved() ? Termination::kAlreadyOptimal : Termination::kConverged,
+      format_sentence("The next step would move nothing by more than %.3g, below the resolution %.3g of the unknowns.",
+                      largest_step, resolution));
 }
 
 bool Descent::iterations_are_used_up() {
   if (report_.iterations < options_.max_iterations) return false;
   return stop(Termination::kIterationLimit,
-              sentence(("The limit of " + std::to_string(options_.max_iterations) +
-                        " steps was reached with the gradient at %.3g where %.3g was wanted.")
-                           .c_str(),
-                       gradient_norm_, wanted_gradient_norm_));
+              format_sentence(("The limit of " + std::to_string(options_.max_iterations) +
+                               " steps was reached with the gradient at %.3g where %.3g was wanted.")
+                                  .c_str(),
+                              gradient_norm_, wanted_gradient_norm_));
 }
 
 bool Descent::stop(Termination termination, const std::string& message) {
@@ -222,11 +225,8 @@ bool Descent::stop(Termination termination, const std::string& message) {
 }
 
 void Descent::tell(const char* stage) {
-  if (progress_ == nullptr) return;
-  const double digits = std::log(report_.gradient_before / gradient_norm_);
-  const double digits_wanted = std::log(report_.gradient_before / std::max(wanted_gradient_norm_, gradient_rounding_));
-  const double fraction = digits_wanted > 0.0 ? std::clamp(digits / digits_wanted, 0.0, 1.0) : 0.0;
-  progress_->report(std::max(fraction, progress_->fraction()), stage);
+  report_digits(progress_, stage, report_.gradient_before, gradient_norm_,
+                std::max(wanted_gradient_norm_, gradient_rounding_));
 }
 
 }  // namespace reflines

@@ -15,10 +15,10 @@ namespace reflines {
 
 class Descent {
  public:
-  // `progress` may be null; all four outlive the run.
+  // Takes what a run needs; all outlive it, and `progress` may be null.
   Descent(Problem& problem, const MinimizerOptions& options, Progress* progress, Workspace& workspace);
 
-  // As Minimizer::minimize; `seconds` is left to the caller.
+  // Implements Minimizer::minimize; `seconds` is left to the caller.
   Report run(Vector& x);
 
  private:
@@ -30,7 +30,8 @@ class Descent {
   void descend();
   void finish(Vector& x);
 
-  // Steps of the loop. The boolean ones return false where the run is to stop or the step could not be made.
+  // These are the steps of the loop. Those that return bool return false where the run is to stop or the step could not
+  // be made.
   bool factor_is_kept() const;
   bool factor_is_outdated() const;
   bool renew_factor();
@@ -40,9 +41,9 @@ class Descent {
   void try_step(double step);
   void take_step();
   void accept_trial();
-  bool blame_factor();
+  bool discard_factor();
 
-  // Stopping tests. Each that holds writes Report::termination and its sentence.
+  // These are the stopping tests. Each that holds writes Report::termination and its sentence.
   bool is_cancelled();
   bool gradient_is_small();
   bool gradient_is_rounding();
@@ -65,8 +66,8 @@ class Descent {
   LinePoint current_, trial_;
   double gradient_norm_ = 0.0;
   double wanted_gradient_norm_ = 0.0;
-  double gradient_rounding_ = 0.0;  // the change of the gradient that rounding x alone makes
-  int factored_at_ = -1;            // the iteration whose point the factor belongs to; -1: made before this run
+  double gradient_rounding_ = 0.0;  // change of the gradient by rounding x alone
+  int factored_at_ = -1;            // iteration at whose point the factor was made; -1: before this run
   bool factor_failed_ = false;      // a full step with it was refused
 };
 

@@ -77,8 +77,8 @@ void GalerkinProduct::make_pattern() {
   }
 }
 
-// With p_j the modes of unknown j, P^T H P = sum_j (p_j w_j^T + w_j p_j^T), w_j = H_jj p_j / 2 + sum_{i > j} H_ij p_i:
-// the lower triangle of H is enough, and every entry of it is read once.
+// Adds a group's contribution. With p_j the modes of unknown j, P^T H P = sum_j (p_j w_j^T + w_j p_j^T), w_j = H_jj p_j
+// / 2 + sum_{i > j} H_ij p_i: the lower triangle of H is enough, and every entry of it is read once.
 void GalerkinProduct::accumulate(const SparseMatrix& hessian, const Group& group) {
   for (int k = 0; k < static_cast<int>(group.rows.size()); ++k) row_place_[group.rows[k]] = k;
   for (int k = 0; k < static_cast<int>(group.columns.size()); ++k) column_place_[group.columns[k]] = k;

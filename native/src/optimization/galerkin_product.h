@@ -9,16 +9,16 @@ namespace reflines {
 
 class GalerkinProduct {
  public:
-  // `modes` is P^T, m x n: column j says by how much each motion moves unknown j. It outlives the product.
+  // Takes `modes` = P^T (m x n), which outlives the product: column j holds the moves of unknown j by each mode.
   explicit GalerkinProduct(const SparseMatrix& modes);
 
-  // P^T H P, lower triangle, m x m, of the lower triangle H, n x n, whose pattern is the same in every call. The
-  // reference stays valid and is overwritten by the next call.
+  // Returns P^T H P, lower triangle, m x m, of the lower triangle H, n x n, whose pattern is the same in every call.
+  // The reference stays valid and is overwritten by the next call.
   const SparseMatrix& project(const SparseMatrix& hessian);
 
  private:
-  // Unknowns that begin with the same mode; they touch nearly the same modes, so that their share of P^T H P is one
-  // small dense block: `rows` are the modes of the group itself, `columns` those of its neighbours in H.
+  // A group of unknowns with the same first mode; they depend on nearly the same modes, so that their contribution to
+  // P^T H P is one small dense block: `rows` are the modes of the group itself, `columns` those of its neighbours in H.
   struct Group {
     std::vector<int> unknowns, rows, columns;
   };
@@ -31,7 +31,7 @@ class GalerkinProduct {
   const SparseMatrix& modes_;
   std::vector<Group> groups_;
   SparseMatrix reduced_;
-  std::vector<int> row_place_, column_place_;  // m: where a mode stands in the block at hand
+  std::vector<int> row_place_, column_place_;  // m: position of a mode in the current block
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block_;
   Eigen::RowVectorXd line_;
 };

@@ -7,15 +7,15 @@
 
 namespace reflines {
 
-// Rows and columns of held unknowns are cleared but for their diagonal: the pattern, and with it the symbolic analysis,
-// stays that of the whole matrix.
+// The factor of H with the rows and columns of held unknowns cleared except for their diagonal: the pattern, and with
+// it the symbolic analysis, stays that of the whole matrix.
 class HeldFactor {
  public:
   explicit HeldFactor(LinearSolver& solver) : solver_(solver) {}
 
-  // Of H, with `added` (n, or empty) on its diagonal. Lower triangle, analysed by the solver before.
+  // Factors H (lower triangle, analysed by the solver before), with `added` (n, or empty) on its diagonal.
   void factorize(const SparseMatrix& H, const Sides& held, const Vector& added = {});
-  // 0 for held unknowns, whatever is asked there.
+  // Solves for x; held unknowns become 0, whatever their right-hand side.
   void solve(const Sides& held, Vector& x) const;
 
  private:

@@ -7,19 +7,19 @@
 namespace reflines {
 namespace {
 
-// A factorization takes as long as ten solves; on the bump problems three further correctors took 14 instead of 19
-// factorizations, and more of them no fewer.
+// The number of further correctors. A factorization takes as long as ten solves; on the bump problems three took 14
+// instead of 19 factorizations, and more saved none.
 constexpr int kFurtherCorrectors = 3;
 
-// Gondzio's: products of slack and force should lie within these multiples of the wanted one.
+// Gondzio's range of the products of slack and force, relative to the wanted product.
 constexpr double kSmallestProduct = 0.1, kLargestProduct = 10.0;
 
 constexpr double kShareOfLongest = 0.995;
 
-// The active set method finds the rest faster.
+// The relative change of the estimated set at which the iteration stops: the active set method finds the rest faster.
 constexpr double kSettled = 0.02;
 
-// Before products of slack and force are down by this much the guess says nothing.
+// The relative size of the products of slack and force above which the estimate is meaningless.
 constexpr double kSmallGap = 1e-5;
 
 }  // namespace
@@ -52,7 +52,7 @@ InteriorPoint::Barrier InteriorPoint::make_barrier(const Vector& bound, double s
     if (fixed_[k] != Side::kBetween || !std::isfinite(bound(k))) continue;
     barrier.exists(k) = 1.0;
     barrier.bound(k) = bound(k);
-    barrier.force(k) = force + std::max(sign * gradient_(k), 0.0);  // what the gradient asks for, and some
+    barrier.force(k) = force + std::max(sign * gradient_(k), 0.0);  // balances the gradient, with a margin
   }
   return barrier;
 }
@@ -74,7 +74,7 @@ bool InteriorPoint::step(HeldFactor& factor, Report& counts) {
   return !settled || product > kSmallGap * first_product_;
 }
 
-// An unknown whose force is larger than what its own stiffness makes of its slack.
+// Returns the unknowns whose force is larger than the slack times their own stiffness.
 Sides InteriorPoint::guess() const {
   Sides guess = fixed_;
   for (int k = 0; k < d_.size(); ++k) {
@@ -91,19 +91,19 @@ Vector InteriorPoint::barrier_diagonal() const {
   return barriers_[0].force.cwiseQuotient(barriers_[0].slack) + barriers_[1].force.cwiseQuotient(barriers_[1].slack);
 }
 
-Vector InteriorPoint::missed_slack(const Barrier& barrier) const {
+Vector InteriorPoint::compute_missed_slack(const Barrier& barrier) const {
   return barrier.exists.cwiseProduct(barrier.sign * (d_ - barrier.bound) - barrier.slack);
 }
 
 Vector InteriorPoint::dual_residual() const { return gradient_ - barriers_[0].force + barriers_[1].force; }
 
-// Newton's step to products changed by `products`, and, where asked for, to residuals of 0.
+// Solves Newton's system for a change of the products by `products` and, where asked for, for residuals of 0.
 InteriorPoint::Change InteriorPoint::solve(const HeldFactor& factor, const Products& products, bool residuals) const {
   Change change;
   change.d = residuals ? Vector(-dual_residual()) : Vector::Zero(d_.size());
   for (int b = 0; b < 2; ++b) {
     const Barrier& barrier = barriers_[b];
-    change.slack[b] = residuals ? missed_slack(barrier) : Vector::Zero(d_.size());
+    change.slack[b] = residuals ? compute_missed_slack(barrier) : Vector::Zero(d_.size());
     change.force[b] = (products[b] - barrier.force.cwiseProduct(change.slack[b])).cwiseQuotient(barrier.slack);
     change.d += barrier.sign * change.force[b];
   }
@@ -131,7 +131,8 @@ InteriorPoint::Change InteriorPoint::predict_and_correct(const HeldFactor& facto
   return solve(factor, products, true);
 }
 
-// Pulls the products that a longer step would leave far too small or too large back. False where that did not help.
+// Corrects the products that a longer step would leave far too small or too large; returns false where that did not
+// help.
 bool InteriorPoint::correct_further(const HeldFactor& factor, Change& change) const {
   const double now = std::min(1.0, longest(change));
   const double aimed_at = std::min(1.0, std::max(1.5 * now, now + 0.3));

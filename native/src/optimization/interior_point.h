@@ -1,4 +1,4 @@
-// Which unknowns a bounded quadratic minimum holds, found from inside the bounds.
+// Estimates the active set of a bounded quadratic minimum by an interior point method.
 #pragma once
 
 #include <array>
@@ -7,20 +7,20 @@
 
 namespace reflines {
 
-// Mehrotra's predictor-corrector with Gondzio's further correctors (Comput. Optim. Appl. 6, 1996), stopped as soon as
-// it is clear which bounds are touched. Its number of factorizations hardly grows with the mesh, where an active set
-// shrinks by a row of vertices each.
+// Mehrotra's predictor-corrector method with Gondzio's further correctors (Comput. Optim. Appl. 6, 1996), stopped as
+// soon as the active bounds are clear. Its number of factorizations hardly grows with the mesh, whereas an active set
+// method removes one row of vertices with each.
 class InteriorPoint {
  public:
-  // `reach`: how far steps are expected to go where a range has no other end.
+  // Takes the model and its bounds; `reach` is the expected length of steps where a range is unbounded.
   InteriorPoint(const QuadraticModel& model, const Bounds& bounds, double reach);
 
-  // One factorization and a few solves. False once the guess has settled.
+  // Makes one iteration: one factorization and a few solves. Returns false once the estimate has settled.
   bool step(HeldFactor& factor, Report& counts);
   Sides guess() const;
 
  private:
-  // One end of every range: slack = sign (d - bound) > 0 in the end, force > 0 is what the bound presses with.
+  // The barrier of one end of every range: slack = sign (d - bound) > 0, and force > 0 is the multiplier of the bound.
   struct Barrier {
     double sign;
     Vector exists;  // 1, or 0 where the range is infinite or a point
@@ -32,12 +32,12 @@ class InteriorPoint {
     Vector d;
     std::array<Vector, 2> slack, force;
   };
-  using Products = std::array<Vector, 2>;  // what slack times force is to change by, for each barrier
+  using Products = std::array<Vector, 2>;  // wanted change of slack times force, for each barrier
 
   double stiffness(int k) const { return model_.H.valuePtr()[model_.H.outerIndexPtr()[k]]; }
   Barrier make_barrier(const Vector& bound, double sign, double force) const;
   Vector barrier_diagonal() const;
-  Vector missed_slack(const Barrier& barrier) const;
+  Vector compute_missed_slack(const Barrier& barrier) const;
   Vector dual_residual() const;
   Change solve(const HeldFactor& factor, const Products& products, bool residuals) const;
   Change predict_and_correct(const HeldFactor& factor, Report& counts);
@@ -48,9 +48,9 @@ class InteriorPoint {
 
   const QuadraticModel& model_;
   std::array<Barrier, 2> barriers_;  // low, high
-  Sides fixed_;                      // held all the time: their range is a point
+  Sides fixed_;                      // unknowns that are always held: their range is a point
   Vector d_;
-  Vector gradient_;  // of the model at d
+  Vector gradient_;  // gradient of the model at d
   int barrier_count_ = 0;
   double wanted_product_ = 0.0, first_product_ = 0.0;
   Sides last_guess_;

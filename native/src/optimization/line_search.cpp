@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kArmijo = 1e-4;
 
-// Near the minimum the energy changes by less than the rounding of its own sum, while the slope still has digits.
+// The relative rounding of the energy's sum, below which its changes near the minimum carry no information while the
+// slope still does.
 constexpr double kEnergyRounding = 1e-10;
 constexpr double kSlopeReduction = 0.9;
 
@@ -24,7 +25,7 @@ bool lowers_energy_enough(const LinePoint& start, const LinePoint& trial) {
 
 double shorter_step(const LinePoint& start, const LinePoint& trial) {
   const double t = trial.step;
-  const double excess = trial.energy - start.energy - t * start.slope;  // over the tangent; > 0 for a refused step
+  const double excess = trial.energy - start.energy - t * start.slope;  // above the tangent; > 0 for a refused step
   if (!std::isfinite(excess) || !(excess > 0.0)) return 0.1 * t;
   return std::clamp(-start.slope * t * t / (2.0 * excess), 0.1 * t, 0.5 * t);
 }

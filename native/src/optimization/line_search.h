@@ -3,18 +3,18 @@
 
 namespace reflines {
 
-// A point on the line: the energy there and its derivative along the line, g . d.
+// A point of the line search: the energy there and its derivative along the line, g . d.
 struct LinePoint {
   double step = 0.0;  // t; 0 at x itself
   double energy = 0.0;
   double slope = 0.0;
 };
 
-// Armijo's condition; where the energies agree to rounding, the slopes decide instead (Hager and Zhang's approximate
-// Wolfe condition, SIAM J. Optim. 16, 2005). False where the trial is not finite.
+// Returns whether Armijo's condition holds; where the energies agree to rounding, the slopes decide instead (Hager and
+// Zhang's approximate Wolfe condition, SIAM J. Optim. 16, 2005). False where the trial is not finite.
 bool lowers_energy_enough(const LinePoint& start, const LinePoint& trial);
 
-// A shorter step after a refused one: the minimum of the parabola through both, at least a tenth and at most a half of
+// Returns a shorter step after a refused one: the minimum of the parabola through both, between a tenth and a half of
 // it.
 double shorter_step(const LinePoint& start, const LinePoint& trial);
 

@@ -23,7 +23,7 @@ void check(const MinimizerOptions& options) {
 }
 
 template <typename Run>
-Report timed(const Run& run) {
+Report measure_time(const Run& run) {
   const auto start = std::chrono::steady_clock::now();
   Report report = run();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -38,13 +38,13 @@ Minimizer::~Minimizer() = default;
 
 Report Minimizer::minimize(Problem& problem, Vector& x, const MinimizerOptions& options, Progress* progress) {
   check(options);
-  return timed([&] { return Descent(problem, options, progress, *workspace_).run(x); });
+  return measure_time([&] { return Descent(problem, options, progress, *workspace_).run(x); });
 }
 
 Report Minimizer::minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options,
                            Progress* progress) {
   check(options);
-  return timed([&] { return BoundedDescent(problem, bounds, options, progress, *workspace_).run(x); });
+  return measure_time([&] { return BoundedDescent(problem, bounds, options, progress, *workspace_).run(x); });
 }
 
 }  // namespace reflines

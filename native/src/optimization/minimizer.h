@@ -14,8 +14,9 @@ namespace reflines {
 
 struct Workspace;
 
-// Keeps the symbolic analysis, the last factor and its work space between solves, so that the next target of a dragged
-// handle costs a few back substitutions. A changed size or pattern of the Hessian is noticed and analysed anew.
+// A minimizer keeps the symbolic analysis, the last factor and its work space between solves, so that the next target
+// of a dragged handle costs a few back substitutions. A changed size or pattern of the Hessian is detected and analysed
+// anew.
 class Minimizer {
  public:
   explicit Minimizer(LinearSolverKind kind = LinearSolverKind::kCholmod);
@@ -25,11 +26,10 @@ class Minimizer {
 
   // Moves x (n, the start) to a minimum. Not converging is a value of Report::termination. x keeps its bits when the
   // solve is cancelled, already optimal, or throws (InvalidInput: a start that is not finite or of the wrong length,
-  // options out of range;
-  // SolverFailure). `progress` may be null.
+  // options out of range; SolverFailure). `progress` may be null.
   Report minimize(Problem& problem, Vector& x, const MinimizerOptions& options = {}, Progress* progress = nullptr);
 
-  // The same within bounds, where x ends to the bit (see BoundedDescent); a start outside is first moved into them.
+  // Minimizes within bounds, which x satisfies exactly (see BoundedDescent); a start outside is first moved into them.
   Report minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options = {},
                   Progress* progress = nullptr);
 

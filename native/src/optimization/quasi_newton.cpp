@@ -6,10 +6,10 @@ namespace reflines {
 
 namespace {
 
-// On the bump problems 20 pairs saved no more than two steps in 28 over 8 pairs.
+// The number of pairs kept: on the bump problems 20 pairs saved no more than two steps in 28 over 8 pairs.
 constexpr std::size_t kPairs = 8;
 
-// A pair whose curvature is this much smaller than its lengths allow is rounding, not knowledge.
+// The curvature of a pair relative to its lengths below which it is rounding.
 constexpr double kSmallestCurvature = 1e-14;
 
 }  // namespace

@@ -7,24 +7,25 @@
 
 namespace reflines {
 
-// Usage: d = -g; memory.before_solve(d); solver.solve(d); memory.after_solve(d) leaves the quasi-Newton direction in d.
+// The memory of L-BFGS pairs. Usage: d = -g; memory.before_solve(d); solver.solve(d); memory.after_solve(d) leaves the
+// quasi-Newton direction in d.
 class QuasiNewtonMemory {
  public:
-  // Work space for vectors of length n; forgets everything.
+  // Allocates work space for vectors of length n and drops all pairs.
   void resize(Eigen::Index n);
   void clear() { count_ = 0; }
 
   void before_solve(Vector& direction);
   void after_solve(Vector& direction) const;
 
-  // Keeps the pair (x_new - x, g_new - g), unless it says that the function curves downwards. Drops the oldest of 8.
+  // Adds the pair (x_new - x, g_new - g) unless its curvature is negative, and drops the oldest of 8.
   void learn(const Vector& step, const Vector& gradient_change);
 
  private:
   struct Pair {
     Vector step, gradient_change;
     double curvature = 0.0;  // step . gradient_change
-    double weight = 0.0;     // of this pair in the direction being made
+    double weight = 0.0;     // weight of the pair in the current direction
   };
   Pair& pair(int age) { return pairs_[(newest_ + pairs_.size() - age) % pairs_.size()]; }
   const Pair& pair(int age) const { return pairs_[(newest_ + pairs_.size() - age) % pairs_.size()]; }

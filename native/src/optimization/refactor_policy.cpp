@@ -8,11 +8,11 @@ namespace reflines {
 
 namespace {
 
-// One assembly and factorization takes as long as about 25 steps (a solve, an evaluation, the quasi-Newton products):
-// 22 to 28 were measured from 10k to 1M unknowns.
+// The cost of one assembly and factorization in steps (a solve, an evaluation, the quasi-Newton products): 22 to 28
+// were measured from 10k to 1M unknowns.
 constexpr double kStepsPerFactorization = 25.0;
 
-// With a fresh factor the last digits take about this many more.
+// The expected number of steps to the last digits with a fresh factor.
 constexpr double kStepsAfterFactorization = 5.0;
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "optimization/wording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -7,7 +8,7 @@
 
 namespace reflines {
 
-std::string sentence(const char* format, double first, double second) {
+std::string format_sentence(const char* format, double first, double second) {
   char text[256];
   std::snprintf(text, sizeof text, format, first, second);
   return text;
@@ -24,7 +25,7 @@ void check_start(double energy, double gradient_norm) {
   throw InvalidInput("The energy at the start is not finite; remove folded or degenerate triangles from the region.");
 }
 
-HessianModel model_of(Strategy strategy) {
+HessianModel choose_model(Strategy strategy) {
   switch (strategy) {
     case Strategy::kLinearized:
       return HessianModel::kLinearized;
@@ -35,6 +36,14 @@ HessianModel model_of(Strategy strategy) {
       break;
   }
   return HessianModel::kGaussNewton;
+}
+
+void report_digits(Progress* progress, const char* stage, double norm_before, double norm, double wanted_norm) {
+  if (progress == nullptr) return;
+  const double digits = std::log(norm_before / norm);
+  const double digits_wanted = std::log(norm_before / wanted_norm);
+  const double fraction = digits_wanted > 0.0 ? std::clamp(digits / digits_wanted, 0.0, 1.0) : 0.0;
+  progress->report(std::max(fraction, progress->fraction()), stage);
 }
 
 }  // namespace reflines

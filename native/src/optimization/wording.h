@@ -1,20 +1,26 @@
-// What both descents say and ask in the same words.
+// The sentences and the input checks that both descents use.
 #pragma once
 
 #include <string>
 
 #include "optimization/problem.h"
 #include "reflines/minimizer_options.h"
+#include "reflines/progress.h"
 
 namespace reflines {
 
-// `format` holds two %g.
-std::string sentence(const char* format, double first, double second);
+// Formats two numbers; `format` holds two %g.
+std::string format_sentence(const char* format, double first, double second);
 
-// InvalidInput where there is not one value an unknown, or where the energy or the norm of its gradient is not finite.
+// Throws InvalidInput unless there is one value for each unknown, and the energy and the norm of its gradient are
+// finite.
 void check_start(Eigen::Index values, int unknowns);
 void check_start(double energy, double gradient_norm);
 
-HessianModel model_of(Strategy strategy);
+HessianModel choose_model(Strategy strategy);
+
+// Reports a stage to `progress` (or to nobody), with the fraction of the digits of the gradient norm that are gained;
+// it never decreases.
+void report_digits(Progress* progress, const char* stage, double norm_before, double norm, double wanted_norm);
 
 }  // namespace reflines

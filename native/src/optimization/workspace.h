@@ -21,9 +21,9 @@ struct Workspace {
   Vector trial, trial_gradient;  // the point being tried
   Vector direction;
 
-  // Within bounds only.
-  SparseMatrix matrix;  // the model's, whole
-  Sides held;           // n: the factor leaves their rows and columns out; empty: it is one of the whole matrix
+  // The state of a bounded minimization.
+  SparseMatrix matrix;  // the whole matrix of the model
+  Sides held;  // n: unknowns whose rows and columns the factor leaves out; empty: it is a factor of the whole matrix
 
   bool has_factor_of(HessianModel model, Eigen::Index n) const {
     return solver.has_factor() && held.empty() && factored_model == model && rounding_weight.size() == n;
@@ -32,7 +32,8 @@ struct Workspace {
     return solver.has_factor() && factored_model == model && static_cast<Eigen::Index>(held.size()) == n;
   }
 
-  // Reads no values of the matrix. Returns the number of analyses made, 0 where the pattern is known.
+  // Analyses the pattern of the matrix, whose values are not read. Returns the number of analyses made, 0 where the
+  // pattern is known.
   int analyze(const SparseMatrix& matrix, Problem& problem) {
     if (solver.has_pattern_of(matrix)) return 0;
     const PlanePositions places = problem.places();
@@ -40,7 +41,7 @@ struct Workspace {
     return 1;
   }
 
-  // No-op for the same n: then nothing is allocated in a second solve.
+  // Resizes the vectors; does nothing for the same n, so that a second solve allocates nothing.
   void resize(Eigen::Index n) {
     if (x.size() == n) return;
     for (Vector* vector : {&x, &gradient, &trial, &trial_gradient, &direction}) vector->resize(n);

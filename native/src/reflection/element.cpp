@@ -5,12 +5,12 @@
 namespace reflines {
 namespace {
 
-// Slopes zero: the linearised reflection function of the paper, theta ~ theta_p f_x + theta_q f_y with constant
-// factors.
-ThetaDerivatives flat(const ReflectionFunction& reflection) { return reflection.derivatives(0, 0, 1); }
+// Returns the derivatives at slopes zero: the linearised reflection function of the paper, theta ~ theta_p f_x +
+// theta_q f_y with constant factors.
+ThetaDerivatives linearize(const ReflectionFunction& reflection) { return reflection.derivatives(0, 0, 1); }
 
-// sum_k residual_k times the second derivatives of (grad theta)_k with respect to u.
-Matrix5 curvature(const ThetaDerivatives& d, const Vector5& u, const Vector2& residual) {
+// Returns sum_k residual_k times the second derivatives of (grad theta)_k with respect to u.
+Matrix5 compute_curvature(const ThetaDerivatives& d, const Vector5& u, const Vector2& residual) {
   const double xx = u(2), xy = u(3), yy = u(4), r = residual.x(), s = residual.y();
   Matrix5 C = Matrix5::Zero();
   C(0, 0) = r * (d.ppp * xx + d.ppq * xy) + s * (d.ppp * xy + d.ppq * yy);
@@ -25,7 +25,7 @@ Matrix5 curvature(const ThetaDerivatives& d, const Vector5& u, const Vector2& re
   return C.selfadjointView<Eigen::Upper>();
 }
 
-// The Jacobian below, whose zeros are a third of it, as one product.
+// Returns J^T v for the Jacobian below, without the zeros that are a third of it.
 Vector5 jacobian_transposed_times(const ThetaDerivatives& d, const Vector5& u, const Vector2& v) {
   const double xx = v.x() * u(2) + v.y() * u(3), xy = v.x() * u(3) + v.y() * u(4);
   return {d.pp * xx + d.pq * xy, d.pq * xx + d.qq * xy, d.p * v.x(), d.q * v.x() + d.p * v.y(), d.q * v.y()};
@@ -59,19 +59,19 @@ double value_fit(const ReflectionFunction& reflection, const Vector5& u, double 
     const ThetaDerivatives d = reflection.derivatives(u(0), u(1), 1);
     gradient->head<2>() += 2 * weight * std::sin(2 * half) * Vector2(d.p, d.q);
   }
-  return 4 * weight * std::sin(half) * std::sin(half);  // 2 - 2 cos without the cancellation near a perfect fit
+  return 4 * weight * std::sin(half) * std::sin(half);  // 2 - 2 cos, without its cancellation near a perfect fit
 }
 
 Matrix5 gradient_fit_hessian(const ReflectionFunction& reflection, const Vector5& u, const Vector2& wanted,
                              double weight, HessianModel model) {
   if (model == HessianModel::kLinearized) {
-    const Eigen::Matrix<double, 2, 5> J = theta_gradient_jacobian(flat(reflection), u);
+    const Eigen::Matrix<double, 2, 5> J = theta_gradient_jacobian(linearize(reflection), u);
     return 2 * weight * J.transpose() * J;
   }
   const ThetaDerivatives d = reflection.derivatives(u(0), u(1), model == HessianModel::kNewton ? 3 : 2);
   const Eigen::Matrix<double, 2, 5> J = theta_gradient_jacobian(d, u);
   Matrix5 M = J.transpose() * J;
-  if (model == HessianModel::kNewton) M += curvature(d, u, theta_gradient(d, u) - wanted);
+  if (model == HessianModel::kNewton) M += compute_curvature(d, u, theta_gradient(d, u) - wanted);
   return 2 * weight * M;
 }
 
@@ -79,7 +79,7 @@ Matrix5 value_fit_hessian(const ReflectionFunction& reflection, const Vector5& u
                           HessianModel model) {
   const bool newton = model == HessianModel::kNewton;
   const ThetaDerivatives d =
-      model == HessianModel::kLinearized ? flat(reflection) : reflection.derivatives(u(0), u(1), newton ? 2 : 1);
+      model == HessianModel::kLinearized ? linearize(reflection) : reflection.derivatives(u(0), u(1), newton ? 2 : 1);
   const double difference = newton ? reflection.theta(u(0), u(1)) - wanted : 0.0;
   const Vector2 slope(d.p, d.q);
   Eigen::Matrix2d second;

@@ -7,9 +7,9 @@
 namespace reflines {
 namespace {
 
-// Sums of a fixed number of neighbours first, then those: the same bits for any number of threads, and better rounding
+// Sums values in chunks of a fixed size and then the chunks: the same bits for any number of threads, and less rounding
 // than one long chain.
-double chunked_sum(const Vector& values) {
+double sum_in_chunks(const Vector& values) {
   constexpr Eigen::Index kChunk = 1024;
   double sum = 0;
   for (Eigen::Index first = 0; first < values.size(); first += kChunk) {
@@ -78,13 +78,14 @@ Matrix5 Energy::triangle_hessian(int t, const Vector5& u, HessianModel model) co
   return model == HessianModel::kNewton ? project_semi_definite(M) : M;
 }
 
-double Energy::mean_rise(const Eigen::RowVector3i& corners, const Vector& z) const {
+double Energy::measure_mean_rise(const Eigen::RowVector3i& corners, const Vector& z) const {
   double sum = 0;
   for (const int v : corners) sum += z(v) - start_(v);
   return sum / 3.0;
 }
 
-// One pass over the triangles' weights, by far the largest arrays: memory is what an evaluation waits for.
+// Evaluates the energy in one pass over the triangles' weights, by far the largest arrays: an evaluation is bound by
+// memory.
 double Energy::evaluate(const Vector& z, Vector* gradient) {
 #pragma omp parallel for schedule(static) if (stencils_.triangle_count() > kWorthThreads)
   for (int t = 0; t < stencils_.triangle_count(); ++t) {
@@ -92,7 +93,7 @@ double Energy::evaluate(const Vector& z, Vector* gradient) {
     triangle_energy_(t) = triangle(t, apply_stencil(stencils_, t, z), gradient ? &y : nullptr);
     if (gradient) multiply_stencil(stencils_, t, y, products_);
   }
-  double energy = chunked_sum(triangle_energy_);
+  double energy = sum_in_chunks(triangle_energy_);
   if (gradient) sum_products(entries_, products_, *gradient);
   if (pull_.size() == 0) return energy;
   for (int v = 0; v < z.size(); ++v) energy += pull_(v) * (z(v) - start_(v)) * (z(v) - start_(v));

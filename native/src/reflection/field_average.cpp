@@ -7,7 +7,7 @@ namespace reflines {
 namespace {
 
 constexpr int kFewest = 4;  // triangles for a fit of three coefficients
-// Smallest over largest pivot of the moments below which the centroids lie on a line.
+// The ratio of smallest to largest pivot of the moments below which the centroids lie on a line.
 constexpr double kOnLine = 1e-8;
 
 Vector2 centroid(const HeightField& field, int t) {
@@ -16,8 +16,8 @@ Vector2 centroid(const HeightField& field, int t) {
   return sum / 3.0;
 }
 
-// Vertices that their triangles surround.
-Mask surrounded(const HeightField& field) {
+// Marks the vertices that are surrounded by their triangles.
+Mask find_surrounded(const HeightField& field) {
   Mask result(field.vertex_count());
   const Incidence& around = field.triangles_of_vertex;
   for (int v = 0; v < field.vertex_count(); ++v) result(v) = around.end(v) - around.begin(v) >= kFewest;
@@ -29,7 +29,7 @@ Mask surrounded(const HeightField& field) {
   return result;
 }
 
-// The value at v of the fit as weights of the triangles around it; false where there is none.
+// Computes the value at v of the fit as weights of the triangles around it; returns false where there is none.
 bool fit(const HeightField& field, int v, double* weight) {
   const Incidence& around = field.triangles_of_vertex;
   const int count = around.end(v) - around.begin(v);
@@ -47,7 +47,7 @@ bool fit(const HeightField& field, int v, double* weight) {
 }  // namespace
 
 FieldAverage::FieldAverage(const HeightField& field)
-    : field_(field), weight_(field.triangles_of_vertex.items.size()), fitted_(surrounded(field)) {
+    : field_(field), weight_(field.triangles_of_vertex.items.size()), fitted_(find_surrounded(field)) {
 #pragma omp parallel for schedule(static) if (field.vertex_count() > kWorthThreads)
   for (int v = 0; v < field_.vertex_count(); ++v) {
     if (fitted_(v)) fitted_(v) = fit(field_, v, weight_.data() + field_.triangles_of_vertex.begin(v));

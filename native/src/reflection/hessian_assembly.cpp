@@ -9,9 +9,9 @@ namespace {
 
 constexpr int kChunkSize = 4096;
 
-// M w for the packed upper triangle m of M (see Energy::ElementHessians) and the column w of D of an entry: (p, q) is
-// its share of the gradient, 0 but at the triangle's own corners.
-Vector5 product(const double* m, double p, double q, const double* w) {
+// Returns M w for the packed upper triangle m of M (see Energy::ElementHessians) and an entry's column w of D: (p, q)
+// is its gradient weight, 0 except at the triangle's own corners.
+Vector5 multiply_packed(const double* m, double p, double q, const double* w) {
   Vector5 result;
   result << m[0] * p + m[1] * q + m[2] * w[0] + m[3] * w[1] + m[4] * w[2],
       m[1] * p + m[5] * q + m[6] * w[0] + m[7] * w[1] + m[8] * w[2],
@@ -56,13 +56,13 @@ HessianAssembly::HessianAssembly(const Stencils& stencils, const StencilEntries&
   for (const std::vector<int>& some : rows) inner = std::copy(some.begin(), some.end(), inner);
 }
 
-// The unknowns from `unknown` on that share a stencil with it, ascending; `last` is where each was met last. (To look
-// for it among the rows takes the square of their number, which at the pole of a fan is the number of spokes.)
+// Appends the unknowns from `unknown` on that occur with it in a stencil, ascending; `last` marks rows already found.
+// (A search among the rows would take the square of their number, which at the pole of a fan is the number of spokes.)
 void HessianAssembly::append_rows(int unknown, std::vector<int>& last, std::vector<int>& rows) const {
   const auto before = static_cast<std::ptrdiff_t>(rows.size());
   const Incidence& lists = entries_.entries_of_vertex;
   last[unknown] = unknown;
-  rows.push_back(unknown);  // a vertex that no stencil names has its diagonal, too
+  rows.push_back(unknown);  // a vertex that no stencil contains has a diagonal entry, too
   for (int k = lists.begin(vertex_[unknown]); k < lists.end(vertex_[unknown]); ++k) {
     const int t = entries_.triangle[lists.items[k]];
     for (int e = stencils_.offset[t]; e < stencils_.offset[t + 1]; ++e) {
@@ -88,8 +88,8 @@ void HessianAssembly::fill_column(int unknown, const Energy::ElementHessians& el
     const double* gradient = stencils_.gradient.data() + 6 * static_cast<size_t>(t);
     const double* second = stencils_.hessian.data() + 3 * static_cast<size_t>(first);
     const bool corner = slot < 3;
-    const Vector5 m = product(elements.data() + 15 * static_cast<size_t>(t), corner ? gradient[2 * slot] : 0.0,
-                              corner ? gradient[2 * slot + 1] : 0.0, second + 3 * slot);
+    const Vector5 m = multiply_packed(elements.data() + 15 * static_cast<size_t>(t), corner ? gradient[2 * slot] : 0.0,
+                                      corner ? gradient[2 * slot + 1] : 0.0, second + 3 * slot);
     for (int j = 0; j < stencils_.offset[t + 1] - first; ++j) {
       const int row = column_[stencils_.vertex[first + j]];
       if (row < unknown) continue;

@@ -1,4 +1,5 @@
-// The sparse Hessian D^T M D over the unknown heights: pattern once, values often, on all cores with the same bits.
+// The sparse Hessian D^T M D over the unknown heights: the pattern is built once, values often, on all cores with the
+// same bits.
 #pragma once
 
 #include <vector>
@@ -11,13 +12,14 @@ namespace reflines {
 
 class HessianAssembly {
  public:
-  // `column` (#V) names the unknown of each vertex, or -1 where it is fixed; unknowns are 0 .. unknown_count - 1.
+  // Builds the pattern. `column` (#V) is the unknown of each vertex, or -1 where it is fixed; unknowns are 0 ..
+  // unknown_count - 1.
   HessianAssembly(const Stencils& stencils, const StencilEntries& entries, std::vector<int> column, int unknown_count);
 
   const SparseMatrix& pattern() const { return H_; }  // lower triangle, n x n; values only after `assemble`
 
-  // Lower triangle, n x n; the pattern never changes. `diagonal` (#V, may be empty) is added. The reference stays valid
-  // and is overwritten by the next call.
+  // Returns the lower triangle, n x n; the pattern never changes. `diagonal` (#V, may be empty) is added. The reference
+  // stays valid and is overwritten by the next call.
   const SparseMatrix& assemble(const Energy::ElementHessians& elements, const Vector& diagonal);
 
  private:
@@ -28,7 +30,8 @@ class HessianAssembly {
   const StencilEntries& entries_;
   std::vector<int> column_;  // #V
   std::vector<int> vertex_;  // n: the vertex of each unknown
-  // A thread's work space: where in the column being filled a row stands; for the pattern the last column with the row.
+  // The work space of each thread: the position of a row in the column being filled; for the pattern the last column
+  // with the row.
   std::vector<std::vector<int>> position_;
   SparseMatrix H_;
 };

@@ -10,12 +10,12 @@
 namespace reflines {
 namespace {
 
-// What directional smoothing keeps of the isotropic one: without it nothing couples a line with its neighbours, and the
-// system is singular wherever a line crosses fewer than three triangles.
+// The isotropic part of directional smoothing: without it nothing couples a line with its neighbours, and the system is
+// singular wherever a line crosses fewer than three triangles.
 constexpr double kAcrossLines = 1e-3;
 
-// Fraction of the data term that compares each corner, not only the triangle's mean, with the triangle's gradient. A
-// triangle that hangs on one vertex has two corners more than means; without this fraction they are undetermined and
+// The fraction of the data term that compares each corner, not only the triangle's mean, with the triangle's gradient.
+// A triangle connected by one vertex has two corners more than means; without this fraction they are undetermined and
 // the system is singular. Linear fields are bent by it at the border, by this fraction at most.
 constexpr double kCornerFraction = 1e-4;
 
@@ -27,14 +27,14 @@ Vector corner_weights(const HeightField& field, const Vector& weight) {
   return result;
 }
 
-// Weight of a feature's data against 1: it fixes the smoothed field where nothing else does, and bends nothing around
-// it.
+// The weight of a feature's data relative to 1: it determines the smoothed field where nothing else does, and bends
+// nothing around it.
 constexpr double kFeatureWeight = 1e-3;
 
-// What is not to be trusted at all still fixes the smoothed field where nothing else does.
+// The least weight of untrusted data, which determine the smoothed field where nothing else does.
 constexpr double kLeastTrust = 1e-6;
 
-PlaneVectors shortened(const PlaneVectors& gradient, double longest) {
+PlaneVectors shorten(const PlaneVectors& gradient, double longest) {
   if (!std::isfinite(longest)) return gradient;
   const Vector factor = (longest / gradient.rowwise().norm().array().max(longest)).matrix();
   return factor.asDiagonal() * gradient;
@@ -45,14 +45,15 @@ Vector data_weights(const HeightField& field, const Vector& trust, const Mask& f
   return (weight.array() * features.select(Vector::Constant(weight.size(), kFeatureWeight).array(), 1.0)).matrix();
 }
 
-// The region's stencils with the mean over the triangle in the place of f_x, and nothing in that of f_y.
-Stencils with_means(Stencils stencils) {
+// Returns the stencils with the mean over the triangle in place of f_x, and zero in place of f_y.
+Stencils replace_gradient_by_mean(Stencils stencils) {
   stencils.gradient.setZero();
   for (int i = 0; i < 3; ++i) stencils.gradient.col(2 * i).setConstant(1.0 / 3.0);
   return stencils;
 }
 
-// |f_xx|^2 + 2 |f_xy|^2 + |f_yy|^2, or the square of the second derivative along the level lines of `gradient`.
+// Returns the quadratic form |f_xx|^2 + 2 |f_xy|^2 + |f_yy|^2, or the square of the second derivative along the level
+// lines of `gradient`.
 Eigen::Matrix3d second_order_energy(bool directional, const Vector2& gradient) {
   const Eigen::Matrix3d isotropic = Vector3(1, 2, 1).asDiagonal();
   if (!directional || gradient.norm() == 0) return isotropic;
@@ -69,7 +70,7 @@ Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& 
     const Eigen::Matrix3d K =
         field.area(t) * stiffness *
         second_order_energy(options.directional, options.directional ? Vector2(along.row(t)) : Vector2());
-    // Upper triangle of a 5 x 5 matrix row by row: 0 is the mean's, 9 .. 14 are those of f_xx, f_xy, f_yy.
+    // The upper triangle of a 5 x 5 matrix row by row: 0 is the mean's, 9 .. 14 are those of f_xx, f_xy, f_yy.
     result(t, 0) = (1.0 - kCornerFraction) * weight(t);
     result.row(t).tail<6>() << K(0, 0), K(0, 1), K(0, 2), K(1, 1), K(1, 2), K(2, 2);
   }
@@ -88,7 +89,7 @@ LineSmoother::LineSmoother(const HeightField& field, const Stencils& stencils, c
     throw InvalidInput("The smoothing length must be a positive length in scene units, not " +
                        std::to_string(options.length) + ".");
   }
-  const Stencils means = with_means(stencils);
+  const Stencils means = replace_gradient_by_mean(stencils);
   const StencilEntries entries(means, field.vertex_count());
   std::vector<int> column(field.vertex_count());
   std::iota(column.begin(), column.end(), 0);
@@ -98,7 +99,7 @@ LineSmoother::LineSmoother(const HeightField& field, const Stencils& stencils, c
 
 PlaneVectors LineSmoother::smooth(const PlaneVectors& gradient) const {
   PlaneVectors result(field_.triangle_count(), 2);
-  const PlaneVectors data = shortened(gradient, longest_);
+  const PlaneVectors data = shorten(gradient, longest_);
   for (int component = 0; component < 2; ++component) {
     Vector G = Vector::Zero(field_.vertex_count());
     for (int t = 0; t < field_.triangle_count(); ++t) {
@@ -110,7 +111,7 @@ PlaneVectors LineSmoother::smooth(const PlaneVectors& gradient) const {
       result(t, component) = features_(t) ? gradient(t, component) : mean;
     }
   }
-  return gradient + shortened(result - gradient, longest_);
+  return gradient + shorten(result - gradient, longest_);
 }
 
 }  // namespace reflines

@@ -1,10 +1,10 @@
 // Smooths a field of gradients over a surface by one implicit step (paper, section 4, "Smoothing").
 //
-// G (a vector at every vertex) minimises sum_T A_T (c_T |mean of G over T - g_T|^2 + l^4 |Hessian of G|^2), where
-// l = length / 2 pi and c_T is the trust weight of T. A wave of wavelength w keeps 1 / (1 + (length / w)^4) of its
-// amplitude: half at w = length, 6 % at half of it, 94 % at twice. The Hessian's energy knows linear fields as zero
-// also at the border, so a field that is already fair is not bent there (diffusion bends it; the squared Laplacian
-// leaves every harmonic border wave).
+// G (a vector at every vertex) minimises sum_T A_T (c_T |mean of G over T - g_T|^2 + l^4 |Hessian of G|^2), where l =
+// length / 2 pi and c_T is the trust weight of T. A wave of wavelength w keeps 1 / (1 + (length / w)^4) of its
+// amplitude: half at w = length, 6 % at half of it, 94 % at twice. Linear fields have no Hessian energy, also at the
+// border, so a field that is already fair is not bent there (diffusion bends it; the squared Laplacian leaves every
+// harmonic border wave).
 #pragma once
 
 #include <functional>
@@ -15,26 +15,26 @@
 
 namespace reflines {
 
-// Factors a symmetric positive definite matrix (lower triangle) and returns the solve x <- A^-1 x.
+// A function that factors a symmetric positive definite matrix (lower triangle) and returns the solve x <- A^-1 x.
 using SpdSolve = std::function<void(Vector&)>;
 using SpdFactorize = std::function<SpdSolve(const SparseMatrix&)>;
 
 class LineSmoother {
  public:
-  // `along` (#T x 2) gives the gradient whose level lines are the direction; read only for directional smoothing.
-  // `trust` (#T, 0 to 1) weights each triangle's gradient; `features` (#T, see strong_features)
-  // stay as they are and hardly count around them.
+  // Assembles and factors the system. `along` (#T x 2) are gradients whose level lines are the direction; read only for
+  // directional smoothing. `trust` (#T, 0 to 1) weights each triangle's gradient; `features` (#T, see strong_features)
+  // keep their gradients and hardly count around them.
   LineSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
                const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize);
 
-  // The smoothed field (#T x 2) of `gradient` (#T x 2).
+  // Returns the smoothed field (#T x 2) of `gradient` (#T x 2).
   PlaneVectors smooth(const PlaneVectors& gradient) const;
 
  private:
   const HeightField& field_;
   double longest_;
   Mask features_;
-  Vector weight_;  // #T: of the data term
+  Vector weight_;  // #T: weight of the data term
   SpdSolve solve_;
 };
 

@@ -9,13 +9,14 @@ namespace reflines {
 
 struct ReflectionField {
   Vector theta;           // #T, radians in (-pi, pi]
-  PlaneVectors gradient;  // #T x 2, radians / length, in the image plane; without 2 pi jumps
+  PlaneVectors gradient;  // #T x 2, radians / length, in the image plane; free of 2 pi jumps
 };
 
 ReflectionField reflection_field(const ReflectionFunction& reflection, const TriangleDerivatives& u);
 
-// #T: 1 where the reflected ray is well away from the lines (visibility 0.05 and more), 0 where it is parallel to them
-// and theta is undefined: there grad theta has a pole, and one triangle would outweigh the panel.
+// Returns the weight of each triangle (#T): 1 where the reflected ray is well away from the lines (visibility 0.05 and
+// more), 0 where it is parallel to them and theta is undefined: there grad theta has a pole, and one triangle would
+// outweigh the panel.
 Vector visibility_weights(const ReflectionFunction& reflection, const TriangleDerivatives& u);
 
 }  // namespace reflines

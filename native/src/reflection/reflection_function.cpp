@@ -8,10 +8,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Smallest |w| / |N|^2 (the visibility) the derivatives are evaluated at; the energy gives such triangles no weight.
+// The smallest |w| / |N|^2 (the visibility) at which derivatives are evaluated; the energy gives such triangles no
+// weight.
 constexpr double kSmallestVisibility = 1e-6;
 
-// Coefficients of 2 (N.b)(N.c) - (b.c) N.N for N = (-p, -q, 1): |N|^2 times the component along c of b reflected in N.
+// The coefficients of 2 (N.b)(N.c) - (b.c) N.N for N = (-p, -q, 1): |N|^2 times the component along c of b reflected in
+// N.
 struct Quadratic {
   double c0, cp, cq, cpp, cpq, cqq;
 };
@@ -24,7 +26,7 @@ Quadratic reflected_component(const Vector3& b, const Vector3& c) {
 
 }  // namespace
 
-double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
+double wrap_angle(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 ReflectionFunction::ReflectionFunction(const ImagePlane& frame, const Vector3& view_direction,
                                        const Vector3& line_direction) {

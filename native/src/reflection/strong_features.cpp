@@ -6,13 +6,14 @@
 namespace reflines {
 namespace {
 
-constexpr double kStrong = 8.0;  // times the median: dents of 2 mm in 8 cm reach 5 to 10 times, fillets 50 and more
+constexpr double kStrong =
+    8.0;  // multiple of the median; dents of 2 mm in 8 cm reach 5 to 10 times, fillets 50 and more
 
-// Over the piece's diagonal: a bend of less than a fifth of that as its radius (|grad theta| is some 2 / radius). Where
-// most of a panel is flat the median is rounding, and every dent would be 8 times that.
+// The least |grad theta| of a feature times the piece's diagonal: a bend radius of a fifth of the diagonal (|grad
+// theta| is some 2 / radius). On a mostly flat panel the median is rounding, and every dent exceeds 8 times that.
 constexpr double kLeast = 10.0;
 
-// The triangles connected to `first` through marked ones, which are unmarked on the way.
+// Returns the triangles connected to `first` through marked ones, and unmarks them.
 std::vector<int> take_component(const HeightField& field, int first, Mask& marked) {
   std::vector<int> component = {first};
   marked(first) = false;

@@ -1,4 +1,4 @@
-// Finds strong bends that run on, such as fillets, hems and gaps, whose lines smoothing keeps.
+// Finds extended strong bends, such as fillets, hems and gaps, whose lines smoothing keeps.
 #pragma once
 
 #include "geometry/height_field.h"
@@ -6,13 +6,13 @@
 
 namespace reflines {
 
-// #T, true for features of a field (#T x 2): connected triangles whose |grad theta| is over 8 times the region's median
-// and over 10 / diagonal, and that together reach farther than `length`. A strong bend shorter than the length in every
-// direction is a flaw and is smoothed; one that runs on is design. Without this a smoothing length of 0.2 m takes a
-// fillet of 4 cm radius away: measured on a car's bonnet cut out with its flanks, vertices move by 36 mm.
+// Marks the features (#T) of a field (#T x 2): connected triangles whose |grad theta| is over 8 times the region's
+// median and over 10 / diagonal, and that together reach farther than `length`. A strong bend shorter than the length
+// in every direction is a flaw and is smoothed; an extended one is design. Without this a smoothing length of 0.2 m
+// removes a fillet of 4 cm radius: measured on a car's bonnet cut out with its flanks, vertices move by 36 mm.
 Mask strong_features(const HeightField& field, const PlaneVectors& gradient, double length);
 
-// The least |grad theta| of a feature in a field (#T x 2) over a piece with this diagonal.
+// Returns the least |grad theta| of a feature in a field (#T x 2) over a piece with this diagonal.
 double strong_bend(const PlaneVectors& gradient, double diagonal);
 
 }  // namespace reflines

@@ -11,11 +11,12 @@
 namespace reflines {
 namespace {
 
-// Relative to the largest diagonal entry: holds vertices of the cage that no fitted height sees.
+// The pull, relative to the largest diagonal entry, of cage vertices that no fitted height depends on.
 constexpr double kUnseen = 1e-9;
 
-// Faces of the cage: shapes longer than this follow the fitted heights, shorter ones the lines. By lines alone the
-// clean cage of a bonnet drifted by 0.7 mm from where the heights, wrong by 0.01 mm, had put it.
+// The wavelength, in faces of the cage, above which shapes follow the fitted heights, and below which the lines. By
+// lines alone the clean cage of a bonnet drifted by 0.7 mm from the position that the heights, wrong by 0.01 mm, had
+// given it.
 constexpr double kHeightsRule = 4.0;
 
 ShapeOptions make_shape_options(const CageSurface& surface, ShapeOptions shape) {
@@ -46,55 +47,53 @@ void check_fit(const Vector& heights, const Vector& weight, Eigen::Index vertice
 
 CageOptimizer::CageOptimizer(const Cage& cage, const Positions& V, const Vector3& view_direction,
                              const std::vector<Vector3>& line_directions, const CageOptions& options)
-    : CageOptimizer(std::make_unique<const CageSurface>(make_cage_surface(cage, V, view_direction, options)), V,
-                    view_direction, line_directions, options.shape) {}
-
-CageOptimizer::CageOptimizer(std::unique_ptr<const CageSurface> surface, const Positions& V,
-                             const Vector3& view_direction, const std::vector<Vector3>& line_directions,
-                             const ShapeOptions& options)
-    : ShapeOptimizer(surface->positions, surface->F, view_direction, line_directions,
-                     make_shape_options(*surface, options)),
-      V_(V),
-      surface_(std::move(surface)) {
-  region_.free = static_cast<int>(cage_free().count());
-  region_.fixed = static_cast<int>(V_.rows()) - region_.free;
-  region_.clamped = 0;
-}
+    : V_(V),
+      cage_surface_(std::make_unique<const CageSurface>(make_cage_surface(cage, V, view_direction, options))),
+      surface_optimizer_(cage_surface_->positions, cage_surface_->F, view_direction, line_directions,
+                         make_shape_options(*cage_surface_, options.shape)) {}
 
 CageOptimizer::~CageOptimizer() = default;
 
-const Triangles& CageOptimizer::triangles() const { return surface_->F; }
+Region CageOptimizer::region() const {
+  Region region = surface().region();
+  region.free = static_cast<int>(cage_free().count());
+  region.fixed = static_cast<int>(V_.rows()) - region.free;
+  region.clamped = 0;
+  return region;
+}
 
-const IndexVector& CageOptimizer::parent() const { return surface_->parent; }
+const Triangles& CageOptimizer::triangles() const { return cage_surface_->F; }
 
-const IndexVector& CageOptimizer::refined() const { return surface_->refined; }
+const IndexVector& CageOptimizer::parent() const { return cage_surface_->parent; }
+
+const IndexVector& CageOptimizer::refined() const { return cage_surface_->refined; }
 
 Mask CageOptimizer::cage_free() const {
   Mask result = Mask::Constant(V_.rows(), false);
-  for (const int k : free_unknowns()) {
-    for (SparseMatrix::InnerIterator it(surface_->B, k); it; ++it) result(it.row()) = true;
+  for (const int k : surface().free_unknowns()) {
+    for (SparseMatrix::InnerIterator it(cage_surface_->B, k); it; ++it) result(it.row()) = true;
   }
   return result;
 }
 
 Positions CageOptimizer::cage_positions() const {
   Positions result = V_;
-  for (size_t j = 0; j < free_unknowns().size(); ++j) {
-    const double move = unknowns()(static_cast<int>(j)) - surface_->start(free_unknowns()[j]);
+  for (size_t j = 0; j < surface().free_unknowns().size(); ++j) {
+    const double move = surface().unknowns()(static_cast<int>(j)) - cage_surface_->start(surface().free_unknowns()[j]);
     if (move == 0) continue;
-    for (SparseMatrix::InnerIterator it(surface_->B, free_unknowns()[j]); it; ++it) {
-      result.row(it.row()) += move * frame().z().transpose();
+    for (SparseMatrix::InnerIterator it(cage_surface_->B, surface().free_unknowns()[j]); it; ++it) {
+      result.row(it.row()) += move * surface().frame().z().transpose();
     }
   }
   return result;
 }
 
 void CageOptimizer::fit(const Vector& heights, const Vector& weight) {
-  check_fit(heights, weight, surface_->S.rows());
-  const int n = static_cast<int>(free_unknowns().size());
-  const SparseMatrix all = surface_->S * surface_->B;
+  check_fit(heights, weight, cage_surface_->S.rows());
+  const int n = static_cast<int>(surface().free_unknowns().size());
+  const SparseMatrix all = cage_surface_->S * cage_surface_->B;
   SparseMatrix B(all.rows(), n);
-  for (int k = 0; k < n; ++k) B.col(k) = all.col(free_unknowns()[k]);
+  for (int k = 0; k < n; ++k) B.col(k) = all.col(surface().free_unknowns()[k]);
   const SparseMatrix WB = weight.asDiagonal() * B;
   SparseMatrix identity(n, n);
   identity.setIdentity();
@@ -102,22 +101,23 @@ void CageOptimizer::fit(const Vector& heights, const Vector& weight) {
   const double seen = normal.diagonal().maxCoeff();
   if (seen == 0) return;
   const SparseMatrix lower = SparseMatrix(normal + kUnseen * seen * identity).triangularView<Eigen::Lower>();
-  const Vector missing = (weight.array() > 0).select(heights - this->heights(), 0.0);
+  const Vector missing = (weight.array() > 0).select(heights - surface().heights(), 0.0);
   Vector step = WB.transpose() * missing;
   LinearSolver solver(LinearSolverKind::kCholmod);
   solver.analyze(lower);
   solver.factorize(lower);
   solver.solve(step);
-  rest_at(unknowns() + step);
-  pull_to(heights, height_density() * weight);
+  surface().rest_at(surface().unknowns() + step);
+  surface().pull_to(heights, height_density() * weight);
 }
 
-// With theta ~ 2 f_x a wave of height h and number k costs 4 k^4 h^2 where its lines are wrong.
+// Returns the weight of the pull to fitted heights, per area: with theta ~ 2 f_x a wave of height h and number k costs
+// 4 k^4 h^2 where its lines are wrong.
 double CageOptimizer::height_density() {
-  const int faces = 1 + static_cast<int>((surface_->parent.tail(surface_->parent.size() - 1).array() !=
-                                          surface_->parent.head(surface_->parent.size() - 1).array())
+  const int faces = 1 + static_cast<int>((cage_surface_->parent.tail(cage_surface_->parent.size() - 1).array() !=
+                                          cage_surface_->parent.head(cage_surface_->parent.size() - 1).array())
                                              .count());
-  const double face = std::sqrt(region_field(0).area.sum() / faces);
+  const double face = std::sqrt(surface().region_field(0).area.sum() / faces);
   return 4 * std::pow(2 * std::numbers::pi / (kHeightsRule * face), 4);
 }
 

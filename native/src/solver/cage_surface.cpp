@@ -10,7 +10,7 @@
 namespace reflines {
 namespace {
 
-constexpr int kSparseLevel = 3;  // coarser surfaces have too few triangles to leave any out
+constexpr int kSparseLevel = 3;  // coarser surfaces have too few triangles for sampling
 
 void check_length(Eigen::Index length, Eigen::Index wanted, const std::string& what) {
   if (length == 0 || length == wanted) return;
@@ -18,7 +18,7 @@ void check_length(Eigen::Index length, Eigen::Index wanted, const std::string& w
                      std::to_string(wanted) + ".");
 }
 
-// What is read as an index, and both ways.
+// Throws unless partners are mutual and within range.
 void check_partners(const IndexVector& partner) {
   const auto n = static_cast<int>(partner.size());
   for (int v = 0; v < n; ++v) {
@@ -46,9 +46,9 @@ void check_arrays(const Cage& cage, const Positions& V, const CageOptions& optio
   check_partners(options.partner);
 }
 
-// Numbers 0 .. of the refined vertices in faces of the region, or -1; fills `refined` with the way back. In the order
-// of the faces, whose neighbours in the list are neighbours on the surface: the energy then finds its heights close
-// together.
+// Numbers the refined vertices in faces of the region, -1 for the others; fills `refined` with the inverse map. The
+// order is that of the faces, whose neighbours in the list are neighbours on the surface, so that the energy reads its
+// heights from nearby memory.
 std::vector<int> number_vertices(const Subdivision& whole, const Mask& region, IndexVector& refined) {
   std::vector<int> number(whole.positions.rows(), -1);
   refined.resize(whole.positions.rows());
@@ -82,14 +82,14 @@ void set_positions(const Positions& V, const IndexVector& partner, CageSurface& 
     surface.positions = surface.S * V;
     return;
   }
-  const IndexVector refined_partner = refined_partners(surface.S, partner);
-  surface.S = symmetrized(surface.S, partner, refined_partner);
-  surface.positions = symmetric_positions(surface.S, partner, refined_partner, V);
+  const IndexVector refined_partner = find_refined_partners(surface.S, partner);
+  surface.S = symmetrize(surface.S, partner, refined_partner);
+  surface.positions = multiply_symmetric(surface.S, partner, refined_partner, V);
 }
 
-// A triangle's quadrature weight where only some triangles count. The last level cuts faces into four: one of them
-// speaks for all, of a quad one of its triangles, and whether the first or the second by turns. Always the same one
-// would prefer bends in one direction (errors of 7 % of the move instead of 0.6 %, as much as a coarser level makes).
+// Returns a triangle's quadrature weight on a sampled surface. The last level cuts faces into four: one of them stands
+// for all, of a quad one of its triangles, alternately the first and the second. Always the same one would favour bends
+// in one direction (errors of 7 % of the move instead of 0.6 %, as much as a coarser level makes).
 double sparse_weight(int face, int piece, int pieces) {
   const bool loop = pieces == 1;
   if (face % 4 != (loop ? 3 : 0)) return 0.0;  // Loop: the middle one
@@ -97,7 +97,8 @@ double sparse_weight(int face, int piece, int pieces) {
   return face / 4 % 2 == piece ? 8.0 : 0.0;
 }
 
-// Quads are cut from their first corner, which subdivision turns alike all over a face of the cage.
+// Cuts quads into triangles from their first corner, which subdivision orients in the same way all over a face of the
+// cage.
 void cut_faces(const Subdivision& whole, const Mask& region, const std::vector<int>& number, CageSurface& surface) {
   const int pieces = static_cast<int>(whole.faces.cols()) - 2;
   surface.F.resize(pieces * whole.faces.rows(), 3);
@@ -129,7 +130,7 @@ CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector
   const Subdivision whole = subdivide(cage, options.subdivision, progress);
   enter(0.5, "choosing the region");
   const Mask region = options.region.size() > 0 ? options.region : Mask::Constant(cage.face_offsets.size() - 1, true);
-  Mask held = held_by_border(whole, region, options.hold);
+  Mask held = find_held_vertices(whole, region, options.hold);
   if (options.held.size() > 0) held = held || options.held;
   CageSurface surface;
   const std::vector<int> number = number_vertices(whole, region, surface.refined);
@@ -139,7 +140,7 @@ CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector
   enter(0.9, "cutting faces");
   cut_faces(whole, region, number, surface);
   if (!options.sparse || options.subdivision.level < kSparseLevel) surface.quadrature_weight.resize(0);
-  surface.B = cage_unknowns(held, options.partner);
+  surface.B = build_cage_unknowns(held, options.partner);
   const Vector heights = (V.rowwise() - V.colwise().mean()) * view.normalized();
   surface.start.resize(surface.B.cols());
   for (int k = 0; k < surface.start.size(); ++k) {

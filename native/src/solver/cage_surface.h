@@ -1,4 +1,4 @@
-// The part of a subdivision surface that a CageOptimizer shapes: its triangles, and how the cage lifts their vertices.
+// The part of a subdivision surface that a CageOptimizer shapes: its triangles, and its matrix from the cage.
 #pragma once
 
 #include "reflines/cage_optimizer.h"
@@ -6,7 +6,7 @@
 
 namespace reflines {
 
-// Vertices and triangles have numbers of their own, those of the region.
+// A region of a subdivision surface, with its own indices of vertices and triangles.
 struct CageSurface {
   SparseMatrix S;       // #vertices x #V
   Positions positions;  // S V; of symmetric cages symmetric to the last bit
@@ -14,12 +14,12 @@ struct CageSurface {
   Triangles F;
   IndexVector parent;        // #F: the cage's face
   Vector quadrature_weight;  // #F or empty: see ShapeOptions
-  SparseMatrix B;            // #V x #unknowns: which vertices of the cage each unknown lifts
-  Vector start;              // #unknowns: their heights at the start, from the mean of the cage's vertices
+  SparseMatrix B;            // #V x #unknowns: the moves of the cage's vertices by each unknown
+  Vector start;              // #unknowns: heights at the start, relative to the mean of the cage's vertices
 };
 
-// V (#V x 3) of the cage. Throws InvalidInput: what subdivide refuses, masks and partners of another length than the
-// cage, partners that are not mutual, positions that are not finite.
+// Subdivides the cage with positions V (#V x 3). Throws InvalidInput: what subdivide refuses, masks and partners of
+// another length than the cage, partners that are not mutual, positions that are not finite.
 CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector3& view, const CageOptions& options);
 
 }  // namespace reflines

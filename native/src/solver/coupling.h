@@ -1,5 +1,5 @@
-// Heights that follow fewer unknowns than there are vertices: those of a subdivision surface follow its cage, those of
-// a symmetric mesh one half of it.
+// Heights that depend on fewer unknowns than there are vertices: those of a subdivision surface depend on its cage,
+// those of a symmetric mesh on one half of it.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@
 
 namespace reflines {
 
-// Fits the roles of `field` to the linear part B (#V x n) of an affine map whose unknowns start at `start` (n), and
-// makes one piece of the field, since unknowns couple what triangles do not. An unknown that would move a vertex which
-// the field holds (of a silhouette, of a face turned away, held by the caller) is left out; vertices that no other
-// moves are fixed. Returns the numbers of the unknowns that stay. Throws InvalidInput where B does not fit.
+// Adapts the roles of `field` to the linear part B (#V x n) of an affine map whose unknowns start at `start` (n), and
+// makes one piece of the field, since unknowns couple vertices that no triangle does. An unknown that would move a
+// vertex which the field holds (of a silhouette, of a face turned away, held by the caller) is left out; vertices that
+// no other moves are fixed. Returns the indices of the remaining unknowns. Throws InvalidInput where B does not fit.
 std::vector<int> couple_vertices(const SparseMatrix& B, const Vector& start, HeightField& field);
 
-// The map from unknowns to the heights of a piece. Without B (0 rows) each free vertex is an unknown; else the unknowns
-// are those that `free_unknowns` names, and the piece is the field's only one.
+// Builds the map from unknowns to the heights of a piece. Without B (0 rows) each free vertex is an unknown; else the
+// unknowns are those in `free_unknowns`, and the piece is the field's only one.
 AffineMap make_affine_map(const SparseMatrix& B, const Vector& start, const std::vector<int>& free_unknowns,
                           const Piece& piece);
 

@@ -9,8 +9,8 @@
 namespace reflines {
 namespace {
 
-// The length of a unit vector is 1 to a few parts only, unless it runs along an axis: a caller who normalises the view
-// again measures the move in slightly other units.
+// The tolerance in the unit of length: a unit vector that is not along an axis has length 1 to a few roundings only,
+// and a caller who normalizes the view again measures the move in slightly other units.
 constexpr double kUnitRounding = 8 * std::numeric_limits<double>::epsilon();
 
 bool is_range_around_zero(double lowest, double highest) { return lowest <= 0 && highest >= 0; }  // false for NaN
@@ -43,13 +43,13 @@ bool is_infinite(const MoveLimit& limit) {
   return limit.lowest.array().isInf().all() && limit.highest.array().isInf().all();
 }
 
-double moved_height(double height, double move, const MoveRange& range) {
+double move_height(double height, double move, const MoveRange& range) {
   double moved = height + move;
   while (moved - height > range.highest || moved - height < range.lowest) moved = std::nextafter(moved, height);
   return moved;
 }
 
-Eigen::RowVector3d moved_point(const Eigen::RowVector3d& p, double move, const Vector3& view, const MoveRange& range) {
+Eigen::RowVector3d move_point(const Eigen::RowVector3d& p, double move, const Vector3& view, const MoveRange& range) {
   Eigen::RowVector3d moved = p + move * view.transpose();
   while (!lies_within(moved - p, view, range)) {
     for (int i = 0; i < 3; ++i) moved(i) = std::nextafter(moved(i), p(i));

@@ -1,4 +1,4 @@
-// What rounding must not do to a vertex that touches its limit.
+// Moves along the view that respect a limit exactly, in spite of rounding.
 #pragma once
 
 #include "reflines/move_limit.h"
@@ -6,19 +6,19 @@
 
 namespace reflines {
 
-// Throws InvalidInput where the limit has not one range a vertex, or some are no ranges around 0.
+// Throws InvalidInput unless the limit has one range for each vertex, each containing 0.
 void check(const MoveLimit& limit, int vertex_count);
 
-// True where it holds no vertex back.
+// Returns whether the limit restricts no vertex.
 bool is_infinite(const MoveLimit& limit);
 
 struct MoveRange {
   double lowest, highest;
 };
 
-// `height` (or the point p) moved along the view, rounded towards where it came from until also the difference to it,
-// as doubles, lies within the range.
-double moved_height(double height, double move, const MoveRange& range);
-Eigen::RowVector3d moved_point(const Eigen::RowVector3d& p, double move, const Vector3& view, const MoveRange& range);
+// Returns `height` (or the point p) moved along the view, rounded towards the start until the difference to it, as
+// doubles, lies within the range, too.
+double move_height(double height, double move, const MoveRange& range);
+Eigen::RowVector3d move_point(const Eigen::RowVector3d& p, double move, const Vector3& view, const MoveRange& range);
 
 }  // namespace reflines

@@ -1,4 +1,4 @@
-// How the limit of a piece's vertices bounds its unknowns.
+// The bounds of a piece's unknowns that follow from the limit of its vertices.
 #include <algorithm>
 #include <limits>
 
@@ -8,7 +8,7 @@
 namespace reflines {
 namespace {
 
-// Of the unknown that is the height of a vertex, but for a constant; -1 where there is none.
+// Returns the unknown that is the height of a vertex up to a constant; -1 where there is none.
 int unknown_of(const AffineMap& map, int v) {
   const int column = map.moving_index()[v];
   if (column < 0 || map.is_selection()) return column;

@@ -9,19 +9,21 @@
 namespace reflines {
 namespace {
 
-// Of free borders, where the lines leave affine functions open (see crossing_term). Measured with a clean panel as
-// target for a rippled one, free on all sides: with 1e-6 it tilts by 7 times the ripples (the lines hardly see it),
-// with 10 by 1 %, and up to 1000 the lines come out the same.
+// The default proximity with a free border, where the lines leave affine functions open (see
+// TargetTerms::build_crossing). Measured with a clean panel as target for a rippled one, free on all sides: with 1e-6
+// it tilts by 7 times the ripples (the lines hardly determine it), with 10 by 1 %, and up to 1000 the lines come out
+// the same.
 constexpr double kFreeBorderProximity = 10.0;
 
-// Of cages, always: a vertex may move no sample that counts (weight 0, hidden lines), and then the Hessian is singular.
-// Where all samples count, its smallest eigenvalue is 3 to 200 and the pull adds 1e-7 to it.
+// The default proximity of cages: a vertex may move no sample that counts (weight 0, hidden lines), and then the
+// Hessian is singular. Where all samples count, its smallest eigenvalue is 3 to 200 and the pull adds 1e-7 to it.
 constexpr double kCageProximity = 1e-6;
 
-// Mean vertex distances between the knots of the coarse motions.
+// The spacing of the coarse problem's knots in mean vertex distances.
 constexpr double kKnotSpacing = 6.0;
 
-// Creases that a cage moves are no border: the heights of both sides are one.
+// Returns whether some border vertex is free. Creases that a cage moves are no border: the heights of both sides are
+// one.
 bool has_free_border(const HeightField& field) {
   const Triangles neighbors = edge_neighbors(field.F);
   for (int t = 0; t < field.triangle_count(); ++t) {
@@ -57,7 +59,7 @@ PieceProblem::PieceProblem(Piece piece, AffineMap map, StencilKind stencil, std:
       terms_(piece_.field, quadrature_, families_, visible_, energy_.stencils().triangle_count()),
       minimizer_(solver),
       solver_(solver),
-      // A cage's surface has no thin triangles to read wrong: its dents bend as strongly as they look.
+      // The surface of a cage has no thin triangles with wrong gradients: its dents bend as strongly as they appear.
       smoother_(piece_.field, stencils_, families_, visible_, map_.is_selection(), solver),
       x_(map_.start()),
       z_(piece_.field.z) {
@@ -91,18 +93,19 @@ void PieceProblem::rest_at(const Vector& x) {
 void PieceProblem::pull_to(const Vector& z, const Vector& weight) {
   energy_.pull_to(z, weight);
   pulled_ = true;
-  minimizer_.emplace(solver_);  // its factor is of another energy
+  minimizer_.emplace(solver_);  // its factor belongs to another energy
 }
 
 void PieceProblem::reset() {
   set_heights(map_.start());
   energy_.pull_as_built(piece_.field.z);
   pulled_ = false;
-  // A kept factor makes the next solve 3 times faster at 100k, but its other path to the minimum ends 4e-9 beside it.
+  // Without the kept factor, which would make the next solve 3 times faster at 100k, but whose other path to the
+  // minimum ends 4e-9 beside it.
   minimizer_.emplace(solver_);
 }
 
-ReflectionField PieceProblem::lines_of(const Vector& z, int family) const {
+ReflectionField PieceProblem::evaluate_lines(const Vector& z, int family) const {
   TriangleDerivatives u;
   apply_stencils(stencils_, z, u);
   return reflection_field(families_[family], u);
@@ -116,7 +119,7 @@ bool PieceProblem::depends_only_on(int triangle, const Vector& known) const {
 }
 
 const ReflectionField& PieceProblem::lines(int family) {
-  if (kept_field_.family != family) kept_field_ = {family, lines_of(z_, family)};
+  if (kept_field_.family != family) kept_field_ = {family, evaluate_lines(z_, family)};
   return kept_field_.field;
 }
 
@@ -141,7 +144,7 @@ void PieceProblem::add_vertex_field(RegionField& region) const {
   }
 }
 
-// Slope at corner v of the quadratic that passes through t's corners and has t's Hessian.
+// Returns the slope at corner v of the quadratic that passes through t's corners and has t's Hessian.
 Vector2 PieceProblem::slope_at(int t, int v, const TriangleDerivatives& u) const {
   const HeightField& field = piece_.field;
   const int i = field.F(t, 0) == v ? 0 : field.F(t, 1) == v ? 1 : 2;
@@ -163,7 +166,7 @@ void PieceProblem::set_targets(const std::vector<Target>& targets) {
   std::vector<EnergyTerm> terms = terms_.build(targets);
   const int crossing = static_cast<int>(families_.size()) - 1;
   if (free_border_ && !pulled_) {
-    terms.push_back(terms_.build_crossing(lines_of(piece_.field.z, crossing).gradient));
+    terms.push_back(terms_.build_crossing(evaluate_lines(piece_.field.z, crossing).gradient));
   }
   energy_.set_terms(std::move(terms));
 }
@@ -215,8 +218,8 @@ const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
   return product_->project(whole);
 }
 
-// Heights of a fine surface are rounded as coarsely as those of its cage, but its second derivatives notice it far
-// more.
+// Heights of a fine surface are rounded as coarsely as those of its cage, but its second derivatives are far more
+// sensitive to it.
 Vector PieceProblem::rounding_weight(const SparseMatrix& hessian) {
   if (!product_) return hessian.diagonal();
   return (map_.moving_transposed().cwiseAbs2() * height_rounding_.cwiseAbs2()).cwiseSqrt();
@@ -232,7 +235,8 @@ PlanePositions PieceProblem::places() {
 }
 
 std::unique_ptr<CoarseProblem> PieceProblem::coarse(const Vector& x, const Vector& gradient) {
-  // Few unknowns: their own factor is cheap. Few triangles that count: the samples would be of samples.
+  // There is no coarse problem of a cage, whose few unknowns have a cheap factor, nor of a sampled energy, which would
+  // be sampled twice.
   if (!map_.is_selection() || quadrature_.is_sampled()) return nullptr;
   SplineBasis modes = build_spline_basis(piece_.field, kKnotSpacing);
   if (modes.count == 0) return nullptr;

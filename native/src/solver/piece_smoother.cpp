@@ -10,9 +10,10 @@
 namespace reflines {
 namespace {
 
-// Times the gradient of a strong bend: smoothing shortens longer gradients, and longer changes, to this. Of 1, 4 and
-// all on 25 careless selections of a car body 4 moves the least and leaves the least wobble (a roof with its rails,
-// faces up to 70 degrees from the view: 131 mm with all, 9 mm with 4); dents of 2 mm in 8 cm stay well below.
+// The longest gradient, relative to that of a strong bend: smoothing shortens longer gradients, and longer changes, to
+// it. Of 1, 4 and no limit on 25 careless selections of a car body 4 moves the least and leaves the least wobble (a
+// roof with its rails, faces up to 70 degrees from the view: 131 mm without limit, 9 mm with 4); dents of 2 mm in 8 cm
+// stay well below.
 constexpr double kOutlier = 4.0;
 
 }  // namespace
@@ -27,7 +28,7 @@ PieceSmoother::PieceSmoother(const HeightField& field, const Stencils& stencils,
       limit_outliers_(limit_outliers),
       solver_(solver) {}
 
-bool PieceSmoother::Cache::is_for(const SmoothOptions& options, const PlaneVectors& wanted_along,
+bool PieceSmoother::Cache::serves(const SmoothOptions& options, const PlaneVectors& wanted_along,
                                   int wanted_family) const {
   return smoother && length == options.length && family == wanted_family && wanted_along.rows() == along.rows() &&
          wanted_along == along;
@@ -48,7 +49,7 @@ PlaneVectors PieceSmoother::smooth(const PlaneVectors& gradient, const SmoothOpt
 
 PieceSmoother::Cache& PieceSmoother::update(Cache& cache, const SmoothOptions& options, const PlaneVectors& along,
                                             int family) {
-  if (cache.is_for(options, along, family)) return cache;
+  if (cache.serves(options, along, family)) return cache;
   enter(0.0, "finding features");
   const Mask& held = features(options.length, family);
   enter(0.1, "assembling the smoothing");

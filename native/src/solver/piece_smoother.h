@@ -14,9 +14,9 @@ namespace reflines {
 
 class PieceSmoother {
  public:
-  // `trust` (#T, 0 to 1, for each family) is that of LineSmoother. `limit_outliers`: gradients far beyond a strong bend
-  // are shortened, as triangles of a mesh that is no surface of a cage may be thin. Everything but `solver` outlives
-  // the smoother.
+  // Takes what outlives the smoother, except `solver`. `trust` (#T, 0 to 1, for each family) is that of LineSmoother.
+  // With `limit_outliers` gradients far beyond a strong bend are shortened, since a mesh, unlike the surface of a cage,
+  // may have thin triangles.
   PieceSmoother(const HeightField& field, const Stencils& stencils, const std::vector<ReflectionFunction>& families,
                 const std::vector<Vector>& trust, bool limit_outliers, LinearSolverKind solver);
 
@@ -27,18 +27,20 @@ class PieceSmoother {
   // Cancelled.
   PlaneVectors smooth(const PlaneVectors& gradient, const SmoothOptions& options, int family);
 
-  // #T: the strong_features at `length` of the field that the piece started with; valid until asked for another.
+  // Returns the strong_features (#T) at `length` of the field that the piece started with; valid until the next call
+  // with other arguments.
   const Mask& features(double length, int family);
 
  private:
-  // The last system and the last field it smoothed: while the strength is dragged, the same field is asked for again.
+  // The last system and the last field that it smoothed: while the strength is dragged, the same field is asked for
+  // again.
   struct Cache {
     std::unique_ptr<LineSmoother> smoother;
     double length = 0.0;
     PlaneVectors along;
     int family = 0;
     PlaneVectors input, output;
-    bool is_for(const SmoothOptions& options, const PlaneVectors& wanted_along, int wanted_family) const;
+    bool serves(const SmoothOptions& options, const PlaneVectors& wanted_along, int wanted_family) const;
     const PlaneVectors& smooth(const PlaneVectors& gradient);
   };
   struct Features {

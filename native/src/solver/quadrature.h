@@ -1,4 +1,4 @@
-// The triangles of a piece that stand in the energy, and with what weight.
+// The triangles of a piece that are part of the energy, and their weights.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace reflines {
 
-// Rows 0 .. count - 1 are triangles of the piece. Where all count, `triangle` and `weight` are empty.
+// The quadrature of a piece: rows 0 .. count - 1 are triangles of the piece. Where all count, `triangle` and `weight`
+// are empty.
 struct Quadrature {
   std::vector<int> triangle;
   Vector weight;
@@ -18,8 +19,8 @@ struct Quadrature {
   double weight_of(int row) const { return triangle.empty() ? 1.0 : weight(row); }
 };
 
-// The triangles of `field` with a positive weight; `weight` (one for each of the region's triangles, or empty) is that
-// of ShapeOptions.
+// Selects the triangles of `field` with a positive weight; `weight` (one for each of the region's triangles, or empty)
+// is that of ShapeOptions.
 Quadrature make_quadrature(const HeightField& field, const Vector& weight);
 
 }  // namespace reflines

@@ -3,46 +3,35 @@
 #include <algorithm>
 #include <utility>
 
+#include "optimization/report_sums.h"
+
 namespace reflines {
 namespace {
 
-// Of the wish, root mean squares: a change of the unreachable part by this turns lines by some 0.1 degrees.
-constexpr double kUnseen = 0.002;
-// Averages in a row: of 1, 2 and 4 the third round leaves kinks of 0.7, 0.5, 0.4 degrees with diagonals by chance.
+// The relative change (root mean squares) of the unreachable part below which iteration stops: it turns lines by some
+// 0.1 degrees.
+constexpr double kInvisible = 0.002;
+// The number of averages in a row: of 1, 2 and 4 the third round leaves kinks of 0.7, 0.5, 0.4 degrees with random
+// diagonals.
 constexpr int kAverages = 2;
-// Share of the round before in the next guess, at most this far beyond the last one.
+// The range of the weight of the previous round in Anderson's method.
 constexpr double kFarthest = 4.0, kMostOfBefore = 0.5;
 
 constexpr int kRounds = 3;
-// A solve to fewer digits follows a hand, which rounds would slow down eightfold; the last one, which is kept, is
-// exact.
-constexpr double kFollowing = 1e-5;
-// Of the gradient that a round starts with, itself a small one.
+// The tolerance above which a solve is interactive and is not repeated: rounds would slow a drag down eightfold; its
+// last solve, which is kept, is exact.
+constexpr double kInteractive = 1e-5;
+// The gradient tolerance of a round relative to its own, already small, first gradient.
 constexpr double kRoundTolerance = 1e-2;
 
-void add_round(const Report& round, Report& sum) {
-  sum.iterations += round.iterations;
-  sum.coarse_iterations += round.coarse_iterations;
-  sum.evaluations += round.evaluations;
-  sum.assemblies += round.assemblies;
-  sum.analyses += round.analyses;
-  sum.factorizations += round.factorizations;
-  sum.solves += round.solves;
-  sum.seconds += round.seconds;
-  if (round.termination == Termination::kCancelled) {
-    sum.termination = round.termination;
-    sum.message = round.message;
-  }
-}
-
-// What a limit of the moves forbids is no property of the wish.
+// Returns whether a limit of the moves holds a vertex: what it forbids is no property of the target.
 bool touches_limit(const PieceProblem& piece) {
   bool touches = false;
   for (int v = 0; v < piece.field().vertex_count(); ++v) touches = touches || piece.limited(v) != 0;
   return touches;
 }
 
-Mask counted(PieceProblem& piece, const Target& target) {
+Mask find_counting_triangles(PieceProblem& piece, const Target& target) {
   const HeightField& field = piece.field();
   Mask counts = piece.visible(target.family).array() > 0;
   for (int t = 0; t < counts.size(); ++t) {
@@ -51,7 +40,7 @@ Mask counted(PieceProblem& piece, const Target& target) {
   return counts;
 }
 
-bool is_asked(const Target& target) { return target.reachable_only && target.theta.size() == 0; }
+bool is_reduced(const Target& target) { return target.reachable_only && target.theta.size() == 0; }
 
 }  // namespace
 
@@ -61,70 +50,70 @@ ReachableTarget::ReachableTarget(PieceProblem& piece, const std::vector<Target>&
   const int n = field.triangle_count();
   area_ = Vector::Zero(n * static_cast<Eigen::Index>(wanted.size()));
   for (size_t k = 0; k < wanted.size(); ++k) {
-    const Mask counts = is_asked(wanted[k]) ? counted(piece, wanted[k]) : Mask::Constant(n, false);
+    const Mask counts = is_reduced(wanted[k]) ? find_counting_triangles(piece, wanted[k]) : Mask::Constant(n, false);
     area_.segment(static_cast<Eigen::Index>(k) * n, n) = counts.select(field.area.array(), 0.0);
     counts_.push_back(counts);
-    wish_ += area_.segment(static_cast<Eigen::Index>(k) * n, n).dot(rows_of(wanted[k]).rowwise().squaredNorm());
+    norm_ += area_.segment(static_cast<Eigen::Index>(k) * n, n).dot(gather_rows(wanted[k]).rowwise().squaredNorm());
   }
   unreachable_ = PlaneVectors::Zero(area_.size(), 2);
 }
 
-PlaneVectors ReachableTarget::rows_of(const Target& target) const {
+PlaneVectors ReachableTarget::gather_rows(const Target& target) const {
   const HeightField& field = piece_.field();
   PlaneVectors rows = PlaneVectors::Zero(field.triangle_count(), 2);
-  for (int t = 0; t < rows.rows() && is_asked(target); ++t) rows.row(t) = target.gradient.row(field.source[t]);
+  for (int t = 0; t < rows.rows() && is_reduced(target); ++t) rows.row(t) = target.gradient.row(field.source[t]);
   return rows;
 }
 
-PlaneVectors ReachableTarget::left_over() {
+PlaneVectors ReachableTarget::compute_unreached() {
   const int n = piece_.field().triangle_count();
   PlaneVectors result = PlaneVectors::Zero(area_.size(), 2);
   for (size_t k = 0; k < wanted_.size(); ++k) {
-    if (!is_asked(wanted_[k])) continue;
+    if (!is_reduced(wanted_[k])) continue;
     result.middleRows(static_cast<Eigen::Index>(k) * n, n) =
-        rows_of(wanted_[k]) - piece_.lines(wanted_[k].family).gradient;
+        gather_rows(wanted_[k]) - piece_.lines(wanted_[k].family).gradient;
   }
   return result;
 }
 
-PlaneVectors ReachableTarget::averaged(PlaneVectors values) {
+PlaneVectors ReachableTarget::average(PlaneVectors values) {
   const int n = piece_.field().triangle_count();
   for (size_t k = 0; k < wanted_.size(); ++k) {
     auto rows = values.middleRows(static_cast<Eigen::Index>(k) * n, n);
-    for (int time = 0; time < kAverages && is_asked(wanted_[k]); ++time) {
+    for (int pass = 0; pass < kAverages && is_reduced(wanted_[k]); ++pass) {
       rows = piece_.average().of(rows, counts_[k]);
     }
   }
   return values;
 }
 
-bool ReachableTarget::is_seen(const PlaneVectors& values) const {
-  return area_.dot(values.rowwise().squaredNorm()) > kUnseen * kUnseen * wish_;
+bool ReachableTarget::is_visible(const PlaneVectors& values) const {
+  return area_.dot(values.rowwise().squaredNorm()) > kInvisible * kInvisible * norm_;
 }
 
-PlaneVectors ReachableTarget::next(const PlaneVectors& left, const PlaneVectors& change) const {
+PlaneVectors ReachableTarget::extrapolate(const PlaneVectors& left, const PlaneVectors& change) const {
   if (last_change_.rows() == 0) return left;
   const PlaneVectors difference = change - last_change_;
   const double square = area_.dot(difference.rowwise().squaredNorm());
   if (!(square > 0)) return left;
   const double before = area_.dot(change.cwiseProduct(difference).rowwise().sum()) / square;
-  const double share = std::clamp(before, -kFarthest, kMostOfBefore);
-  return (1 - share) * left + share * (last_unreachable_ + last_change_);
+  const double weight = std::clamp(before, -kFarthest, kMostOfBefore);
+  return (1 - weight) * left + weight * (last_unreachable_ + last_change_);
 }
 
-bool ReachableTarget::improve(std::vector<Target>& targets) {
+bool ReachableTarget::remove_unreachable(std::vector<Target>& targets) {
   const int n = piece_.field().triangle_count();
-  PlaneVectors left = left_over();
-  if (!is_seen(left)) return false;  // most solves of wishes that can be met, and no average was needed
-  left = averaged(std::move(left));
+  PlaneVectors left = compute_unreached();
+  if (!is_visible(left)) return false;  // most solves of reachable targets, without an average
+  left = average(std::move(left));
   const PlaneVectors change = left - unreachable_;
-  if (!is_seen(change)) return false;
-  const PlaneVectors guess = next(left, change);
+  if (!is_visible(change)) return false;
+  const PlaneVectors guess = extrapolate(left, change);
   last_unreachable_ = unreachable_;
   last_change_ = change;
   unreachable_ = guess;
   for (size_t k = 0; k < wanted_.size(); ++k) {
-    if (!is_asked(wanted_[k])) continue;
+    if (!is_reduced(wanted_[k])) continue;
     const std::vector<int>& source = piece_.triangles();
     for (int t = 0; t < n; ++t) {
       targets[k].gradient.row(source[t]) =
@@ -138,19 +127,19 @@ Report minimize_reachable(PieceProblem& piece, const std::vector<Target>& wanted
                           const MinimizerOptions& options, Progress* progress) {
   piece.set_targets(wanted);
   Report report = piece.minimize(options, progress);
-  // What a cage moves is smooth from triangle to triangle.
-  const bool asked = std::any_of(wanted.begin(), wanted.end(), is_asked);
-  if (!asked || !piece.moves_vertices() || touches_limit(piece) || !report.converged() ||
-      options.gradient_tolerance > kFollowing) {
+  // The moves of a cage are smooth from triangle to triangle and imprint nothing.
+  const bool reduced = std::any_of(wanted.begin(), wanted.end(), is_reduced);
+  if (!reduced || !piece.moves_vertices() || touches_limit(piece) || !report.converged() ||
+      options.gradient_tolerance > kInteractive) {
     return report;
   }
   ReachableTarget target(piece, wanted);
   MinimizerOptions own = options;
   own.gradient_tolerance = std::max(options.gradient_tolerance, kRoundTolerance);
   bool changed = false;
-  for (int round = 0; round < kRounds && target.improve(reachable); ++round) {
+  for (int round = 0; round < kRounds && target.remove_unreachable(reachable); ++round) {
     piece.set_targets(reachable);
-    add_round(piece.minimize(own, progress), report);
+    add_round_report(piece.minimize(own, progress), report);
     changed = true;
     if (report.termination == Termination::kCancelled) return report;
   }

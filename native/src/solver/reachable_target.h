@@ -1,4 +1,4 @@
-// Targets without what no heights can reach, so that a wish that cannot be met does not print the mesh into the field.
+// Removes from targets the part that no heights can reach, which would imprint the triangulation on the lines.
 #pragma once
 
 #include <vector>
@@ -12,44 +12,43 @@
 
 namespace reflines {
 
-// What a solve cannot reach of a smooth wish is a smooth residual r, and in the continuum no motion sees it: the
-// integral of r D phi vanishes for every phi. The second-order stencils D are exact on quadratic heights but not
+// The unreachable part of a smooth target is a smooth residual r that in the continuum is orthogonal to every motion:
+// the integral of r D phi vanishes for every phi. The second-order stencils D are exact on quadratic heights but not
 // conservative: sum A r . D phi is 0 up to noise as large as r on motions of a few triangles, which bends the lines
-// from triangle to triangle however fine the mesh is. A target without r leaves nothing to be seen. r is the fixed
-// point of "solve for the wish less c; c = local average of what is left of the wish", found by Anderson's method of
-// depth one: on a 4-8 mesh the print itself averages to half of r, and plain iteration takes half of it away at a time.
-// Measured with a density of 1.5 on a clean panel, clamped, 20 | 40 | 80 cells a side: kinks of the lines between
-// neighbours (degrees, rms), 18.9 | 18.6 | 18.5 on a 4-8 mesh become 0.4 | 0.2 | 0.1, 11.0 | 10.4 | 10.2 with diagonals
-// by chance 0.3 | 0.2 | 0.1, 9.8 | 9.6 | 9.6 on a Delaunay mesh 0.3 | 0.2 | 0.2, 0.3 | 0.2 | 0.1 on a regular one stay.
+// from triangle to triangle however fine the mesh is. A target without r has no such effect. r is the fixed point of c
+// = average(target - field solved for target - c), found by Anderson's method of depth one: on a 4-8 mesh the imprint
+// itself averages to half of r, and plain iteration only halves it in each round. Measured with a density of 1.5 on a
+// clean panel, clamped, 20 | 40 | 80 cells a side: kinks of the lines between neighbours (degrees, rms), 18.9 | 18.6 |
+// 18.5 on a 4-8 mesh become 0.4 | 0.2 | 0.1, 11.0 | 10.4 | 10.2 with random diagonals 0.3 | 0.2 | 0.1, 9.8 | 9.6 | 9.6
+// on a Delaunay mesh 0.3 | 0.2 | 0.2, 0.3 | 0.2 | 0.1 on a regular one stay.
 class ReachableTarget {
  public:
-  // `wanted` and `piece` must outlive this; targets that do not ask for it are left as they are.
+  // Takes `wanted` and `piece`, which must outlive this; targets without reachable_only are not changed.
   ReachableTarget(PieceProblem& piece, const std::vector<Target>& wanted);
 
-  // After a solve: takes the piece's unreachable rows out of `targets` (as many as wanted); false, and no change, where
-  // they are as before up to a share of the wish that nobody sees.
-  bool improve(std::vector<Target>& targets);
+  // Subtracts the piece's unreachable rows from `targets` (as many as wanted) after a solve; returns false, and changes
+  // nothing, where they have converged.
+  bool remove_unreachable(std::vector<Target>& targets);
 
  private:
-  PlaneVectors rows_of(const Target& target) const;
-  PlaneVectors left_over();                    // of the wish: the rows of one target under those of the other
-  PlaneVectors averaged(PlaneVectors values);  // of such rows
-  bool is_seen(const PlaneVectors& values) const;
-  PlaneVectors next(const PlaneVectors& left, const PlaneVectors& change) const;
+  PlaneVectors gather_rows(const Target& target) const;
+  PlaneVectors compute_unreached();  // the unreached part of the targets, rows of one below those of the other
+  PlaneVectors average(PlaneVectors values);
+  bool is_visible(const PlaneVectors& values) const;
+  PlaneVectors extrapolate(const PlaneVectors& left, const PlaneVectors& change) const;
 
   PieceProblem& piece_;
   const std::vector<Target>& wanted_;
-  Vector area_;                                  // of the rows below; 0 where they do not count
-  std::vector<Mask> counts_;                     // #T, a target each
-  double wish_ = 0.0;                            // root mean square times area
+  Vector area_;                                  // area of the rows; 0 where they do not count
+  std::vector<Mask> counts_;                     // #T for each target
+  double norm_ = 0.0;                            // norm of the targets: root mean square times area
   PlaneVectors unreachable_;                     // c
-  PlaneVectors last_unreachable_, last_change_;  // of the round before; empty in the first
+  PlaneVectors last_unreachable_, last_change_;  // of the previous round; empty in the first
 };
 
-// Minimizes the energy of `wanted` in a piece, then some times that of what can be reached of it, which comes
-// to stand in the piece's rows of `reachable` (before: as `wanted`). Counts are sums over all rounds; the energy after
-// is that of the wish, the gradient that of the first minimum. Stops after the first minimum where that was not
-// reached.
+// Minimizes the energy of `wanted` in a piece, then repeatedly that of its reachable part, which replaces the piece's
+// rows of `reachable` (before: as `wanted`). Counts are sums over all rounds; the energy after is that of `wanted`, the
+// gradient that of the first minimum. Stops after the first minimum where that was not reached.
 Report minimize_reachable(PieceProblem& piece, const std::vector<Target>& wanted, std::vector<Target>& reachable,
                           const MinimizerOptions& options, Progress* progress);
 

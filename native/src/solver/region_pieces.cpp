@@ -72,7 +72,7 @@ Vector RegionPieces::heights() const {
   for (const auto& piece : pieces_) {
     for (int v = 0; v < piece->field().vertex_count(); ++v) {
       const int vertex = piece->vertices()[v];
-      result(vertex) = moved_height(result(vertex), piece->move(v), range(vertex));
+      result(vertex) = move_height(result(vertex), piece->move(v), range(vertex));
     }
   }
   return result;
@@ -85,7 +85,7 @@ Positions RegionPieces::positions() const {
       const int vertex = piece->vertices()[v];
       const double move = piece->move(v);
       if (piece->field().role[v] != VertexRole::kFree || move == 0) continue;
-      result.row(vertex) = moved_point(V_.row(vertex), move, frame_.z(), range(vertex));
+      result.row(vertex) = move_point(V_.row(vertex), move, frame_.z(), range(vertex));
     }
   }
   return result;
@@ -139,7 +139,7 @@ void RegionPieces::read_lines(const Vector& heights, const Vector& weight, Targe
     const std::vector<int>& vertex = piece->vertices();
     const Vector known = weight(vertex);
     const Vector z = (known.array() > 0).select(piece->heights() + heights(vertex) - now(vertex), piece->heights());
-    const ReflectionField own = piece->lines_of(z, target.family);
+    const ReflectionField own = piece->evaluate_lines(z, target.family);
     for (int t = 0; t < own.theta.size(); ++t) {
       const int row = piece->triangles()[t];
       if (!piece->depends_only_on(t, known)) continue;

@@ -1,4 +1,4 @@
-// The height-field pieces of a region, read and written by the region's own numbers of vertices and triangles.
+// The height-field pieces of a region, read and written by the region's indices of vertices and triangles.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,8 @@ namespace reflines {
 
 class RegionPieces {
  public:
-  // V (#V x 3), F (#F x 3) of the region, and the frame in which its pieces are height fields. There are no pieces yet.
+  // Takes V (#V x 3) and F (#F x 3) of the region, and the frame in which its pieces are height fields; pieces are
+  // added later.
   RegionPieces(const Positions& V, const Triangles& F, const ImagePlane& frame);
 
   void add(std::unique_ptr<PieceProblem> piece) { pieces_.push_back(std::move(piece)); }
@@ -24,7 +25,7 @@ class RegionPieces {
   int triangle_count() const { return static_cast<int>(F_.rows()); }
   int vertex_count() const { return static_cast<int>(V_.rows()); }
 
-  void set_limit(const MoveLimit& limit);  // of the moves, from the next solve on; see PieceProblem
+  void set_limit(const MoveLimit& limit);  // from the next solve on; see PieceProblem
   const MoveLimit& limit() const { return limit_; }
   IndexVector at_limit() const;  // #V: -1 or 1 where a free vertex lies at its lowest or highest move, else 0
 
@@ -35,7 +36,7 @@ class RegionPieces {
   Mask changeable() const;         // #F
   Mask free() const;               // #V
 
-  // Of the current heights; rows of triangles in no piece are zero.
+  // These depend on the current heights; rows of triangles in no piece are zero.
   Vector heights() const;                                               // #V, in the image plane of the world's origin
   Positions positions() const;                                          // #V x 3
   Vector theta(int family) const;                                       // #F
@@ -43,7 +44,7 @@ class RegionPieces {
   PlaneVectors smooth_field(const SmoothOptions& options, int family);  // #F x 2
   RegionField region_field(int family, double feature_length);
 
-  // The lines of a piece-wise surface with other heights (#V); weight 0 (#V) marks heights that are not known. Rows of
+  // Reads the lines of a piecewise surface with other heights (#V); weight 0 (#V) marks unknown heights. Rows of
   // triangles that depend on an unknown height keep their lines and have weight 0.
   void read_lines(const Vector& heights, const Vector& weight, Target& target, Vector& theta) const;
 

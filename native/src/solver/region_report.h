@@ -1,4 +1,4 @@
-// Counts what became of the triangles and vertices of a region, and says it in sentences for the user.
+// Counts triangles and vertices of a region by their roles, and formats the counts as sentences for the user.
 #pragma once
 
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace reflines {
 
-// The counts and messages that follow from the height field. `creases_held`: creases are fixed; else they move with
-// what moves their vertices, as on the surface of a cage.
+// Returns the counts and messages that follow from the height field. `creases_held`: creases are fixed; else they move
+// with their vertices, as on the surface of a cage.
 Region describe_region(const HeightField& field, bool creases_held);
 
 // Adds the messages on unused pieces and hidden triangles, once those are counted.
 void add_piece_messages(Region& region);
 
-// Says why no vertex is free; `what` is said before the reasons.
+// Returns a sentence why no vertex is free, beginning with `what`.
 std::string explain_no_free_vertex(const Region& region, const std::string& what);
 
-// Sets the count of features and replaces the message on the count before.
+// Sets the count of features and replaces the message on the previous count.
 void set_feature_count(int count, Region& region);
 
-// "1 face", "2 faces".
+// Formats a count: "1 face", "2 faces".
 std::string format_face_count(int count);
 
 }  // namespace reflines

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geometry/mesh.h"
+#include "optimization/report_sums.h"
 #include "reflines/errors.h"
 #include "solver/coupling.h"
 #include "solver/limited_move.h"
@@ -18,7 +19,7 @@
 namespace reflines {
 namespace {
 
-const Vector3& first_of(const std::vector<Vector3>& line_directions) {
+const Vector3& take_first(const std::vector<Vector3>& line_directions) {
   if (line_directions.empty())
     throw InvalidInput("There is no family of light lines; give at least one line direction.");
   return line_directions.front();
@@ -39,7 +40,7 @@ Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
 
 ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const std::vector<Vector3>& line_directions, const ShapeOptions& options)
-    : pieces_(std::make_unique<RegionPieces>(V, F, ImagePlane(view_direction, first_of(line_directions)))),
+    : pieces_(std::make_unique<RegionPieces>(V, F, ImagePlane(view_direction, take_first(line_directions)))),
       family_count_(static_cast<int>(line_directions.size())),
       progress_(options.progress) {
   enter(0.0, "checking the mesh");
@@ -65,7 +66,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
     pieces_->add(std::move(problem));
   }
   if (region_.free == 0) {
-    // A cage has fewer faces.
+    // A region of a cage has fewer faces of the artist's than triangles.
     const bool is_mesh = options.B.rows() == 0;
     throw InvalidInput(explain_no_free_vertex(region_, is_mesh ? format_face_count(triangle_count()) + ": " : ""));
   }
@@ -118,7 +119,7 @@ Vector ShapeOptimizer::residual(const Target& target) const {
   check(target);
   if (target.theta.size() > 0) {
     const Vector difference = theta(target.family) - target.theta;
-    return difference.unaryExpr([](double d) { return std::abs(wrapped(d)); });
+    return difference.unaryExpr([](double d) { return std::abs(wrap_angle(d)); });
   }
   return ((field(target.family) - target.gradient).rowwise().norm().array() * active().cast<double>()).matrix();
 }
@@ -208,7 +209,9 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
 
 SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, HessianModel model) {
   for (const Target& target : targets) check(target);
-  SparseMatrix result(region_.free, region_.free);
+  int size = 0;
+  for (const auto& piece : pieces_->pieces()) size += piece->size();
+  SparseMatrix result(size, size);
   int first = 0;
   for (const auto& piece : pieces_->pieces()) {
     if (piece->size() == 0) continue;
@@ -294,7 +297,7 @@ const RegionField& ShapeOptimizer::region_field(int family) {
   return *region_field_;
 }
 
-ShapeOptimizer::Lines ShapeOptimizer::lines_of(const Vector& heights, const Vector& weight, int family) {
+ShapeOptimizer::Lines ShapeOptimizer::evaluate_lines(const Vector& heights, const Vector& weight, int family) {
   check_family(family);
   const int vertices = pieces_->vertex_count();
   if (heights.size() != vertices || weight.size() != vertices) {

@@ -9,8 +9,9 @@
 namespace reflines {
 namespace {
 
-// Lines that are hard to reach move a panel by a few per cent of its diagonal, wild ones by half of it. Beyond this the
-// step's own resolution grows with the heights, so that a solve "converges" at any size.
+// The largest move in diagonals of the region. Lines that are hard to reach move a panel by a few per cent of its
+// diagonal, absurd ones by half of it. Beyond this the step's own resolution grows with the heights, so that a solve
+// "converges" at any size.
 constexpr double kFarthest = 10.0;
 
 }  // namespace

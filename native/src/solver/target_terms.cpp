@@ -10,28 +10,29 @@
 namespace reflines {
 namespace {
 
-// A free border leaves the profile along the lines undetermined (theta ~ f_x: any g(y) is free; null space 9 on a free
-// 8 x 8 grid). A second family across the first, asked to stay as it is, leaves only affine functions; the proximity
-// holds those. Of the two, the second family is blind to position and bends nothing, so it may be the stronger one.
+// The weight of the term that crosses the lines. A free border leaves the profile along the lines undetermined (theta ~
+// f_x: any g(y) is free; null space 9 on a free 8 x 8 grid). A second family across the first, whose target is its
+// start, leaves only affine functions, which the proximity term determines. Of the two, the second family is
+// independent of position and bends nothing, so it may be the stronger one.
 constexpr double kCrossingWeight = 1e-3;
 
-// Eq. 3 sees slopes only, and a misfit of theta costs no more than 4 however steep: what a fixed border forbids is
-// hidden in a cliff one triangle wide (on a real bonnet 100 iterations, wobble 23 -> 4e6 degrees). The wanted gradient,
-// at the scale of the triangles, takes the cliff away and vanishes with their size. Of 0, 1, 3, 10 and 30, theta raised
-// by 0.2 inside a fixed border: wobble 0.09 -> 2e7, 28, 0.19, 0.11, 0.10; theta on the bonnet ends 0.019, 0.026, 0.027,
-// 0.028, 0.028 beside the target.
+// The weight of the gradient beside a value fit. Eq. 3 depends on slopes only, and a misfit of theta costs no more than
+// 4 however steep: what a fixed border forbids is hidden in a cliff one triangle wide (on a real bonnet 100 iterations,
+// wobble 23 -> 4e6 degrees). The wanted gradient, at the scale of the triangles, removes the cliff and vanishes with
+// their size. Of 0, 1, 3, 10 and 30, theta raised by 0.2 inside a fixed border: wobble 0.09 -> 2e7, 28, 0.19, 0.11,
+// 0.10; theta on the bonnet ends 0.019, 0.026, 0.027, 0.028, 0.028 beside the target.
 constexpr double kValueCompanion = 10.0;
 
-// Misfits of values are angles, those of gradients angles per length, and so are the crossing term's and, by its own
-// scale, the proximity's: a wave of theta as long as the piece costs the same by value and by gradient, whatever the
-// unit of length. Without it a free pattern by value moved nothing in kilometres and five times too far in millimetres.
-// Of 1, 4, (2 pi)^2 and 400 over the squared diagonal, ripples on a panel free on all sides: 26, 10, 1.3, 0.1 % of
-// theta stay beside the target, by 4, 5, 7, 8 steps.
+// Returns the factor that makes misfits of values comparable. They are angles, those of gradients angles per length,
+// and so are the crossing term's and, by its own scale, the proximity's: a wave of theta as long as the piece costs the
+// same by value and by gradient, whatever the unit of length. Without it a free pattern by value moved nothing in
+// kilometres and five times too far in millimetres. Of 1, 4, (2 pi)^2 and 400 over the squared diagonal, ripples on a
+// panel free on all sides: 26, 10, 1.3, 0.1 % of theta stay beside the target, by 4, 5, 7, 8 steps.
 double value_scale(const HeightField& field) { return std::pow(2 * std::numbers::pi / field.diagonal(), 2); }
 
 double squared_misfit(const Target& target, const ReflectionFunction& lines, const Vector5& u, int row) {
   if (target.theta.size() > 0) {
-    const double off = wrapped(lines.theta(u(0), u(1)) - target.theta(row));
+    const double off = wrap_angle(lines.theta(u(0), u(1)) - target.theta(row));
     return off * off;
   }
   const Vector2 now = theta_gradient(lines.derivatives(u(0), u(1), 1), u);
@@ -95,7 +96,7 @@ TargetTerms::Misfit TargetTerms::measure(const std::vector<Target>& targets, con
     const int t = quadrature_.triangle_of(k);
     area(k) = squared(k) = 0;
     if (!field_.has_free_vertex(t))
-      continue;  // what is held stays as far off as it is, and says nothing about the solve
+      continue;  // the misfit of held triangles is constant, and says nothing about the solve
     double sum = 0;
     for (const Target& target : targets)
       sum += squared_misfit(target, families_[target.family], u.row(k), field_.source[t]);

@@ -1,4 +1,4 @@
-// The terms of a piece's energy that targets ask for, and how far given heights are from the targets.
+// The terms of a piece's energy that belong to targets, and the misfit of given heights.
 #pragma once
 
 #include <vector>
@@ -12,21 +12,20 @@ namespace reflines {
 
 class TargetTerms {
  public:
-  // `trust` (#T for each family) is the weight by visibility. The last family crosses the first and belongs to no
-  // target. All arguments outlive the object; `row_count` is the number of triangles that stand in the energy.
+  // Takes references that outlive the object. `trust` (#T for each family) is the weight by visibility. The last family
+  // crosses the first and belongs to no target. `row_count` is the number of triangles in the energy.
   TargetTerms(const HeightField& field, const Quadrature& quadrature, const std::vector<ReflectionFunction>& families,
               const std::vector<Vector>& trust, int row_count);
 
-  // Rows of the targets follow the region's triangles. A value fit has two terms, see build_companion. Throws
-  // InvalidInput where the gradient beside a value fit is not finite.
+  // Builds the terms of targets, whose rows follow the region's triangles. A value fit has two terms, see
+  // build_companion. Throws InvalidInput where the gradient beside a value fit is not finite.
   std::vector<EnergyTerm> build(const std::vector<Target>& targets) const;
 
-  // Asks the lines of the last family to stay as they are in `start` (#T x 2).
+  // Builds the term whose target for the last family is its field `start` (#T x 2).
   EnergyTerm build_crossing(const PlaneVectors& start) const;
 
-  // What heights with the derivatives u (one row for each triangle in the energy) lack of the targets, over the
-  // triangles that can change: sum of area |grad theta - wanted|^2 (of a value fit: of the difference of theta), and of
-  // areas.
+  // The misfit of heights with the derivatives u (one row for each triangle in the energy), over the triangles that can
+  // change: sum of area |grad theta - wanted|^2 (of a value fit: of the difference of theta), and of areas.
   struct Misfit {
     double squared = 0.0, area = 0.0;
   };
@@ -34,8 +33,7 @@ class TargetTerms {
 
  private:
   EnergyTerm build_term(const Target& target) const;
-  EnergyTerm build_companion(
-      const Target& target) const;  // of a value fit: the wanted gradient beside the wanted theta
+  EnergyTerm build_companion(const Target& target) const;
 
   const HeightField& field_;
   const Quadrature& quadrature_;

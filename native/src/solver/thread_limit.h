@@ -5,8 +5,8 @@
 
 namespace reflines {
 
-// Solves for a drag take 10 to 20 ms: on a machine that is busy with drawing, threads waiting for each other took five
-// times as long as one thread alone. The bits are the same.
+// Limits the threads of a scope. Solves for a drag take 10 to 20 ms: on a machine that is busy with drawing, threads
+// waiting for each other took five times as long as one thread alone. The bits are the same.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads) : before_(omp_get_max_threads()) {  // 0: no limit

@@ -7,8 +7,8 @@
 namespace reflines {
 namespace {
 
-// Those of height-field pieces: the others cannot be looked down upon.
-Triangles seen_triangles(const RegionField& field) {
+// Returns the triangles of height-field pieces: the others cannot be located in the image plane.
+Triangles select_active_triangles(const RegionField& field) {
   std::vector<int> seen;
   for (int t = 0; t < field.F.rows(); ++t) {
     if (field.active(t)) seen.push_back(t);
@@ -19,7 +19,7 @@ Triangles seen_triangles(const RegionField& field) {
 }  // namespace
 
 DenseHeights sample_dense_heights(const RegionField& region, const RegionField& dense, const Vector& heights) {
-  const Triangles seen = seen_triangles(dense);
+  const Triangles seen = select_active_triangles(dense);
   const TriangleLocator locator(dense.xy, seen);
   const int vertices = static_cast<int>(region.xy.rows());
   DenseHeights result{Vector::Zero(vertices), Vector::Zero(vertices)};

@@ -10,20 +10,20 @@
 namespace reflines {
 namespace {
 
-// Products of a direct convolution that take about a second on two cores: 90 pixels on 1024 x 1024.
+// The number of products of a direct convolution that takes about a second on two cores: 90 pixels on 1024 x 1024.
 constexpr double kDirectBlur = 1e9;
 
-// Weights of -radius .. radius pixels; 4 deviations away the Gaussian is 3e-4 of its middle.
-Vector gaussian(double deviation) {
+// Returns the Gaussian weights of -radius .. radius pixels; at 4 deviations it is 3e-4 of its middle.
+Vector compute_gaussian(double deviation) {
   const int radius = static_cast<int>(std::ceil(4 * deviation));
   Vector kernel(2 * radius + 1);
   for (int k = -radius; k <= radius; ++k) kernel(k + radius) = std::exp(-0.5 * k * k / (deviation * deviation));
   return kernel / kernel.sum();
 }
 
-// Along the columns of `image`, border values continued; a whole column for each weight, as they lie in memory. A row
-// for each took 40 times as long: 9 s instead of 0.2 for 64 pixels on 1024 x 1024.
-Eigen::MatrixXd blurred_columns(const Eigen::MatrixXd& image, const Vector& kernel) {
+// Convolves the columns of `image`, with border values continued; a whole column for each weight, as they lie in
+// memory. A row for each took 40 times as long: 9 s instead of 0.2 for 64 pixels on 1024 x 1024.
+Eigen::MatrixXd blur_columns(const Eigen::MatrixXd& image, const Vector& kernel) {
   const Eigen::Index rows = image.rows(), radius = kernel.size() / 2;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, image.cols());
 #pragma omp parallel for schedule(static) if (image.size() > kWorthThreads)
@@ -35,10 +35,10 @@ Eigen::MatrixXd blurred_columns(const Eigen::MatrixXd& image, const Vector& kern
   return result;
 }
 
-// Five means over windows have the variance of the Gaussian and 97 % of its height in the middle, in a time that does
-// not depend on the deviation (Kovesi, "Fast Almost-Gaussian Filtering", DICTA 2010). Along the columns, borders
-// continued.
-Eigen::MatrixXd box_blurred_columns(Eigen::MatrixXd image, double deviation) {
+// Approximates the Gaussian of the columns, borders continued, by five box filters, which have its variance and 97 % of
+// its height in the middle, in a time that does not depend on the deviation (Kovesi, "Fast Almost-Gaussian Filtering",
+// DICTA 2010).
+Eigen::MatrixXd box_blur_columns(Eigen::MatrixXd image, double deviation) {
   constexpr int kPasses = 5;
   const double ideal = std::sqrt(12 * deviation * deviation / kPasses + 1);
   const int lower = 2 * static_cast<int>((ideal - 1) / 2) + 1;  // the odd widths around the ideal one
@@ -65,27 +65,27 @@ Eigen::MatrixXd box_blurred_columns(Eigen::MatrixXd image, double deviation) {
 Eigen::MatrixXd blurred(const Eigen::MatrixXd& image, double deviation) {
   if (!(deviation > 0)) return image;
   if (8 * deviation * static_cast<double>(image.size()) > kDirectBlur) {
-    const Eigen::MatrixXd once = box_blurred_columns(image, deviation).transpose();
-    return box_blurred_columns(once, deviation).transpose();
+    const Eigen::MatrixXd once = box_blur_columns(image, deviation).transpose();
+    return box_blur_columns(once, deviation).transpose();
   }
-  const Vector kernel = gaussian(deviation);
-  const Eigen::MatrixXd once = blurred_columns(image, kernel).transpose();
-  return blurred_columns(once, kernel).transpose();
+  const Vector kernel = compute_gaussian(deviation);
+  const Eigen::MatrixXd once = blur_columns(image, kernel).transpose();
+  return blur_columns(once, kernel).transpose();
 }
 
-// Catmull-Rom weights of the four samples around a point at `f` in [0, 1] between the middle two.
-Eigen::Vector4d cubic_weights(double f) {
+// Returns the Catmull-Rom weights of the four samples around a point at `f` in [0, 1] between the middle two.
+Eigen::Vector4d compute_cubic_weights(double f) {
   return {0.5 * (-f + 2 * f * f - f * f * f), 0.5 * (2 - 5 * f * f + 3 * f * f * f),
           0.5 * (f + 4 * f * f - 3 * f * f * f), 0.5 * (-f * f + f * f * f)};
 }
 
-// Grey value at pixel coordinates (pixel centres at whole numbers), smooth between them: bilinear would print the
-// pixels' edges into the gradient.
+// Interpolates the grey value at pixel coordinates (pixel centres at whole numbers) smoothly: bilinear interpolation
+// would print the pixels' edges into the gradient.
 double sample(const Eigen::MatrixXd& image, double column, double row) {
-  column = column > 0 ? std::min(column, double(image.cols() - 1)) : 0;  // also what is no number
+  column = column > 0 ? std::min(column, double(image.cols() - 1)) : 0;  // NaN becomes 0
   row = row > 0 ? std::min(row, double(image.rows() - 1)) : 0;
   const int i = static_cast<int>(column), j = static_cast<int>(row);
-  const Eigen::Vector4d wx = cubic_weights(column - i), wy = cubic_weights(row - j);
+  const Eigen::Vector4d wx = compute_cubic_weights(column - i), wy = compute_cubic_weights(row - j);
   double sum = 0;
   for (int b = -1; b <= 2; ++b) {
     const int r = std::clamp<int>(j + b, 0, static_cast<int>(image.rows()) - 1);
@@ -111,8 +111,8 @@ void check(const Eigen::MatrixXd& image, const PatternOptions& options) {
     throw InvalidInput("The share of the lines to keep must lie between 0 and 1.");
 }
 
-// What the image adds to theta at the vertices (#V).
-Vector added(const RegionField& field, const Eigen::MatrixXd& image, const PatternOptions& options) {
+// Returns the image's contribution to theta at the vertices (#V).
+Vector compute_added_theta(const RegionField& field, const Eigen::MatrixXd& image, const PatternOptions& options) {
   const Eigen::MatrixXd soft = blurred(image, options.blur);
   const double pixel = options.width / image.cols();
   Vector delta(field.xy.rows());
@@ -126,22 +126,22 @@ Vector added(const RegionField& field, const Eigen::MatrixXd& image, const Patte
   return delta;
 }
 
-// keep * (theta - mean) + mean (#F); the mean of directions, since theta may jump by 2 pi within the region.
-Vector kept_values(const RegionField& field, double keep) {
+// Returns keep * (theta - mean) + mean (#F); the mean of directions, since theta may jump by 2 pi within the region.
+Vector scale_theta(const RegionField& field, double keep) {
   if (keep == 1) return field.theta;
   const double mean = std::atan2(field.area.dot(field.theta.array().sin().matrix()),
                                  field.area.dot(field.theta.array().cos().matrix()));
-  return field.theta.unaryExpr([mean, keep](double theta) { return mean + keep * wrapped(theta - mean); });
+  return field.theta.unaryExpr([mean, keep](double theta) { return mean + keep * wrap_angle(theta - mean); });
 }
 
 }  // namespace
 
 Target build_pattern_target(const RegionField& field, const Eigen::MatrixXd& image, const PatternOptions& options) {
   check(image, options);
-  const Vector delta = added(field, image, options);
+  const Vector delta = compute_added_theta(field, image, options);
   Target target{field.gradient, {}, {}, field.family, true};
   if (options.by_value) target.theta = field.theta;
-  const Vector kept = kept_values(field, options.keep);
+  const Vector kept = scale_theta(field, options.keep);
   for (int t = 0; t < field.F.rows(); ++t) {
     if (!field.active(t) || field.feature(t)) continue;
     const double at_a = delta(field.F(t, 0));

@@ -18,13 +18,13 @@ void check_influence(const RegionField& field, const Vector& influence) {
   throw InvalidInput("An influence lies outside 0 to 1; check the fall-off curve.");
 }
 
-double influence_at(const RegionField& field, const Vector& influence, int t) {
+double read_influence(const RegionField& field, const Vector& influence, int t) {
   if (field.feature(t)) return 0.0;
   return influence.size() == 0 ? 1.0 : influence(t);
 }
 
-// Position of each triangle along the axis, 0 at the region's first and 1 at its last.
-Vector along_axis(const RegionField& field, const Vector2& axis) {
+// Returns the position of each triangle along the axis, 0 at the region's first and 1 at its last.
+Vector measure_along_axis(const RegionField& field, const Vector2& axis) {
   Vector position = field.center * axis;
   double low = INFINITY, high = -INFINITY;
   for (int t = 0; t < position.size(); ++t) {
@@ -54,12 +54,12 @@ Target build_uniform_target(const RegionField& field, const UniformOptions& opti
   if (across.dot(mean) < 0) across = -across;
   const double unit = options.relative ? mean.norm() : 1.0;
   const double end = options.density_end < 0 ? options.density : options.density_end;
-  const Vector position = along_axis(field, options.axis);
+  const Vector position = measure_along_axis(field, options.axis);
   Target target{field.gradient, {}, {}, field.family, true};
   for (int t = 0; t < field.F.rows(); ++t) {
     const double density = unit * (options.density + position(t) * (end - options.density));
     const Eigen::RowVector2d now = field.gradient.row(t);
-    target.gradient.row(t) += influence_at(field, influence, t) * (density * across.transpose() - now);
+    target.gradient.row(t) += read_influence(field, influence, t) * (density * across.transpose() - now);
   }
   return target;
 }
@@ -69,7 +69,7 @@ Target build_turned_target(const RegionField& field, double angle, const Vector&
   if (!std::isfinite(angle)) throw InvalidInput("The angle is not a number; give radians.");
   Target target{field.gradient, {}, {}, field.family, true};
   for (int t = 0; t < field.F.rows(); ++t) {
-    const double own = angle * influence_at(field, influence, t);
+    const double own = angle * read_influence(field, influence, t);
     if (own == 0) continue;
     const double x = field.gradient(t, 0), y = field.gradient(t, 1);
     target.gradient.row(t) << std::cos(own) * x - std::sin(own) * y, std::sin(own) * x + std::cos(own) * y;

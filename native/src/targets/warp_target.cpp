@@ -12,13 +12,13 @@
 namespace reflines {
 namespace {
 
-constexpr int kMostNodes = 100'000'000;  // twice as many triangles, and three times that many corners, are still ints
+constexpr int kMostNodes = 100'000'000;  // twice as many triangles, and three times that many corners, fit an int
 
 Vector2 rest(const WarpGrid& grid, int i, int j) {
   return grid.low + (grid.high - grid.low).cwiseProduct(Vector2(double(i) / grid.columns, double(j) / grid.rows));
 }
 
-// Before anything is made of that size.
+// Checks the grid before anything of its size is allocated.
 void check_grid(const WarpGrid& grid) {
   const Eigen::Index nodes = (Eigen::Index(grid.columns) + 1) * (Eigen::Index(grid.rows) + 1);
   if (grid.columns < 1 || grid.rows < 1 || grid.position.rows() != nodes || nodes > kMostNodes ||
@@ -53,8 +53,8 @@ void check_folds(const WarpGrid& grid, const Triangles& F) {
                      " % of its area); move its points back until they no longer cross.");
 }
 
-// w^-1(x) - x at the region's vertices (#V x 2).
-PlanePositions pulled_back(const RegionField& field, const WarpGrid& grid) {
+// Returns w^-1(x) - x at the region's vertices (#V x 2).
+PlanePositions invert_grid(const RegionField& field, const WarpGrid& grid) {
   check_grid(grid);
   const Triangles F = grid_triangles(grid);
   check_folds(grid, F);
@@ -76,20 +76,20 @@ PlanePositions pulled_back(const RegionField& field, const WarpGrid& grid) {
   return result;
 }
 
-// theta at `point` of the triangle that holds it, relative to `reference` and within pi of it.
-double theta_near(const RegionField& field, const Location& at, const Vector2& point, double reference) {
+// Returns theta at `point` of the triangle that contains it, relative to `reference` and within pi of it.
+double evaluate_theta_near(const RegionField& field, const Location& at, const Vector2& point, double reference) {
   double sum = 0;
   const int first = field.F(at.triangle, 0);
-  const double base = wrapped(field.vertex_theta(first) - reference);
+  const double base = wrap_angle(field.vertex_theta(first) - reference);
   for (int i = 0; i < 3; ++i) {
     const int v = field.F(at.triangle, i);
     const double step = 0.5 * field.vertex_gradient.row(v).dot(point.transpose() - field.xy.row(v));
-    sum += at.barycentric(i) * (wrapped(field.vertex_theta(v) - field.vertex_theta(first)) + step);
+    sum += at.barycentric(i) * (wrap_angle(field.vertex_theta(v) - field.vertex_theta(first)) + step);
   }
-  return wrapped(base + sum);
+  return wrap_angle(base + sum);
 }
 
-// The field plus the gradient of `delta` (#V); triangles with an `unknown` vertex keep theirs, with little weight.
+// Adds the gradient of `delta` (#V) to the field; triangles with an `unknown` vertex keep theirs, with little weight.
 WarpResult add_difference(const RegionField& field, const Vector& delta, const Mask& unknown, bool by_value) {
   const int triangles = static_cast<int>(field.F.rows());
   WarpResult result{{field.gradient, Vector::Ones(triangles), {}, field.family, true}, 0};
@@ -99,17 +99,18 @@ WarpResult add_difference(const RegionField& field, const Vector& delta, const M
     if (by_value) result.target.theta(t) = field.theta(t);
     if (field.feature(t)) continue;
     const int a = field.F(t, 0), b = field.F(t, 1), c = field.F(t, 2);
-    const double db = wrapped(delta(b) - delta(a)), dc = wrapped(delta(c) - delta(a));
+    const double db = wrap_angle(delta(b) - delta(a)), dc = wrap_angle(delta(c) - delta(a));
     const bool known = !unknown(a) && !unknown(b) && !unknown(c);
     result.outside += !known;
     if (!known) result.target.weight(t) = kOutsideWeight;
     if (known) result.target.gradient.row(t) += linear_gradient(field.xy, field.F.row(t), db, dc).transpose();
-    if (by_value) result.target.theta(t) = wrapped(field.theta(t) + delta(a) + (db + dc) / 3.0);
+    if (by_value) result.target.theta(t) = wrap_angle(field.theta(t) + delta(a) + (db + dc) / 3.0);
   }
   return result;
 }
 
-// The piece of each vertex (#V); -1 where several meet: theta at the vertex is a mean over both sides of a crease.
+// Returns the piece of each vertex (#V); -1 where several meet: theta at the vertex is a mean over both sides of a
+// crease.
 Eigen::VectorXi piece_of_vertices(const RegionField& field) {
   constexpr int kNone = -2;
   Eigen::VectorXi piece = Eigen::VectorXi::Constant(field.xy.rows(), kNone);
@@ -134,7 +135,7 @@ class LineSource {
     locator_.emplace(field.xy, active_);
   }
 
-  // triangle -1: `point` lies outside, on a feature, or in another piece than vertex v.
+  // Locates `point` for vertex v; triangle -1 where it lies outside, on a feature, or in another piece than v.
   Location locate(const RegionField& field, int v, const Vector2& point) const {
     Location at = locator_->locate(point);
     if (at.triangle < 0) return at;
@@ -155,7 +156,7 @@ class LineSource {
 }  // namespace
 
 WarpResult build_warp_target(const RegionField& field, const WarpGrid& grid, bool by_value) {
-  const PlanePositions shift = pulled_back(field, grid);
+  const PlanePositions shift = invert_grid(field, grid);
   const LineSource lines(field);
   Vector delta = Vector::Zero(field.xy.rows());
   Mask outside = Mask::Constant(field.xy.rows(), false);
@@ -164,7 +165,7 @@ WarpResult build_warp_target(const RegionField& field, const WarpGrid& grid, boo
     const Vector2 source = (field.xy.row(v) + shift.row(v)).transpose();
     const Location at = lines.locate(field, v, source);
     outside(v) = at.triangle < 0;
-    if (!outside(v)) delta(v) = theta_near(field, at, source, field.vertex_theta(v));
+    if (!outside(v)) delta(v) = evaluate_theta_near(field, at, source, field.vertex_theta(v));
   }
   return add_difference(field, delta, outside, by_value);
 }

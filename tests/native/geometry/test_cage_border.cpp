@@ -44,8 +44,8 @@ Mask grown(const Cage& cage, const Mask& ring) {
 void expect_rings(const Cage& cage, const SubdivisionOptions& options) {
   const Subdivision result = subdivide(cage, options);
   const Mask ring = border_ring(cage);
-  EXPECT_TRUE((held_by_border(result, everywhere(cage), kPosition) == ring).all());
-  EXPECT_TRUE((held_by_border(result, everywhere(cage), kTangent) == grown(cage, ring)).all());
+  EXPECT_TRUE((find_held_vertices(result, everywhere(cage), kPosition) == ring).all());
+  EXPECT_TRUE((find_held_vertices(result, everywhere(cage), kTangent) == grown(cage, ring)).all());
 }
 
 void expect_rings_at_all_levels(const Cage& cage) {
@@ -103,8 +103,8 @@ TEST(CageBorder, CreasesAcrossAndAlongTheBorderChangeNothing) {
 TEST(CageBorder, HeldVerticesKeepTheBorderAndItsNormalsBitForBit) {
   for (const PlacedCage& placed : {grid(6, 6), star(5, 4)}) {
     const Subdivision result = subdivide(placed.cage, at(3, true));
-    const Mask held = held_by_border(result, everywhere(placed.cage), kTangent);
-    const Mask border = refined_border(result, everywhere(placed.cage));
+    const Mask held = find_held_vertices(result, everywhere(placed.cage), kTangent);
+    const Mask border = find_refined_border(result, everywhere(placed.cage));
     ASSERT_FALSE(held.all());
     Positions V = placed.V;
     for (int v = 0; v < V.rows(); ++v) V(v, 2) += held[v] ? 0.0 : 1.0 + v;
@@ -126,8 +126,8 @@ TEST(CageBorder, HeldVerticesKeepTheBorderAndItsNormalsBitForBit) {
 TEST(CageBorder, NoneIsHeldWithoutNeed) {
   for (const PlacedCage& placed : {grid(5, 5), star(5, 3)}) {
     const Subdivision result = subdivide(placed.cage, at(2, true));
-    const Mask held = held_by_border(result, everywhere(placed.cage), kTangent);
-    const Mask border = refined_border(result, everywhere(placed.cage));
+    const Mask held = find_held_vertices(result, everywhere(placed.cage), kTangent);
+    const Mask border = find_refined_border(result, everywhere(placed.cage));
     std::vector<int> rows, columns;
     for (int i = 0; i < border.size(); ++i) {
       if (border[i]) rows.push_back(i);
@@ -154,8 +154,8 @@ TEST(CageBorder, InsideASurfaceBothNeedTwoRingsAndTheOutsideStays) {
   }
   for (const bool limit : {false, true}) {
     const Subdivision result = subdivide(placed.cage, at(2, limit));
-    const Mask held = held_by_border(result, region, kPosition);
-    EXPECT_TRUE((held == held_by_border(result, region, kTangent)).all());
+    const Mask held = find_held_vertices(result, region, kPosition);
+    EXPECT_TRUE((held == find_held_vertices(result, region, kTangent)).all());
     Positions V = placed.V;
     for (int v = 0; v < V.rows(); ++v) {
       const int i = v % (n + 1), j = v / (n + 1);
@@ -176,7 +176,7 @@ TEST(CageBorder, InsideASurfaceBothNeedTwoRingsAndTheOutsideStays) {
 
 TEST(CageBorder, AClosedSurfaceHoldsNothing) {
   const Subdivision result = subdivide(cube().cage, at(2, true));
-  EXPECT_FALSE(held_by_border(result, everywhere(cube().cage), kTangent).any());
+  EXPECT_FALSE(find_held_vertices(result, everywhere(cube().cage), kTangent).any());
 }
 
 }  // namespace

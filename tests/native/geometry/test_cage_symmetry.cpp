@@ -54,19 +54,19 @@ TEST(CageSymmetry, APlaneNeedsANormal) {
 TEST(CageSymmetry, UnknownsReachEveryFreeVertexOnceAndNoHeldOne) {
   const PlacedCage placed = grid(6, 6);
   const Subdivision surface = subdivide(placed.cage, {});
-  const Mask held = held_by_border(surface, Mask::Constant(36, true), Border::kClamped);
-  const SparseMatrix B = cage_unknowns(held, mirror_pairs(placed.V, kMiddle, 1e-6));
+  const Mask held = find_held_vertices(surface, Mask::Constant(36, true), Border::kClamped);
+  const SparseMatrix B = build_cage_unknowns(held, mirror_pairs(placed.V, kMiddle, 1e-6));
   EXPECT_EQ(B.cols(), 3 * 2);  // 3 x 3 free vertices, a column of them on the plane
   const Vector reached = B * Vector::Ones(B.cols());
   for (int v = 0; v < reached.size(); ++v) EXPECT_EQ(reached[v], held[v] ? 0.0 : 1.0);
-  EXPECT_EQ(cage_unknowns(held, {}).cols(), 9);
+  EXPECT_EQ(build_cage_unknowns(held, {}).cols(), 9);
 }
 
 TEST(CageSymmetry, APartnerOfAHeldVertexIsHeld) {
   const PlacedCage placed = grid(6, 2);
   Mask held = Mask::Constant(21, false);
   held[0] = true;
-  const SparseMatrix B = cage_unknowns(held, mirror_pairs(placed.V, kMiddle, 1e-6));
+  const SparseMatrix B = build_cage_unknowns(held, mirror_pairs(placed.V, kMiddle, 1e-6));
   EXPECT_EQ(B.cols(), 3 * 4 - 1);
   EXPECT_EQ((B * Vector::Ones(B.cols()))[6], 0.0);
 }
@@ -74,7 +74,7 @@ TEST(CageSymmetry, APartnerOfAHeldVertexIsHeld) {
 // Symmetric unknowns give a symmetric surface, though not bit for bit: OpenSubdiv adds weights in its own order.
 TEST(CageSymmetry, SymmetricCagesGiveSymmetricSurfaces) {
   PlacedCage placed = grid(6, 4);
-  const SparseMatrix B = cage_unknowns(Mask::Constant(35, false), mirror_pairs(placed.V, kMiddle, 1e-6));
+  const SparseMatrix B = build_cage_unknowns(Mask::Constant(35, false), mirror_pairs(placed.V, kMiddle, 1e-6));
   placed.V.col(2) = B * Vector(Vector::LinSpaced(B.cols(), 0, 40).array().sin());
   const Subdivision surface = subdivide(placed.cage, {.level = 3});
   const Positions V = surface.positions * placed.V;

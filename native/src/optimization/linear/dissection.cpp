@@ -9,7 +9,7 @@ namespace reflines {
 
 namespace {
 
-// Parts of this size are eliminated as they come: between 16 and 64 the entries of L differ by 3 %.
+// The size of parts that are eliminated in their given order: between 16 and 64 the entries of L differ by 3 %.
 constexpr int kSmallestPart = 32;
 
 struct Part {
@@ -40,7 +40,8 @@ class Dissection {
  private:
   enum Side : signed char { kOutside, kLeft, kRight, kSeparator };
 
-  // Across the longer side of the part's bounding box, half of the unknowns on each side.
+  // Sorts the part along the longer side of its bounding box and returns its middle, with half of the unknowns on each
+  // side.
   int halve(const Part& part) {
     Vector2 low = places_.row(order_[part.begin]), high = low;
     for (int k = part.begin; k < part.end; ++k) {
@@ -56,8 +57,8 @@ class Dissection {
     return middle;
   }
 
-  // The fewest unknowns without which no entry of the matrix joins the two sides. All that touch the other side are up
-  // to a fifth more: L has 195 M entries instead of 182 M at 1M unknowns.
+  // Marks the smallest set of unknowns without which no entry of the matrix joins the two sides. The simpler set of all
+  // that touch the other side is up to a fifth larger: L has 195 M entries instead of 182 M at 1M unknowns.
   void mark_separator(const Part& part) {
     find_crossings(part);
     number(&BipartiteEdge::second, rights_);
@@ -69,7 +70,7 @@ class Dissection {
     for (std::size_t k = 0; k < rights_.size(); ++k) side_[rights_[k]] = cover.right[k] ? kSeparator : kRight;
   }
 
-  // Pairs of unknowns, one on each side, that the matrix joins.
+  // Finds the pairs of unknowns, one on each side, that the matrix joins.
   void find_crossings(const Part& part) {
     crossings_.clear();
     for (int k = part.begin; k < part.end; ++k) {
@@ -82,7 +83,8 @@ class Dissection {
     }
   }
 
-  // Replaces the unknowns on one side of the crossings by their places in `unknowns`, in the order of first mention.
+  // Replaces the unknowns on one side of the crossings by their indices in `unknowns`, in the order of first
+  // occurrence.
   void number(int BipartiteEdge::*side, std::vector<int>& unknowns) {
     unknowns.clear();
     for (BipartiteEdge& crossing : crossings_) {
@@ -96,7 +98,7 @@ class Dissection {
     for (const int unknown : unknowns) place_[unknown] = -1;
   }
 
-  // Left and right first, the separator last: only it is filled in between them.
+  // Orders left and right first and the separator last, so that fill between them occurs in the separator only.
   void cut(const Part& part, std::vector<Part>& parts) {
     const int middle = halve(part);
     for (int k = part.begin; k < part.end; ++k) side_[order_[k]] = k < middle ? kLeft : kRight;
@@ -115,10 +117,10 @@ class Dissection {
   const PlanePositions& places_;
   std::vector<int> order_;
   std::vector<Side> side_;
-  // Work space of a cut.
+  // The work space of a cut.
   std::vector<BipartiteEdge> crossings_;
   std::vector<int> lefts_, rights_;
-  std::vector<int> place_;  // -1, except while unknowns are numbered
+  std::vector<int> place_;  // -1, except while unknowns are renumbered
 };
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace reflines {
 
-// The order in which to eliminate the unknowns of a symmetric matrix (lower triangle, n x n), first to last. `places`
-// (n x 2) are read as hints: any values give a valid order, those of a surface's vertices a good one.
+// Returns the order in which to eliminate the unknowns of a symmetric matrix (lower triangle, n x n), first to last.
+// `places` (n x 2) are hints: any values give a valid order, those of a surface's vertices a good one.
 std::vector<int> dissection_order(const SparseMatrix& matrix, const PlanePositions& places);
 
 }  // namespace reflines

@@ -19,39 +19,42 @@ namespace reflines {
 
 namespace {
 
-// A Gauss-Newton matrix is semi-definite on paper and may lose its last digits to rounding: 1e-12 of the diagonal is
-// above the rounding of a sum of some thousand terms and changes a Newton step in its twelfth digit only; 1e-9 is for
-// meshes with very thin triangles. The same shares of the mean diagonal entry are for unknowns that no term of the
-// energy constrains. The last two shorten the steps, and are for free borders around faces seen nearly edge on (a roof
-// of the DrivAer body with a piece of 593 unknowns).
+// The multiples of the diagonal that are added one after the other until the factorization succeeds. A Gauss-Newton
+// matrix is semi-definite on paper and may lose its last digits to rounding: 1e-12 of the diagonal is above the
+// rounding of a sum of some thousand terms and changes a Newton step in its twelfth digit only; 1e-9 is for meshes with
+// very thin triangles. The same multiples of the mean diagonal entry are for unknowns that no term of the energy
+// constrains. The last two shorten the steps, and are for free borders around faces seen nearly edge on (a roof of the
+// DrivAer body with a piece of 593 unknowns).
 constexpr double kDiagonalShifts[] = {0.0, 1e-12, 1e-9, 1e-6, 1e-3};
 
-// A pivot with a smaller share of its own diagonal entry is rounding noise: the solution would have no correct digit.
-// The ratio of pivots to each other says nothing: triangles seen nearly edge on make it 1e-17 in systems that lose no
-// more than nine digits (35,040 triangles of a car body seen from above).
+// The smallest ratio of a pivot to its own diagonal entry: below it the pivot is rounding noise and the solution has no
+// correct digit. The ratio of pivots to each other is no criterion: triangles seen nearly edge on make it 1e-17 in
+// systems that lose no more than nine digits (35,040 triangles of a car body seen from above).
 constexpr double kSmallestPivotShare = 1e-15;
 
-// Seconds on one core to analyse, factor and solve once; L's entries; operations of the factorization:
-//   100k unknowns: AMD 0.12 / 0.90 / 0.032, 15 M, 7 G;    METIS 0.91 / 0.53 / 0.028, 13 M, 4 G
-//     1M unknowns: AMD 2.5 / 17 / 0.5, 236 M, 345 G;      METIS 11 / 11 / 0.4, 173 M, 153 G
+// The number of unknowns from which METIS orders systems whose unknowns have no places. Seconds on one core to analyse,
+// factor and solve once; L's entries; operations of the factorization:
+// 100k unknowns: AMD 0.12 / 0.90 / 0.032, 15 M, 7 G;    METIS 0.91 / 0.53 / 0.028, 13 M, 4 G
+// 1M unknowns: AMD 2.5 / 17 / 0.5, 236 M, 345 G;      METIS 11 / 11 / 0.4, 173 M, 153 G
 // METIS pays where a second factor is likely or memory counts: from somewhere between these two sizes on. Where the
-// unknowns lie in a plane, straight cuts (see dissection_order) need neither: 0.10 / 0.29 / 0.030, 13 M, 4 G and
-// 1.5 / 10 / 0.4, 182 M, 151 G.
+// unknowns lie in a plane, straight cuts (see dissection_order) need neither: 0.10 / 0.29 / 0.030, 13 M, 4 G and 1.5 /
+// 10 / 0.4, 182 M, 151 G.
 constexpr Eigen::Index kNestedDissection = 300000;
 
-// OpenBLAS splits its sums by the number of its threads, so that factors made with one and two threads differ in their
-// last bits (measured at 10k and 100k unknowns). The fronts of a surface mesh are small: a second thread gained nothing
-// in the factorization and doubled the time of a solve. One thread, then, from the first use on: the number is the
-// whole process's, and setting it back while another thread solves would pull the pool from under that solve.
+// Limits OpenBLAS to one thread: it splits its sums by the number of its threads, so that factors made with one and two
+// threads differ in their last bits (measured at 10k and 100k unknowns). The fronts of a surface mesh are small: a
+// second thread gained nothing in the factorization and doubled the time of a solve. The limit is set once and never
+// reset: it belongs to the whole process, and resetting it while another thread solves would change that solve's
+// threads.
 void keep_blas_to_one_thread() {
   static std::once_flag flag;
   std::call_once(flag, [] { openblas_set_num_threads(1); });
 }
 
-// CHOLMOD's own loops ask for four threads whatever the machine has. On two cores they take as long as one thread, and
-// each team of another size makes OpenMP end and start threads: some milliseconds in each factorization of a small
-// system. The setting is the calling thread's; before GCC 12 it was the process's, so that a thread of a team, whose
-// loops are serial anyway, leaves it alone.
+// Makes CHOLMOD's own loops serial for a scope: they request four threads on any machine. On two cores they take as
+// long as one thread, and each team of another size makes OpenMP end and start threads: some milliseconds in each
+// factorization of a small system. The setting belongs to the calling thread; before GCC 12 it belonged to the process,
+// so that a thread of a team, whose loops are serial anyway, does not change it.
 class SerialLoops {
  public:
   SerialLoops() : active_levels_(omp_get_max_active_levels()) { set(0); }
@@ -73,7 +76,7 @@ void require_memory(bool enough, const char* stage, Eigen::Index n) {
                       " unknowns; optimize a smaller region.");
 }
 
-Vector with_diagonal_shifted(const SparseMatrix& matrix, double shift) {
+Vector shift_diagonal(const SparseMatrix& matrix, double shift) {
   Vector values = Eigen::Map<const Vector>(matrix.valuePtr(), matrix.nonZeros());
   const double mean = matrix.diagonal().mean();
   for (int column = 0; column < matrix.cols(); ++column) {
@@ -87,17 +90,18 @@ Vector with_diagonal_shifted(const SparseMatrix& matrix, double shift) {
 
 const char* to_string(LinearSolverKind kind) { return kind == LinearSolverKind::kCholmod ? "cholmod" : "umfpack"; }
 
-// What the two libraries have in common. `factorize` returns false where a pivot is not positive.
+// The interface of the two libraries. `factorize` returns false where a pivot is not positive.
 class LinearSolver::Backend {
  public:
   virtual ~Backend() = default;
   virtual void analyze(const SparseMatrix& matrix, const std::vector<int>& order) = 0;
-  virtual void allocate() {}  // what a factor needs, on all cores
+  virtual void allocate() {}  // allocates the memory of a factor, on all cores
   virtual bool factorize(const SparseMatrix& matrix, const double* values) = 0;
   virtual void solve(Vector& x) = 0;
 };
 
-// 32-bit indices: they carry 2^31 entries of L, about eight million unknowns, at less memory than 64-bit ones.
+// CHOLMOD's supernodal L L^T, with 32-bit indices: they suffice for 2^31 entries of L, about eight million unknowns,
+// and take less memory than 64-bit ones.
 class LinearSolver::Cholmod final : public Backend {
  public:
   Cholmod() {
@@ -117,7 +121,7 @@ class LinearSolver::Cholmod final : public Backend {
 
   void analyze(const SparseMatrix& matrix, const std::vector<int>& order) override {
     cholmod_free_factor(&factor_, &common_);
-    cholmod_sparse view = view_of(matrix, matrix.valuePtr());
+    cholmod_sparse view = wrap_matrix(matrix, matrix.valuePtr());
     common_.method[0].ordering = !order.empty()                      ? CHOLMOD_GIVEN
                                  : matrix.rows() < kNestedDissection ? CHOLMOD_AMD
                                                                      : CHOLMOD_METIS;
@@ -125,7 +129,7 @@ class LinearSolver::Cholmod final : public Backend {
     require_memory(factor_ != nullptr, "ordering", matrix.rows());
   }
 
-  // CHOLMOD would allocate the factor itself, and clear it on one thread.
+  // Allocates the factor here, since CHOLMOD would clear it on one thread.
   void allocate() override {
     if (factor_->xtype != CHOLMOD_PATTERN) return;
     const int done = cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_);
@@ -134,7 +138,7 @@ class LinearSolver::Cholmod final : public Backend {
   }
 
   bool factorize(const SparseMatrix& matrix, const double* values) override {
-    cholmod_sparse view = view_of(matrix, values);
+    cholmod_sparse view = wrap_matrix(matrix, values);
     cholmod_factorize(&view, factor_, &common_);
     require_memory(common_.status >= CHOLMOD_OK, "factorizing", matrix.rows());
     return common_.status == CHOLMOD_OK && smallest_pivot_share(matrix, values) > kSmallestPivotShare;
@@ -153,7 +157,7 @@ class LinearSolver::Cholmod final : public Backend {
   }
 
  private:
-  // The smallest L_jj^2 / A_jj. Columns of a supernode lie one below the other, each as high as the first.
+  // Returns the smallest L_jj^2 / A_jj. Columns of a supernode lie one below the other, each as high as the first.
   double smallest_pivot_share(const SparseMatrix& matrix, const double* values) const {
     const auto* first_column = static_cast<const int*>(factor_->super);
     const auto* rows = static_cast<const int*>(factor_->pi);
@@ -172,8 +176,8 @@ class LinearSolver::Cholmod final : public Backend {
     return smallest;
   }
 
-  // CHOLMOD reads Eigen's arrays where they are.
-  static cholmod_sparse view_of(const SparseMatrix& matrix, const double* values) {
+  // Returns CHOLMOD's view of Eigen's arrays, without a copy.
+  static cholmod_sparse wrap_matrix(const SparseMatrix& matrix, const double* values) {
     cholmod_sparse view{};
     view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
     view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
@@ -195,7 +199,8 @@ class LinearSolver::Cholmod final : public Backend {
   cholmod_dense* e_ = nullptr;
 };
 
-// 64-bit indices: the 32-bit interface overflows its work space at one million unknowns.
+// UMFPACK's L U with its symmetric strategy, with 64-bit indices: the 32-bit interface overflows its work space at one
+// million unknowns.
 class LinearSolver::Umfpack final : public Backend {
  public:
   Umfpack() {
@@ -252,7 +257,7 @@ class LinearSolver::Umfpack final : public Backend {
   }
 
  private:
-  // UMFPACK wants both triangles; source_ says which value of the lower one each entry repeats.
+  // Builds the pattern of both triangles, which UMFPACK needs; source_ maps each entry to a value of the lower one.
   void mirror_pattern(const SparseMatrix& lower) {
     const int n = static_cast<int>(lower.cols());
     starts_.assign(static_cast<std::size_t>(n) + 1, 0);
@@ -334,7 +339,7 @@ void LinearSolver::factorize(const SparseMatrix& matrix) {
   const SerialLoops serial_loops;
   Vector shifted;
   for (const double shift : kDiagonalShifts) {
-    if (shift > 0.0) shifted = with_diagonal_shifted(matrix, shift);
+    if (shift > 0.0) shifted = shift_diagonal(matrix, shift);
     diagonal_shift_ = shift;
     has_factor_ = backend_->factorize(matrix, shift > 0.0 ? shifted.data() : matrix.valuePtr());
     if (has_factor_) return;

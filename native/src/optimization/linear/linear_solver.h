@@ -9,8 +9,8 @@
 
 namespace reflines {
 
-// A matrix is handed over as its lower triangle: n x n, compressed, sorted columns, every diagonal entry present.
-// The same input gives the same bits, whatever the number of threads.
+// A factorization with its symbolic analysis. Matrices are lower triangles: n x n, compressed, sorted columns, every
+// diagonal entry present. The same input gives the same bits, whatever the number of threads.
 class LinearSolver {
  public:
   explicit LinearSolver(LinearSolverKind kind);
@@ -20,21 +20,21 @@ class LinearSolver {
 
   LinearSolverKind kind() const;
 
-  // True where `matrix` has the pattern last analysed: its factorization needs no new analysis.
+  // Returns whether `matrix` has the pattern last analysed: its factorization needs no new analysis.
   bool has_pattern_of(const SparseMatrix& matrix) const;
 
-  // Chooses the elimination order for a pattern (the values do not matter), or takes the one handed over (n, first to
-  // last; CHOLMOD only). Drops a factor that is kept.
+  // Chooses the elimination order for a pattern (the values do not matter), or takes the given one (n, first to last;
+  // CHOLMOD only). Deletes the present factor.
   void analyze(const SparseMatrix& matrix, const std::vector<int>& order = {});
 
-  // Numeric factorization; the pattern must be the one analysed. A positive semi-definite matrix that breaks down is
-  // tried again with a small multiple of its diagonal added (see diagonal_shift). SolverFailure where that does not
-  // help.
+  // Factors a matrix whose pattern is the one analysed. A positive semi-definite matrix whose factorization fails is
+  // tried again with a small multiple of its diagonal added (see diagonal_shift). Throws SolverFailure where that does
+  // not help.
   void factorize(const SparseMatrix& matrix);
   bool has_factor() const;
-  double diagonal_shift() const;  // relative: A + shift * diag(A) is what is factored; 0 for a sound matrix
+  double diagonal_shift() const;  // shift of the factored A + shift * diag(A); 0 for a sound matrix
 
-  // x <- A^-1 x with the last factor. Allocates only in the first call after `analyze`.
+  // Solves x <- A^-1 x with the last factor. Allocates only in the first call after `analyze`.
   void solve(Vector& x);
 
  private:

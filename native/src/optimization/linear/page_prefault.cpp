@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kPage = std::size_t{1} << 12;
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-// A hint to the kernel: where it is not followed, pages are small.
+// Asks the kernel for huge pages, a hint: where it is not followed, pages are small.
 void ask_for_huge_pages(void* block, std::size_t bytes) {
   const auto begin = reinterpret_cast<std::uintptr_t>(block);
   const std::uintptr_t first = (begin + kHugePage - 1) / kHugePage * kHugePage;

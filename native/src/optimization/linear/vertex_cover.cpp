@@ -43,9 +43,9 @@ class Matching {
     partner_[l] = r;
   }
 
-  // By turns any edge and one of the matching, until someone is free. A tree that finds nobody stays: later trees never
-  // gain by entering it, and in the end what is in such trees on the right, and what is in none on the left, is a
-  // cover.
+  // Grows an alternating tree from a left vertex: alternately any edge and one of the matching, until a free right
+  // vertex is found. A tree that finds none is kept: later trees never gain by entering it, and in the end the right
+  // vertices in such trees and the left ones in none are a cover.
   void grow_tree(int root) {
     lefts_.assign(1, root);
     rights_.clear();
@@ -75,12 +75,12 @@ class Matching {
   }
 
   const std::vector<BipartiteEdge>& edges_;
-  std::vector<int> first_edge_;  // of each left vertex, and the number of edges
-  std::vector<int> partner_;     // of each left vertex
-  std::vector<int> mate_;        // of each right vertex
+  std::vector<int> first_edge_;  // #left + 1: first edge of each left vertex, and the number of edges
+  std::vector<int> partner_;     // #left: matched right vertex
+  std::vector<int> mate_;        // #right: matched left vertex
   VertexCover in_tree_;
-  std::vector<int> from_;            // of each right vertex in the tree that grows
-  std::vector<int> lefts_, rights_;  // of the tree that grows
+  std::vector<int> from_;            // #right: predecessor of each right vertex of the growing tree
+  std::vector<int> lefts_, rights_;  // vertices of the growing tree
   std::size_t looked_at_ = 0;
 };
 

@@ -7,18 +7,20 @@
 
 namespace reflines {
 
-// A left and a right vertex, each numbered from 0.
+// An edge between a left and a right vertex, each numbered from 0.
 using BipartiteEdge = std::pair<int, int>;
 
 struct VertexCover {
-  std::vector<char> left, right;  // for each vertex: whether it is in the cover
+  std::vector<char> left, right;  // for each vertex: 1 where it is in the cover
 };
 
-// Edges looked at, as a multiple of all: the cuts through surface meshes look at 2 to 10 times theirs.
+// The limit of edge visits, as a multiple of the number of edges: the cuts through surface meshes visit 2 to 10 times
+// theirs.
 constexpr std::size_t kCoverPatience = 200;
 
-// As many vertices as a maximum matching has edges (Koenig 1931). `edges` are sorted, and every left vertex has one. On
-// a graph that takes longer than `patience` the matching is not completed: what returns is a cover, not of the fewest.
+// Finds a cover with as many vertices as a maximum matching has edges (Koenig 1931). `edges` are sorted, and every left
+// vertex has one. On a graph that takes longer than `patience` the matching is not completed: the result is a cover,
+// but not a minimum one.
 VertexCover minimum_vertex_cover(const std::vector<BipartiteEdge>& edges, int left_count, int right_count,
                                  std::size_t patience = kCoverPatience);
 

@@ -4,8 +4,9 @@
 
 namespace reflines {
 
-// Samples alias ripples finer than their distance into a smooth change. The linear correction makes the coarse gradient
-// equal the projected fine one at c = 0, so that coarse steps descend the fine energy whatever its detail.
+// Corrects the sampled gradient: samples alias detail finer than their distance into a smooth change. The linear
+// correction makes the coarse gradient equal the projected fine one at c = 0, so that coarse steps descend the fine
+// energy whatever its detail.
 CoarsePiece::CoarsePiece(const HeightField& field, const Energy& energy, SplineBasis modes, const Vector& z,
                          const Vector& gradient)
     : modes_(std::move(modes)), energy_(field, energy, modes_, z), correction_(modes_.pull_back(gradient)) {

@@ -10,7 +10,7 @@ namespace reflines {
 
 class CoarsePiece final : public CoarseProblem {
  public:
-  // Around the heights z (#V), where the energy's gradient over the free vertices is `gradient`.
+  // Samples the energy around the heights z (#V), where its gradient over the free vertices is `gradient`.
   CoarsePiece(const HeightField& field, const Energy& energy, SplineBasis modes, const Vector& z,
               const Vector& gradient);
 

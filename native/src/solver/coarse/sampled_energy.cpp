@@ -6,15 +6,13 @@
 namespace reflines {
 namespace {
 
-using Coefficients = Eigen::Matrix<double, 16, 1>;
-
-Coefficients coefficients(const SplineCell& cell, const Vector& c) {
-  Coefficients result;
+Eigen::Matrix<double, 16, 1> gather_coefficients(const SplineCell& cell, const Vector& c) {
+  Eigen::Matrix<double, 16, 1> result;
   for (int k = 0; k < 16; ++k) result(k) = cell.mode[k] < 0 ? 0.0 : c(cell.mode[k]);
   return result;
 }
 
-// visit(k, row, column) for the k-th pair of a cell's modes in its lower triangle. A cell's modes are numbered upwards.
+// Calls visit(k, row, column) for the k-th pair of a cell's modes in its lower triangle. A cell's modes ascend.
 void for_each_pair(const SplineCell& cell, const std::function<void(int, int, int)>& visit) {
   for (int j = 0, k = 0; j < 16; ++j) {
     for (int i = j; i < 16; ++i, ++k) {
@@ -29,22 +27,26 @@ SampledEnergy::SampledEnergy(const HeightField& field, const Energy& energy, con
     : energy_(energy), modes_(modes), start_(modes.samples.size()) {
   for (size_t s = 0; s < start_.size(); ++s) {
     const int t = modes.samples[s].triangle;
-    start_[s].u << energy.mean_rise(field.F.row(t), z), apply_stencil(energy.stencils(), t, z);
+    start_[s].u << energy.measure_mean_rise(field.F.row(t), z), apply_stencil(energy.stencils(), t, z);
     start_[s].pull = energy.pull_density() * field.area(t);
   }
   make_pattern();
+}
+
+SampledEnergy::MovedSample SampledEnergy::move_sample(int s, const Coefficients& own) const {
+  const SplineSample& sample = modes_.samples[s];
+  const SplineDerivatives D = spline_derivatives(sample.place, modes_.grid.step);
+  return {sample, D, start_[s].u + D * own};
 }
 
 double SampledEnergy::evaluate(const Vector& c, Vector* gradient) const {
   double sum = 0;
   if (gradient) gradient->setZero();
   for (const SplineCell& cell : modes_.cells) {
-    const Coefficients own = coefficients(cell, c);
+    const Coefficients own = gather_coefficients(cell, c);
     Coefficients slope = Coefficients::Zero();
     for (int s = cell.begin; s < cell.end; ++s) {
-      const SplineSample& sample = modes_.samples[s];
-      const SplineDerivatives D = spline_derivatives(sample.place, modes_.grid.step);
-      const Vector6 u = start_[s].u + D * own;
+      const auto& [sample, D, u] = move_sample(s, own);
       Vector5 y = Vector5::Zero();
       sum += sample.area_ratio *
              (energy_.triangle(sample.triangle, u.tail<5>(), gradient ? &y : nullptr) + start_[s].pull * u(0) * u(0));
@@ -59,12 +61,10 @@ double SampledEnergy::evaluate(const Vector& c, Vector* gradient) const {
 }
 
 SampledEnergy::Block SampledEnergy::block(const SplineCell& cell, const Vector& c, HessianModel model) const {
-  const Coefficients own = coefficients(cell, c);
+  const Coefficients own = gather_coefficients(cell, c);
   Block result = Block::Zero();
   for (int s = cell.begin; s < cell.end; ++s) {
-    const SplineSample& sample = modes_.samples[s];
-    const SplineDerivatives D = spline_derivatives(sample.place, modes_.grid.step);
-    const Vector6 u = start_[s].u + D * own;
+    const auto& [sample, D, u] = move_sample(s, own);
     const Matrix5 M = sample.area_ratio * energy_.triangle_hessian(sample.triangle, u.tail<5>(), model);
     const Eigen::Matrix<double, 5, 16> MD = M * D.bottomRows<5>();
     result.noalias() += D.bottomRows<5>().transpose() * MD;

@@ -1,5 +1,5 @@
 // The energy of a coarse height change, E(z + P c), by reduced quadrature: each sampled triangle stands for its
-// neighbours. It costs a fraction of the energy itself.
+// neighbours, at a fraction of the energy's cost.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace reflines {
 
 class SampledEnergy {
  public:
-  // Of `energy` with its present terms at the heights z (#V). All three outlive it.
+  // Samples `energy` with its present terms at the heights z (#V). `field`, `energy` and `modes` outlive it.
   SampledEnergy(const HeightField& field, const Energy& energy, const SplineBasis& modes, const Vector& z);
 
   double evaluate(const Vector& c, Vector* gradient) const;          // c: #modes; gradient of that length
@@ -22,12 +22,21 @@ class SampledEnergy {
  private:
   using Block = Eigen::Matrix<double, 16, 16>;
 
-  // A sample's triangle at the start: how far it is from where the pull goes to, and f_x, f_y, f_xx, f_xy, f_yy.
+  // The state of a sample's triangle at the start: its height above the rest of the pull, and f_x, f_y, f_xx, f_xy,
+  // f_yy.
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   struct Start {
     Vector6 u;
     double pull = 0.0;  // weight of the square of the first
   };
+  using Coefficients = Eigen::Matrix<double, 16, 1>;  // of a cell's modes; 0 for those left out
+  struct MovedSample {
+    const SplineSample& sample;
+    SplineDerivatives D;
+    Vector6 u;  // the state after the move of its cell
+  };
+
+  MovedSample move_sample(int s, const Coefficients& own) const;
   void make_pattern();
   Block block(const SplineCell& cell, const Vector& c, HessianModel model) const;
 

@@ -6,16 +6,16 @@
 namespace reflines {
 namespace {
 
-// Sum of a spline's values over the vertices, of that of one far from all borders, below which it hardly moves any
-// (a free corner of the region inside its rim): no sample would say what it does.
+// The least sum of a spline's values over the vertices, relative to a spline far from all borders: a spline with less
+// (at a free corner of the region inside its rim) hardly moves a vertex, and no sample determines it.
 constexpr double kSmallestSupport = 0.03;
 
-// Samples along a cell's side. Nine a cell are eighteen equations for each spline.
+// The number of samples along a cell's side. Nine a cell are eighteen equations for each spline.
 constexpr int kSamplesAlong = 3;
 
 Vector2 in_cells(const KnotGrid& grid, const Vector2& xy) { return (xy - grid.origin) / grid.step; }
 
-KnotGrid grid_over(const HeightField& field, double spacing) {
+KnotGrid build_grid(const HeightField& field, double spacing) {
   KnotGrid grid;
   grid.step = spacing * std::sqrt(field.area.sum() / std::max(1, field.vertex_count()));
   grid.origin = field.xy.colwise().minCoeff();
@@ -25,8 +25,8 @@ KnotGrid grid_over(const HeightField& field, double spacing) {
   return grid;
 }
 
-// The four uniform cubic B-splines that are not zero at t in [0, 1) of a cell; a row each for the value and the first
-// and second derivative.
+// The four uniform cubic B-splines that are not zero at t in [0, 1) of a cell; rows are the value and the first and
+// second derivative.
 using Splines = Eigen::Matrix<double, 3, 4>;
 Splines cubic_splines(double t) {
   const double s = 1 - t;
@@ -74,7 +74,7 @@ void number_splines(const HeightField& field, double full_support, SplineBasis& 
   }
 }
 
-PlanePositions free_places(const HeightField& field) {
+PlanePositions collect_free_places(const HeightField& field) {
   PlanePositions places(std::count(field.role.begin(), field.role.end(), VertexRole::kFree), 2);
   int n = 0;
   for (int v = 0; v < field.vertex_count(); ++v) {
@@ -83,7 +83,8 @@ PlanePositions free_places(const HeightField& field) {
   return places;
 }
 
-// Of each part of a cell the triangle nearest to its middle, standing for all; cell by cell, with room for every part.
+// Chooses for each part of a cell the triangle nearest to its middle, standing for all; cell by cell, with space for
+// every part.
 std::vector<SplineSample> choose_samples(const HeightField& field, const KnotGrid& grid) {
   constexpr int kParts = kSamplesAlong * kSamplesAlong;
   std::vector<SplineSample> samples(static_cast<size_t>(grid.columns - 3) * (grid.rows - 3) * kParts);
@@ -128,9 +129,9 @@ void add_cells(const HeightField& field, SplineBasis& modes) {
 
 SplineBasis build_spline_basis(const HeightField& field, double spacing) {
   SplineBasis modes;
-  modes.grid = grid_over(field, spacing);
+  modes.grid = build_grid(field, spacing);
   number_splines(field, spacing * spacing, modes);
-  modes.places = free_places(field);
+  modes.places = collect_free_places(field);
   if (modes.count > 0) add_cells(field, modes);
   return modes;
 }
