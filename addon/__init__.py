@@ -31,7 +31,7 @@ NAMES = (
     "bridge.warp_lattice", "bridge.view_camera", "bridge.facing",
     "solver.formulation", "solver.live_optimizer", "solver.remarks", "solver.solve",
     "solver.automatic_smooth",
-    "ui.automatic_values", "ui.tool_properties", "ui.stripe_properties", "ui.properties",
+    "ui.rows", "ui.automatic_values", "ui.tool_properties", "ui.stripe_properties", "ui.properties",
     "state.last_panels", "state.optimizer_cache", "state.solve_history", "state.persistence",
     "interactive.background_thread", "interactive.drag_handles", "interactive.solve_job",
     "overlay.falloff_circle",

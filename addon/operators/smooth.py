@@ -13,6 +13,7 @@ from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
 from ..targets import smooth
 from ..targets.smooth import Smooth
+from ..ui import automatic_values
 from ..ui.tool_properties import SmoothSettings
 from .dragged_tool import DraggedTool
 
@@ -35,7 +36,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         layout.use_property_split, layout.use_property_decorate = True, False
         for name in ("border", "solve_for", "result"):
             layout.prop(self, name)
-        self.draw_smooth(layout)
+        self.draw_smooth(layout, automatic_values.draw_plain_value)
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines

@@ -83,9 +83,7 @@ class SolveTool:
     def copy_settings(self, scene: bpy.types.Scene) -> None:
         """Copies the scene's settings into the properties that were not given."""
         own = self.find_scene_settings(scene)
-        for name, about in self.properties.bl_rna.properties.items():
-            if about.is_hidden:
-                continue
+        for name, _ in self.properties.bl_rna.properties.items():
             shared = name in SHARED and name not in own.bl_rna.properties
             holder = scene.reflection_lines if shared else own
             taken = holder.bl_rna.properties.get(name)

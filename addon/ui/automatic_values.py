@@ -2,15 +2,18 @@
 import bpy
 from bpy.props import BoolProperty, FloatProperty
 
+from ..bridge import units
+
 UNKNOWN_SHARE = 0.01  # of the object's size: what the switch turned off begins with where no run told a value
 HIDDEN = {'options': {'HIDDEN', 'SKIP_SAVE'}}  # they are other faces of a setting, which keeps the value
 
 
 def find_automatic_value(name: str) -> float:
-    """Returns what the 0 of a setting stood for in the active object's last run, world units; 0 where it is not known.
+    """Returns what the 0 of a setting stood for in the active object's last run, world units, to two digits; 0 where it
+    is not known.
     """
     ob = bpy.context.view_layer.objects.active
-    return getattr(ob.reflection_lines.report, f"automatic_{name}") if ob is not None else 0.0
+    return float(f"{getattr(ob.reflection_lines.report, f'automatic_{name}'):.2g}") if ob is not None else 0.0
 
 
 def choose_own_value(name: str) -> float:
@@ -35,7 +38,7 @@ def switch_property(name: str, label: str) -> object:
 
 
 def draw_value(layout: bpy.types.UILayout, settings: object, name: str) -> None:
-    """Draws a setting and its switch; `settings` has the properties NAME, NAME_shown and NAME_automatic."""
+    """Draws a setting of the scene and its switch: the properties NAME, NAME_shown and NAME_automatic."""
     row = layout.row(align=True)
     if getattr(settings, name):
         row.prop(settings, name)
@@ -44,4 +47,14 @@ def draw_value(layout: bpy.types.UILayout, settings: object, name: str) -> None:
     else:  # no run has told the value
         row.prop(settings, f"{name}_automatic", text="Automatic", toggle=True)
         return
-    row.prop(settings, f"{name}_automatic", text="", icon='AUTO')
+    row.prop(settings, f"{name}_automatic", text="", icon='EVENT_A')
+
+
+def draw_plain_value(layout: bpy.types.UILayout, settings: object, name: str) -> None:
+    """Draws a setting of an operator, and below it what its 0 stood for. An operator has no other faces of a setting:
+    its command, which Blender shows and the artist copies, would set the value twice.
+    """
+    layout.prop(settings, name)
+    value = find_automatic_value(name)
+    if value and not getattr(settings, name):
+        layout.label(text=f"0: automatic, {units.format_length(value, bpy.context.scene, precision=2)}")

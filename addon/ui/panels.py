@@ -1,11 +1,11 @@
-"""The panels of the sidebar tab "Reflection", in the order of the work: view and light, region and border, tool,
-result.
+"""The panels of the sidebar tab "Reflection", in the order of the work: stripes (stripes_panel.py), view and light,
+region, tools, and last the result, which pushes no other panel away.
 """
 import textwrap
 
 import bpy
 
-from . import manual_links
+from . import automatic_values, manual_links, rows
 
 
 def draw_paragraph(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
@@ -21,6 +21,7 @@ class ReflinesPanel:
     bl_space_type = 'VIEW_3D'
     bl_region_type = 'UI'
     bl_category = "Reflection"
+    bl_order = 1  # the stripes are 0: this decides before the order of registration
     manual = ""  # section of the manual that describes the panel
 
     def draw_header_preset(self, _context: bpy.types.Context) -> None:
@@ -80,6 +81,13 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
 class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
     bl_label = "Region"
     manual = "region"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        ob = context.view_layer.objects.active
+        if ob is not None and ob.type == 'MESH' and ob.mode == 'EDIT':
+            self.layout.label(text=f"{ob.data.total_face_sel} faces")
+        super().draw_header_preset(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -96,7 +104,9 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
     def draw_creases(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
         layout.prop(settings, "creases")
         if settings.creases != 'NONE':
-            layout.row(heading="Marks").prop(settings, "crease_marks", expand=True)
+            marks = layout.row(align=True)
+            marks.use_property_split = False
+            marks.prop(settings, "crease_marks", expand=True)
 
     def region_text(self, ob: bpy.types.Object | None) -> str:
         if ob is not None and ob.type == 'LATTICE' and ob.reflection_lines.panel is not None:
@@ -129,7 +139,8 @@ class ToolPanel(ReflinesPanel):
         layout.prop(settings, "centre")
         if settings.centre == 'EVERYWHERE':
             return
-        layout.prop(settings, "radius", text="Radius" if settings.radius else "Radius (automatic)")
+        layout.prop(settings, "radius")
+        rows.draw_zero(layout, settings, "radius", "0: automatic")
         layout.prop(settings, "shape")
         if settings.shape == 'CURVE' and curve is not None and len(curve.nodes):
             layout.template_curve_mapping(curve.nodes[0], "mapping")
@@ -141,7 +152,7 @@ class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
     manual = "reflines.smooth"
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
-        settings.draw_smooth(layout)
+        settings.draw_smooth(layout, automatic_values.draw_value)
         self.draw_buttons(layout, settings, "reflines.smooth", 'MOD_SMOOTH')
 
 
@@ -188,7 +199,8 @@ class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
         own = settings.warp
         layout.prop(own, "lattice")
         layout.operator("reflines.add_warp_lattice", icon='ADD')
-        for name in ("amount", "fit", "cells"):
+        rows.draw_choice(layout, own, "fit")
+        for name in ("amount", "cells"):
             layout.prop(own, name)
         if settings.live.panel is not None:
             self.draw_live(layout.box(), context, settings.live)
@@ -216,9 +228,11 @@ class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         own = settings.pattern
         layout.template_ID(own, "image", new="image.new", open="image.open")
-        for name in ("fit", "strength", "blur", "keep_lines"):
+        rows.draw_choice(layout, own, "fit")
+        for name in ("strength", "blur", "keep_lines"):
             layout.prop(own, name)
-        layout.prop(own, "width", text="Width" if own.width else "Width (of the region)")
+        layout.prop(own, "width")
+        rows.draw_zero(layout, own, "width", "0: as the region")
         layout.prop(own, "angle")
         layout.prop(own, "offset")
         self.draw_buttons(layout, settings, "reflines.pattern", 'IMAGE_DATA')

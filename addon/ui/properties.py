@@ -8,6 +8,7 @@ from mathutils import Vector
 from ..bridge import light_angles, modifiers, scene_objects, units
 from ..model.gain import Gain
 from ..model.solution import Solution
+from .automatic_values import shown_property, switch_property
 from .stripe_properties import ReflinesSetups, ReflinesStripes
 from .tool_properties import ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings
 
@@ -207,6 +208,10 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
                                     set=lambda self, value: self.point_light(value),
                                     description="Drag the ball to turn the light, in any mode: as the view camera sees "
                                     "it, right, up, and towards the viewer")
+    length_shown: shown_property("length", "Length")
+    length_automatic: switch_property("length", "Length")
+    limit_shown: shown_property("limit", "Limit")
+    limit_automatic: switch_property("limit", "Limit")
     solve_for: solve_for_property()
     result: result_property()
     direction: PointerProperty(type=ReflinesDirection)

@@ -46,7 +46,7 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     image: PointerProperty(name="Image", type=bpy.types.Image,
                            description="Equirectangular, like the images of World environments")
     image_rotation: FloatProperty(name="Rotation", subtype='ANGLE', description="Turns the image around the world's Z")
-    map_range: FloatProperty(name="Full Colour at", min=0.0, precision=5,
+    map_range: FloatProperty(name="Full Scale", min=0.0, precision=5,
                              description="Value with the last colour of the map; 0 takes the largest")
     cage_on_top: BoolProperty(name="Cage on Top", default=True,
                               description="In Edit Mode, draw edges and what is selected over the stripes; edges of a "

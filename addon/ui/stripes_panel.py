@@ -1,7 +1,7 @@
 """The panel of the stripes' look in the sidebar tab."""
 import bpy
 
-from . import stripe_presets
+from . import rows, stripe_presets
 from .panels import ReflinesPanel, draw_paragraph
 
 BANDS = {'REFLECTION', 'HIGHLIGHT', 'ISOPHOTE'}
@@ -16,6 +16,7 @@ class REFLINES_UL_stripes(bpy.types.UIList):
 
 class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
     bl_label = "Stripes"
+    bl_order = 0
     manual = "stripes"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
@@ -33,12 +34,8 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         if why:
             draw_paragraph(layout, context, why, 'INFO')
         layout.active = stripes.show
-        if settings.setups.entries:
-            self.draw_setups(layout, settings.setups)
-        else:
-            layout.operator("reflines.add_stripes", text="Keep as Set-up", icon='ADD')
         layout.use_property_split, layout.use_property_decorate = True, False
-        layout.prop(stripes, "mode")
+        rows.draw_choice(layout, stripes, "mode")
         layout.prop(stripes, "scope")
         if stripes.scope == 'COLLECTION':
             layout.prop(stripes, "collection")
@@ -46,20 +43,9 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
             self.draw_map(layout, context.view_layer.objects.active)
         else:
             self.draw_eye(layout, settings)
-            layout.prop(stripes, "before")
+            rows.draw_switch(layout, stripes, "before")
         if stripes.mode == 'IMAGE':
             self.draw_image(layout, stripes)
-        for name in self.look(stripes.mode):
-            layout.prop(stripes, name)
-        if stripes.mode == 'REFLECTION':
-            layout.operator("reflines.install_matcap", icon='MATSPHERE')
-
-    def draw_setups(self, layout: bpy.types.UILayout, setups: bpy.types.PropertyGroup) -> None:
-        row = layout.row()
-        row.template_list("REFLINES_UL_stripes", "", setups, "entries", setups, "index", rows=2)
-        buttons = row.column(align=True)
-        buttons.operator("reflines.add_stripes", text="", icon='ADD')
-        buttons.operator("reflines.remove_stripes", text="", icon='REMOVE')
 
     def draw_eye(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
         layout.prop(settings.stripes, "eye")
@@ -79,10 +65,39 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         if stripes.image is None:
             draw_paragraph(column, bpy.context, "Open an equirectangular image, as World environments use", 'INFO')
 
-    def look(self, mode: str) -> tuple[str, ...]:
+
+class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Look"
+    bl_parent_id = "VIEW3D_PT_reflines_stripes"
+    bl_options = {'DEFAULT_CLOSED'}
+    manual = "stripes"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings, layout = context.scene.reflection_lines, self.layout
+        layout.active = settings.stripes.show
+        self.draw_setups(layout, settings.setups)
+        layout.use_property_split, layout.use_property_decorate = True, False
+        for name in self.list_settings(settings.stripes.mode):
+            layout.prop(settings.stripes, name)
+        rows.draw_switch(layout, settings.stripes, "cage_on_top")
+        if settings.stripes.mode == 'REFLECTION':
+            layout.operator("reflines.install_matcap", icon='MATSPHERE')
+
+    def draw_setups(self, layout: bpy.types.UILayout, setups: bpy.types.PropertyGroup) -> None:
+        if not setups.entries:
+            layout.operator("reflines.add_stripes", text="Keep as Set-up", icon='ADD')
+            return
+        row = layout.row()
+        row.template_list("REFLINES_UL_stripes", "", setups, "entries", setups, "index", rows=2)
+        buttons = row.column(align=True)
+        buttons.operator("reflines.add_stripes", text="", icon='ADD')
+        buttons.operator("reflines.remove_stripes", text="", icon='REMOVE')
+
+    def list_settings(self, mode: str) -> tuple[str, ...]:
         bands = ("count", "width", "softness", "color", "gap_color") if mode in BANDS else ()
         own = {'IMAGE': ("image_rotation",), 'RESIDUAL': ("map_range",), 'DEVIATION': ("map_range",)}.get(mode, ())
-        return (*bands, *own, "opacity", "cage_on_top")
+        return (*bands, *own, "opacity")
 
 
-register, unregister = bpy.utils.register_classes_factory([REFLINES_UL_stripes, VIEW3D_PT_reflines_stripes])
+register, unregister = bpy.utils.register_classes_factory([
+    REFLINES_UL_stripes, VIEW3D_PT_reflines_stripes, VIEW3D_PT_reflines_look])

@@ -2,13 +2,14 @@
 
 Operators do not remember values from run to run (SKIP_SAVE): what is not given is taken from the scene.
 """
+from collections.abc import Callable
 from math import radians
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
 from ..bridge import falloff_curve
-from .automatic_values import draw_value, shown_property, switch_property
+from .rows import draw_switch
 
 CENTRES = (
     ('EVERYWHERE', "Everywhere", "The tool acts on the whole region alike"),
@@ -34,8 +35,8 @@ UNITS = (
 )
 AXES = (
     ('NONE', "Constant", "The same density everywhere"),
-    ('ALONG', "Along the Lines", "From one end of the lines to the other"),
-    ('ACROSS', "Across the Lines", "From the first line to the last"),
+    ('ALONG', "Along Lines", "From one end of the lines to the other"),
+    ('ACROSS', "Across Lines", "From the first line to the last"),
 )
 SPLINES = (
     ('KEY_LINEAR', "Linear", "Straight between control points"),
@@ -91,8 +92,6 @@ class SmoothSettings:
     length: FloatProperty(name="Length", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
                           description="Detail of the lines finer than this is removed. 0, automatic: noise, ripples, "
                           "round dents and differences of the halves go, and the design stays")
-    length_shown: shown_property("length", "Length")
-    length_automatic: switch_property("length", "Length")
     strength: FloatProperty(name="Strength", default=1.0, min=0.0, max=1.0, subtype='FACTOR', **SAVED,
                             description="How much of that detail is removed: 0 leaves the panel as it is")
     directional: BoolProperty(name="Along the Lines", **SAVED,
@@ -105,18 +104,16 @@ class SmoothSettings:
     limit: FloatProperty(name="Limit", unit='LENGTH', min=0.0, soft_max=1.0, precision=5, **SAVED,
                          description="With the automatic length, no vertex moves further along the view than this: "
                          "deeper flaws are left in part. 0, automatic: a twentieth of the length")
-    limit_shown: shown_property("limit", "Limit")
-    limit_automatic: switch_property("limit", "Limit")
 
-    def draw_smooth(self, layout: bpy.types.UILayout) -> None:
-        """Draws the settings but the border, for the sidebar and the redo panel."""
+    def draw_smooth(self, layout: bpy.types.UILayout, draw_value: Callable) -> None:
+        """Draws the settings but the border, for the sidebar and the redo panel, which draw automatic values apart."""
         draw_value(layout, self, "length")
         layout.prop(self, "strength")
-        layout.prop(self, "directional")
+        draw_switch(layout, self, "directional")
         automatic = layout.column()
         automatic.active = not self.length and not self.directional
         automatic.prop(self, "lights")
-        automatic.prop(self, "symmetric")
+        draw_switch(automatic, self, "symmetric")
         draw_value(automatic, self, "limit")
 
 

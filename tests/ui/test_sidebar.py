@@ -1,0 +1,206 @@
+"""The sidebar's tab: the order of its panels, what a result moves, and that no name is cut at the default width."""
+from collections.abc import Callable, Generator
+from types import FunctionType
+
+import blf
+import bpy
+
+import scenes
+import sidebar
+import window
+from dragging import ended, panel
+
+Steps = Generator[float, None, None]
+
+ORDER = ("stripes", "setup", "region", "smooth", "direction", "untwist", "warp", "pattern", "result")
+FOLDED = ("region", "direction", "untwist", "warp", "pattern", "look", "numbers")
+BESIDE_CONTENT = 57  # pixels of the sidebar's width that tabs, scroll bar and margins take in Blender 3.4
+LABEL_SHARE = 0.4    # of a row that Blender gives to the label
+ICON, MARGIN = 20, 6  # pixels
+DIAL = 45            # pixels of the ball that turns the light
+POINTS = 11          # of Blender's widget font
+
+
+class Recorder:
+    """A layout that draws, and notes what was drawn where, to compare texts with the room that they have."""
+
+    def __init__(self, layout: bpy.types.UILayout, kind: str) -> None:
+        vars(self).update(layout=layout, kind=kind, items=[])
+
+    def __getattr__(self, name: str) -> object:
+        made = getattr(self.layout, name)
+        if name in {"row", "column", "box"}:
+            return lambda **options: self.nest(made(**options), name)
+        return self.noting(name, made) if name in {"prop", "label", "operator"} else made
+
+    def __setattr__(self, name: str, value: object) -> None:
+        setattr(self.layout, name, value)
+
+    def nest(self, layout: bpy.types.UILayout, kind: str) -> "Recorder":
+        child = Recorder(layout, "row" if kind == "row" else "column")
+        self.items.append(child)
+        return child
+
+    def noting(self, name: str, made: Callable) -> Callable:
+        def draw(*given: object, **options: object) -> object:
+            self.items.append((name, given, options, self.layout.use_property_split))
+            return made(*given, **options)
+        return draw
+
+    def find_cut(self, width: float) -> list[str]:
+        """Returns the texts that are wider than their room."""
+        icons = [item for item in self.items if self.kind == "row" and is_icon(item)]
+        fixed = sum(DIAL if "icon" not in item[2] else ICON for item in icons)
+        share = (width - fixed) / max(len(self.items) - len(icons), 1) if self.kind == "row" else width
+        cut = []
+        for item in self.items:
+            if isinstance(item, Recorder):
+                cut += item.find_cut(share)
+            elif item not in icons:
+                cut += [f"{text}: {measure(text):.0f} of {room:.0f}" for text, room in list_texts(*item, share)
+                        if measure(text) > room]
+        return cut
+
+
+def is_icon(item: object) -> bool:
+    if isinstance(item, Recorder):
+        return False
+    name, given, options, _ = item
+    if options.get("text") != "":
+        return False
+    kept = find_property(*given) if name == "prop" else None
+    return "icon" in options if kept is None else kept.type == 'BOOLEAN' or kept.subtype == 'DIRECTION'
+
+
+def find_property(data: object, name: str) -> bpy.types.Property:
+    return data.bl_rna.properties[name]
+
+
+def measure(text: str) -> float:
+    return blf.dimensions(0, text)[0]
+
+
+def list_texts(name: str, given: tuple, options: dict, split: bool, width: float) -> list[tuple[str, float]]:
+    """Returns the texts of one thing drawn, and the room of each in pixels."""
+    if name == "operator":
+        family, short = given[0].split(".")
+        title = options.get("text", getattr(getattr(bpy.ops, family), short).get_rna_type().name)
+        return [(title, width - MARGIN - ICON * ("icon" in options))]
+    if name == "label":
+        return [(options.get("text", ""), width - ICON * ("icon" in options))]
+    return list_property_texts(find_property(*given), options, split, width)
+
+
+def list_property_texts(about: bpy.types.Property, options: dict, split: bool, width: float) -> list[tuple[str, float]]:
+    title = options.get("text", about.name)
+    if options.get("expand"):
+        return [(item.name, width / len(about.enum_items) - MARGIN) for item in about.enum_items]
+    if about.type == 'BOOLEAN':
+        return [(title, (1.0 - LABEL_SHARE if split else 1.0) * width - ICON)]
+    labelled = split and title
+    values = [item.name for item in about.enum_items] if about.type == 'ENUM' else []
+    room = ((1.0 - LABEL_SHARE) * width if labelled else width) - ICON
+    return [(title, LABEL_SHARE * width if split else width - MARGIN), *((value, room) for value in values)]
+
+
+class Stand:
+    """A panel of a class, drawn into a recorded layout."""
+
+    def __init__(self, kind: type, layout: bpy.types.UILayout) -> None:
+        self.kind, self.layout = kind, Recorder(layout, "column")
+
+    def __getattr__(self, name: str) -> object:
+        found = getattr(self.kind, name)
+        return found.__get__(self) if isinstance(found, FunctionType) else found
+
+
+class SidebarContext:
+    """Blender's context, with the sidebar in the place of the popover, for panels that wrap sentences to its width."""
+
+    def __init__(self, context: bpy.types.Context, region: bpy.types.Region) -> None:
+        self.context, self.region = context, region
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self.context, name)
+
+
+def panels() -> dict[str, type]:
+    return {name.removeprefix("VIEW3D_PT_reflines_"): getattr(bpy.types, name) for name in dir(bpy.types)
+            if name.startswith("VIEW3D_PT_reflines") and not name.endswith("presets")}
+
+
+def record_panels(driver: window.Window, drawn: dict[str, list[str]]) -> Generator[float, None, None]:
+    """Draws every panel into a popover, whose rows are those of the sidebar, and notes the cut texts of each."""
+    width = driver.region('UI').width - BESIDE_CONTENT
+
+    def draw(popover: bpy.types.UIPopover, context: bpy.types.Context) -> None:
+        for name, kind in panels().items():
+            stand = Stand(kind, popover.layout.column())
+            kind.draw(stand, SidebarContext(context, driver.region('UI')))
+            drawn[name] = stand.layout.find_cut(width)
+
+    with driver.override():
+        bpy.context.window_manager.popover(draw)
+    yield 0.5
+    driver.key('ESC')
+    yield 0.2
+
+
+def choose_largest(settings: bpy.types.PropertyGroup) -> None:
+    """The settings with which the panels show the most."""
+    settings.direction.direction, settings.direction.axis = 'POINTS', 'ALONG'
+    settings.direction.centre = settings.untwist.centre = 'REGION'
+
+
+def test_nothing_is_cut_at_the_default_width(driver: window.Window) -> Steps:
+    blf.size(0, POINTS)
+    panel(driver)
+    choose_largest(bpy.context.scene.reflection_lines)
+    yield from sidebar.open_tab(driver)
+    driver.move(300, 300)
+    yield 0.2
+    with driver.override():
+        scenes.smooth()
+        bpy.ops.ed.undo_push(message="Start")
+    drawn: dict[str, list[str]] = {}
+    yield from record_panels(driver, drawn)
+    bpy.context.scene.reflection_lines.stripes.mode = 'DEVIATION'
+    yield from record_panels(driver, drawn)
+    assert len(drawn) == len(panels())
+    assert not any(drawn.values()), {name: cut for name, cut in drawn.items() if cut}
+    bpy.context.scene.reflection_lines.stripes.mode = 'REFLECTION'
+
+
+def note_name(order: list[str], name: str) -> Callable:
+    """Returns the drawing of a header that only notes its panel. Blender passes as many arguments as it has."""
+    return lambda _self, _context: order.append(name)
+
+
+def test_the_panels_are_in_the_order_of_the_work_and_tools_are_folded(driver: window.Window) -> Steps:
+    order: list[str] = []
+    kinds = panels()
+    kept = {name: kind.draw_header_preset for name, kind in kinds.items()}
+    for name, kind in kinds.items():
+        kind.draw_header_preset = note_name(order, name)
+    driver.redraw()
+    yield 0.5
+    for name, kind in kinds.items():
+        kind.draw_header_preset = kept[name]
+    shown = [name for name in dict.fromkeys(order) if name in ORDER]
+    assert tuple(shown) == ORDER, shown
+    assert all('DEFAULT_CLOSED' in kinds[name].bl_options for name in FOLDED)
+
+
+def test_a_result_does_not_move_the_button(driver: window.Window) -> Steps:
+    panel(driver)
+    yield from sidebar.open_tab(driver)
+    place = yield from sidebar.find_button(driver, "bpy.ops.reflines.smooth()")
+    yield from sidebar.press(driver, *place)
+    yield from ended(driver)
+    sidebar.point(driver, *place)
+    yield 0.2
+    assert (yield from sidebar.read_button(driver)) == "bpy.ops.reflines.smooth()"
+
+
+window.run(test_nothing_is_cut_at_the_default_width,
+           test_the_panels_are_in_the_order_of_the_work_and_tools_are_folded, test_a_result_does_not_move_the_button)
