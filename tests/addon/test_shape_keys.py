@@ -9,14 +9,6 @@ from reflection_lines.bridge import region_faces
 KEY = "Reflection Lines"
 
 
-@pytest.fixture
-def panel() -> bpy.types.Object:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
-    return ob
-
-
 def into_key(**settings: object) -> None:
     assert scenes.smooth(result='SHAPE_KEY', **settings) == {'FINISHED'}
 

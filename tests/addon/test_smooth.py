@@ -10,14 +10,6 @@ import scenes
 CELLS = 16
 
 
-@pytest.fixture
-def panel() -> bpy.types.Object:
-    ob = scenes.panel(cells=CELLS)
-    scenes.look_from_above()
-    scenes.edit_inner(ob, CELLS)
-    return ob
-
-
 def region_arrays(ob: bpy.types.Object, cells: int, margin: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(indices, V, F) of the inner faces, with Blender's triangulation, made without the add-on's code."""
     ob.update_from_editmode()

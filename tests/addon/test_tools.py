@@ -12,14 +12,6 @@ import scenes
 CELLS = 16
 
 
-@pytest.fixture
-def panel() -> bpy.types.Object:
-    ob = scenes.panel(cells=CELLS)
-    scenes.look_from_above()
-    scenes.edit_inner(ob, CELLS)
-    return ob
-
-
 def image(name: str, grey: np.ndarray, *, float_buffer: bool = True) -> bpy.types.Image:
     rows, columns = grey.shape
     made = bpy.data.images.new(name, columns, rows, float_buffer=float_buffer, is_data=True)

@@ -10,14 +10,6 @@ import scenes
 KINDS = ('KEY_LINEAR', 'KEY_CARDINAL', 'KEY_CATMULL_ROM', 'KEY_BSPLINE')
 
 
-@pytest.fixture
-def panel() -> bpy.types.Object:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
-    return ob
-
-
 def added(panel: bpy.types.Object, **options: object) -> bpy.types.Object:
     bpy.ops.reflines.add_warp_lattice(**options)
     bpy.context.view_layer.update()
