@@ -13,7 +13,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from lanes import CRASHED, PYTHON, ROOT, Counts, run_with_junit
+from lanes import CRASHED, PYTHON, ROOT, Counts, native_lane, run_with_junit
 
 FUZZERS = ("shape", "cage", "grids")
 SLOWEST, MOST_MEMORY = 5, 2048  # seconds and MiB of one input
@@ -46,14 +46,6 @@ def suppressions(name: str, lines: tuple[str, ...]) -> Path:
     return path
 
 
-def native_tests(preset: str, env: dict[str, str]) -> Counts:
-    total = Counts()
-    for program in sorted((ROOT / "build" / preset).glob("test_*[a-z]")):
-        report = ROOT / "build/tests" / f"{preset}_{program.name}.xml"
-        total += run_with_junit([str(program), "--gtest_brief=1", f"--gtest_output=xml:{report}"], report, env)
-    return total
-
-
 def asan_environment() -> dict[str, str]:
     return os.environ | {"ASAN_OPTIONS": "detect_leaks=1:detect_stack_use_after_return=1:allocator_may_return_null=1",
                          "LSAN_OPTIONS": f"suppressions={suppressions('leaks', LEAKS)}",
@@ -76,7 +68,7 @@ def asan() -> Counts:
     if not built("asan"):
         return CRASHED
     env = asan_environment()
-    return native_tests("asan", env) + binding_tests(env)
+    return native_lane("asan", env) + binding_tests(env)
 
 
 def catches_a_race(env: dict[str, str]) -> bool:
@@ -96,7 +88,7 @@ def tsan() -> Counts:
         return CRASHED
     if not built("tsan"):
         return CRASHED
-    return Counts(passed=1) + native_tests("tsan", env)
+    return Counts(passed=1) + native_lane("tsan", env)
 
 
 def fuzz(minutes: float) -> Counts:
