@@ -50,7 +50,8 @@ def junit_counts(path: Path) -> Counts:
     """The counts of a JUnit file, as both CTest and pytest write it."""
     cases = list(ElementTree.parse(path).getroot().iter("testcase"))
     failed = sum(1 for case in cases if case.find("failure") is not None or case.find("error") is not None)
-    skipped = sum(1 for case in cases if case.find("skipped") is not None or case.get("status") in ("notrun", "disabled"))
+    idle = ("notrun", "disabled")
+    skipped = sum(1 for case in cases if case.find("skipped") is not None or case.get("status") in idle)
     return Counts(len(cases) - failed - skipped, failed, skipped)
 
 
