@@ -26,7 +26,7 @@ from .solve_job import SolveJob, SolveOutcome, SolveRequest
 
 TICK_INTERVAL = 0.01  # seconds between two checks for the thread's results
 SAYS_BUSY = 0.3  # seconds of solving after which the status bar shows the stage
-KEYS_TEXT = "Click, Enter: keep   Esc: cancel   Shift: finer   0-9: type"
+KEYS_TEXT = "Click, Enter: keep   Esc: cancel   Shift: finer   0-9, =: type"
 
 
 class DraggedOperator(Protocol):
@@ -74,7 +74,7 @@ class Drag:
         handles = self.tool.build_handles()
         starts = [getattr(self.tool, handle.name) or self.tool.choose_automatic(handle.name, self.patches[0])
                   for handle in handles]
-        return DragValues(handles, starts, [read_typed_unit(handle, scene) for handle in handles])
+        return DragValues(handles, starts, lambda handle, text: units.parse_number(text, handle.unit, scene))
 
     def begin_at(self, context: bpy.types.Context, x: int, y: int) -> None:
         """Takes the mouse's place (pixels of the window) as that of the present values. Where it is not over the view,
@@ -186,7 +186,9 @@ class Drag:
     def format_handle(self, context: bpy.types.Context, index: int) -> str:
         handle, typed = self.values.handles[index], self.values.typed[index]
         held = index == self.values.held and len(self.values.handles) > 1
-        shown = f"[{typed}|]" if typed else format_value(handle, self.values.value(index), context.scene)
+        shown = format_value(handle, self.values.value(index), context.scene)
+        if typed:  # as Blender's own tools show it, with the value that the limits leave
+            shown = f"[{typed}|] = {shown if self.values.numbers[index] is not None else '?'}"
         return f"{'> ' if held else ''}{handle.label}: {shown}"
 
     def end(self, context: bpy.types.Context) -> None:
@@ -205,13 +207,6 @@ class Drag:
         with suppress(Refusal):  # the mesh is gone, or was changed by something else
             self.restore()
         self.end(context)
-
-
-def read_typed_unit(handle: Handle, scene: bpy.types.Scene) -> float:
-    """Returns what a typed 1 means to the property: a degree, or the scene's unit of length."""
-    if handle.unit == 'ANGLE':
-        return float(np.radians(1.0)) if scene.unit_settings.system_rotation == 'DEGREES' else 1.0
-    return units.read_typed_length(scene) if handle.unit == 'LENGTH' else 1.0
 
 
 def format_value(handle: Handle, value: float, scene: bpy.types.Scene) -> str:

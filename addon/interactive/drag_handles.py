@@ -1,12 +1,16 @@
-"""Drag handles, by which mouse, wheel and typed digits set a tool's values. No Blender.
+"""Drag handles, by which mouse, wheel and typed text set a tool's values. No Blender.
 
 A value depends on the mouse's position, not on its path, so a closed path ends where it began.
 """
-from collections.abc import Sequence
+import string
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 PRECISE_FACTOR = 0.1  # factor of the mouse's move while Shift is held
 NOTCH_PIXELS = 20.0  # move of the mouse that a notch of the wheel equals
+OPERATORS = "+*/("   # they begin an expression, as '=' does
+CHARACTERS = frozenset(string.ascii_letters + string.digits + OPERATORS + ".)-=%'\" \u00b0\u00b5")
+FIRST = frozenset(string.digits + OPERATORS + ".-=")  # a text begins with one of these: letters alone are keys
 
 
 @dataclass(frozen=True)
@@ -30,12 +34,16 @@ class Handle:
 class DragValues:
     """The values of one drag: the held handle, and the moves and typed texts of all handles."""
 
-    def __init__(self, handles: Sequence[Handle], starts: Sequence[float], units: Sequence[float]) -> None:
-        """Starts with the properties' values; `units` are the factors by which typed numbers are multiplied."""
-        self.handles, self.starts, self.units = tuple(handles), tuple(starts), tuple(units)
+    def __init__(self, handles: Sequence[Handle], starts: Sequence[float],
+                 parse: Callable[[Handle, str], float | None]) -> None:
+        """Starts with the properties' values; `parse` returns the number that is typed for a handle, None where the
+        text is none yet.
+        """
+        self.handles, self.starts, self.parse = tuple(handles), tuple(starts), parse
         self.held = 0
         self.pixels = [0.0] * len(self.handles)
         self.typed = [""] * len(self.handles)
+        self.numbers: list[float | None] = [None] * len(self.handles)  # what is typed, where that is a number
         self.last: int | None = None
 
     def move(self, x: int, *, precise: bool) -> None:
@@ -54,31 +62,40 @@ class DragValues:
     def hold_next(self) -> None:
         self.held = (self.held + 1) % len(self.handles)
 
-    def type(self, character: str) -> None:
-        """Appends a digit or point to the typed text; '-' toggles its sign."""
-        text = self.typed[self.held]
-        if character == '-':
-            self.typed[self.held] = text[1:] if text.startswith('-') else '-' + text
-        elif character != '.' or '.' not in text:
-            self.typed[self.held] = text + character
+    def type(self, character: str) -> bool:
+        """Appends a character to the typed text; returns whether it was taken. '=' begins an expression; outside of one
+        '-' toggles the sign.
+        """
+        text, allowed = self.typed[self.held], CHARACTERS if self.typed[self.held] else FIRST
+        if character not in allowed or character == '=' and text or character == '.' and text.endswith('.'):
+            return False
+        if character == '-' and not is_expression(text):
+            self.set_text(text[1:] if text.startswith('-') else '-' + text)
+        else:
+            self.set_text(text + character)
+        return True
 
     def erase(self) -> None:
-        self.typed[self.held] = self.typed[self.held][:-1]
+        self.set_text(self.typed[self.held][:-1])
+
+    def set_text(self, text: str) -> None:
+        self.typed[self.held] = text
+        self.numbers[self.held] = self.parse(self.handles[self.held], text.removeprefix('='))
 
     def is_touched(self, index: int) -> bool:
         """Returns whether the handle was moved or a number was typed for it."""
-        return self.pixels[index] != 0.0 or self.parse_number(index) is not None
-
-    def parse_number(self, index: int) -> float | None:
-        """Returns the typed number in the property's unit, None where the text is no number yet."""
-        digits = self.typed[index].lstrip('-').replace('.', "", 1)
-        return float(self.typed[index]) * self.units[index] if digits.isdigit() else None
+        return self.pixels[index] != 0.0 or self.numbers[index] is not None
 
     def value(self, index: int) -> float:
-        handle, number = self.handles[index], self.parse_number(index)
+        handle, number = self.handles[index], self.numbers[index]
         if number is not None:
             return min(max(number, handle.low), handle.high)
         return handle.value_at(self.starts[index], self.pixels[index])
 
     def values(self) -> tuple[float, ...]:
         return tuple(self.value(index) for index in range(len(self.handles)))
+
+
+def is_expression(text: str) -> bool:
+    """Returns whether a typed text is more than a number."""
+    return text.startswith('=') or any(character in OPERATORS for character in text)

@@ -24,6 +24,12 @@ KEEP_KEYS, CANCEL_KEYS = {'LEFTMOUSE', 'RET', 'NUMPAD_ENTER'}, {'ESC', 'RIGHTMOU
 NAVIGATION = {'MIDDLEMOUSE', 'TRACKPADPAN', 'TRACKPADZOOM', 'NDOF_MOTION'}
 
 
+def read_character(event: bpy.types.Event) -> str:
+    """Returns what a key types: by the layout of the keyboard, where Blender tells that, with a point for a comma."""
+    typed = event.unicode if event.unicode.isprintable() else ""
+    return (typed or CHARACTERS.get(event.type, "")).replace(',', '.')
+
+
 def build_radius_handle(centre: str) -> tuple[Handle, ...]:
     """Returns the handle of the radius for a tool with tool_properties.FalloffSettings; none where it acts everywhere.
     """
@@ -138,21 +144,20 @@ class DraggedTool(SolveTool):
             values.wheel(NOTCHES[event.type], precise=event.shift)
             return True
         if event.value == 'PRESS':
-            return self.type_key(event.type)
+            return self.type_key(event)
         return False
 
-    def type_key(self, key: str) -> bool:
+    def type_key(self, event: bpy.types.Event) -> bool:
+        """Takes a key of the typed text, or one that works on it; returns whether that may have changed a value."""
         values = self.drag.values
-        if key in CHARACTERS:
-            values.type(CHARACTERS[key])
-        elif key == 'BACK_SPACE':
-            values.erase()
-        elif key == 'TAB':
+        if event.type == 'TAB':
             values.hold_next()
-            return False
-        else:
-            return False
-        return True
+        elif event.type == 'BACK_SPACE':
+            values.erase()
+            return True
+        elif not (event.ctrl or event.alt or event.oskey):
+            return values.type(read_character(event))
+        return False
 
     def finish_drag(self, context: bpy.types.Context, outcome: SolveOutcome) -> set[str]:
         self.drag.write_solutions(outcome.solutions)

@@ -56,7 +56,7 @@ picture, the wheel tilts it"""
         settings = context.scene.reflection_lines
         self.start = light_angles.read_transform(settings.light)
         angles = light_angles.read_light_angles(settings.picture_camera(), settings.light)
-        self.values = DragValues(HANDLES, angles, (1.0, 1.0))
+        self.values = DragValues(HANDLES, angles, lambda *_: None)
         self.values.move(event.mouse_x, precise=False)
         self.area = context.area
         self.follow(context)

@@ -91,6 +91,28 @@ def test_typed_numbers(driver: window.Window) -> Steps:
     assert np.array_equal(shown(driver), expected)
 
 
+def test_a_typed_expression_with_a_unit_is_shown_with_its_value(driver: window.Window) -> Steps:
+    expected = executed(driver, strength=1.0, length=0.5)
+    panel(driver)
+    yield from press(driver)
+    driver.key('X')  # begins no number
+    for key, text in (('THREE', "3"), ('TAB', ""), ('TWO', "2"), ('EIGHT', "*"), ('TWO', "2"), ('FIVE', "5"),
+                      ('C', "c"), ('M', "m")):
+        driver.event(key, 'PRESS', **({"unicode": text} if text else {}))
+        driver.event(key, 'RELEASE')
+        yield 0.05
+    yield from settled(driver)
+    header = running_drag().texts[0]
+    assert "Strength: [3|] = 1.000" in header and "> Length: [2*25cm|] = 50 cm" in header, header
+    assert blf.dimensions(0, header)[0] < driver.area().width
+    if "REFLINES_PICTURES" in os.environ:
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "typed.png"))
+        yield 0.3
+    driver.key('RET')
+    yield from ended(driver)
+    assert np.array_equal(shown(driver), expected)
+
+
 def test_one_undo_takes_a_drag_back_and_redo_brings_it(driver: window.Window) -> Steps:
     panel(driver)
     before = shown(driver)
@@ -215,6 +237,7 @@ window.run(test_a_drag_follows_and_escape_leaves_no_bit_changed,
            test_the_header_tells_the_gain_first_as_the_result_will,
            test_the_header_of_another_tool_tells_how_much_of_the_wish_was_reached,
            test_what_is_kept_is_what_the_operator_makes_without_a_mouse, test_typed_numbers,
+           test_a_typed_expression_with_a_unit_is_shown_with_its_value,
            test_one_undo_takes_a_drag_back_and_redo_brings_it,
            test_the_redo_panel_starts_from_the_mesh_before_the_drag,
            test_a_change_of_the_mode_by_a_script_ends_the_drag, test_escape_while_the_first_factorization_runs,
