@@ -15,8 +15,8 @@ bl_info = {
 # unregistered backwards.
 NAMES = (
     "library_copy", "native",
-    "model.edit_cage", "model.gain", "model.creases", "model.mirror", "model.orientation", "model.refusal",
-    "model.patch", "model.cage",
+    "model.edit_cage", "model.gain", "model.looks", "model.creases", "model.mirror", "model.orientation",
+    "model.refusal", "model.patch", "model.cage",
     "model.solution", "model.surface", "model.triangulation", "model.view",
     "targets.falloff", "targets.direction", "targets.fit", "targets.mirror_target", "targets.pattern",
     "targets.smooth", "targets.untwist", "targets.warp",
@@ -45,7 +45,7 @@ NAMES = (
     "operators.add_warp_lattice", "operators.dragged_tool", "operators.direction", "operators.fit",
     "operators.install_matcap", "operators.live_warp", "operators.pattern", "operators.pick_direction",
     "operators.resolve", "operators.smooth", "operators.store_result", "operators.stripes", "operators.sweep_light",
-    "operators.untwist", "operators.warp",
+    "operators.untwist", "operators.use_look", "operators.warp",
     "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels", "ui.preferences", "ui.stripe_presets",
     "ui.stripes_panel",
 )

@@ -39,14 +39,12 @@ def switch_property(name: str, label: str) -> object:
 
 def draw_value(layout: bpy.types.UILayout, settings: object, name: str) -> None:
     """Draws a setting of the scene and its switch: the properties NAME, NAME_shown and NAME_automatic."""
-    row = layout.row(align=True)
-    if getattr(settings, name):
-        row.prop(settings, name)
-    elif find_automatic_value(name):
-        row.prop(settings, f"{name}_shown")
-    else:  # no run has told the value
+    if not getattr(settings, name) and not find_automatic_value(name):  # no run has told it
+        row = layout.row(heading=settings.bl_rna.properties[name].name)
         row.prop(settings, f"{name}_automatic", text="Automatic", toggle=True)
         return
+    row = layout.row(align=True)
+    row.prop(settings, name if getattr(settings, name) else f"{name}_shown")
     row.prop(settings, f"{name}_automatic", text="", icon='EVENT_A')
 
 

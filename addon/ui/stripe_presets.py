@@ -9,5 +9,22 @@ class VIEW3D_PT_reflines_stripe_presets(PresetPanel, bpy.types.Panel):
     preset_operator = "script.execute_preset"
     preset_add_operator = "reflines.save_stripes_preset"
 
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draws the looks that come with the add-on, and below them the artist's own."""
+        self.layout.emboss = 'PULLDOWN_MENU'
+        self.layout.operator_enum("reflines.use_look", "look")
+        self.layout.separator()
+        if bpy.utils.preset_paths(self.preset_subdir):
+            super().draw(context)
+        else:  # Blender would say that paths are missing
+            self.draw_first(context.window_manager)
+
+    def draw_first(self, manager: bpy.types.WindowManager) -> None:
+        """Draws the row that saves the first preset, as Blender draws it below others."""
+        row = self.layout.row()
+        row.emboss = 'NORMAL'
+        row.prop(manager, "preset_name", text="")
+        row.operator(self.preset_add_operator, text="", icon='ADD', emboss=False).name = manager.preset_name
+
 
 register, unregister = bpy.utils.register_classes_factory([VIEW3D_PT_reflines_stripe_presets])

@@ -3,6 +3,8 @@ import tomllib
 from pathlib import Path
 
 import bpy
+import pytest
+from reflection_lines.model.looks import LOOKS
 
 import installation
 
@@ -42,6 +44,24 @@ def test_a_preset_has_every_setting_of_the_look() -> None:
     operator = bpy.types.REFLINES_OT_save_stripes_preset
     paths = {f"bpy.context.scene.reflection_lines.stripes.{name}" for name in own - left_out}
     assert paths == set(operator.preset_values)
+
+
+@pytest.mark.parametrize("look", LOOKS)
+def test_a_look_that_comes_with_the_add_on_sets_what_it_says_and_no_more(look: str) -> None:
+    stripes().eye, stripes().scope, stripes().count = 'VIEWPORT', 'VISIBLE', 7
+    assert bpy.ops.reflines.use_look(look=look) == {'FINISHED'}
+    for name, value in LOOKS[look][2].items():
+        now = getattr(stripes(), name)
+        assert tuple(now) == pytest.approx(value) if isinstance(value, tuple) else now == pytest.approx(value) \
+            if isinstance(value, float) else now == value
+    assert (stripes().eye, stripes().scope, stripes().show) == ('VIEWPORT', 'VISIBLE', False)
+
+
+def test_the_first_look_is_what_the_settings_begin_with() -> None:
+    about = stripes().bl_rna.properties
+    for name, value in LOOKS['ZEBRA'][2].items():
+        begins = tuple(about[name].default_array) if isinstance(value, tuple) else about[name].default
+        assert begins == (pytest.approx(value) if not isinstance(value, str) else value), name
 
 
 def test_the_manifest_names_the_permission_and_tags_that_blender_knows() -> None:
