@@ -9,6 +9,7 @@ SHADING_ONLY_NODES = {'NodeGroupInput', 'NodeReroute', 'GeometryNodeSetShadeSmoo
 DEFORMING = {'ARMATURE', 'CAST', 'CLOTH', 'CORRECTIVE_SMOOTH', 'CURVE', 'DISPLACE', 'HOOK', 'LAPLACIANDEFORM',
              'LAPLACIANSMOOTH', 'LATTICE', 'MESH_CACHE', 'MESH_DEFORM', 'MESH_SEQUENCE_CACHE', 'SHRINKWRAP',
              'SIMPLE_DEFORM', 'SMOOTH', 'SOFT_BODY', 'SURFACE_DEFORM', 'WARP', 'WAVE'}
+OUTSIDE = -1.0  # the offset of a Solidify whose outer side is the surface itself
 
 
 def find_shaping_modifiers(ob: bpy.types.Object | None) -> list[bpy.types.Modifier]:
@@ -32,9 +33,30 @@ def is_subdivision(modifier: bpy.types.Modifier) -> bool:
     return modifier.type == 'SUBSURF' and modifier.levels > 0
 
 
-def is_cage(ob: bpy.types.Object | None) -> bool:
-    """Returns whether the last shaping modifier is a Subdivision Surface with levels."""
+def find_cage_modifiers(ob: bpy.types.Object | None) -> list[bpy.types.Modifier]:
+    """Returns the shaping modifiers without those at the end that only give the surface a thickness or its shading."""
     makers = find_shaping_modifiers(ob)
+    while makers and (makers[-1].type == 'SOLIDIFY' or is_shading_only(makers[-1])):
+        makers.pop()
+    return makers
+
+
+def find_shells(ob: bpy.types.Object) -> list[bpy.types.SolidifyModifier]:
+    """Returns the modifiers that give the surface of a cage its thickness."""
+    return [modifier for modifier in find_shaping_modifiers(ob)[len(find_cage_modifiers(ob)):]
+            if modifier.type == 'SOLIDIFY']
+
+
+def shows_cage_surface(ob: bpy.types.Object) -> bool:
+    """Returns whether the surface of a cage is what is seen, and no shell that lies off it."""
+    return all(shell.offset == OUTSIDE for shell in find_shells(ob))
+
+
+def is_cage(ob: bpy.types.Object | None) -> bool:
+    """Returns whether the last modifier that shapes the surface is a Subdivision Surface with levels; its thickness
+    follows by itself.
+    """
+    makers = find_cage_modifiers(ob)
     return bool(makers) and is_subdivision(makers[-1])
 
 
@@ -44,7 +66,7 @@ def describe_unsolved_modifiers(ob: bpy.types.Object, solve_for: str) -> tuple[s
     `solve_for` is a value of the property of this name.
     """
     if solve_for == 'CAGE' and is_cage(ob):
-        return ()
+        return describe_shells(ob)
     makers, said = find_shaping_modifiers(ob), []
     levels = [modifier.name for modifier in makers if is_subdivision(modifier)]
     if solve_for == 'CAGE' and levels:
@@ -55,3 +77,10 @@ def describe_unsolved_modifiers(ob: bpy.types.Object, solve_for: str) -> tuple[s
         said.append(f"The mesh was solved as it is without the modifier {', '.join(deforming)}, which moves what is "
                     "shown: hide or apply it to judge the lines")
     return tuple(said)
+
+
+def describe_shells(ob: bpy.types.Object) -> tuple[str, ...]:
+    """Says that a shell lies off the surface that was solved, where one does."""
+    off = [shell.name for shell in find_shells(ob) if shell.offset != OUTSIDE]
+    return (f"The shell of {off[0]} lies off the surface that was solved; with Offset -1 that is its outer side",) \
+        if off else ()

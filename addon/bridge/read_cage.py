@@ -19,7 +19,7 @@ def gather_cage_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
     """Gathers the region of a cage; the parameters are those of read_patch.gather_mesh_patch."""
     patch = read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, shared=shared)
     local = read_mesh.read_coordinates(ob, key) if local is None else local
-    *below, modifier = modifiers.find_shaping_modifiers(ob)
+    *below, modifier = modifiers.find_cage_modifiers(ob)
     mirror = find_followed_mirror(ob.name, below)
     if modifier.subdivision_type != 'CATMULL_CLARK':
         raise Refusal(f"{ob.name} is subdivided without smoothing (Simple): "

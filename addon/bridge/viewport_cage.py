@@ -16,9 +16,9 @@ def read_viewport_cage(ob: bpy.types.Object) -> tuple[Cage, np.ndarray] | None:
 
     None where what is shown is not the surface of a cage, or of one with modifiers that are not followed.
     """
-    if not modifiers.is_cage(ob):
+    if not modifiers.is_cage(ob) or not modifiers.shows_cage_surface(ob):
         return None
-    *below, modifier = modifiers.find_shaping_modifiers(ob)
+    *below, modifier = modifiers.find_cage_modifiers(ob)
     if modifier.subdivision_type != 'CATMULL_CLARK' or ob.mode == 'EDIT' and not modifier.show_in_editmode:
         return None
     try:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 import pytest
+from reflection_lines.bridge import viewport_cage
 from reflection_lines.overlay import solve_maps
 from reflection_lines.state import solve_history
 
@@ -221,9 +222,34 @@ def test_what_follows_and_moves_nothing_leaves_it_a_cage(add) -> None:
     assert ob.reflection_lines.is_cage() and "modifier" not in ob.reflection_lines.report.notes
 
 
+def add_shell(ob: bpy.types.Object, offset: float = -1.0) -> None:
+    shell = ob.modifiers.new("Solid", 'SOLIDIFY')
+    shell.thickness, shell.offset = 0.02, offset
+
+
+def test_a_shell_follows_the_cage_and_its_outer_side_is_what_was_solved() -> None:
+    alone, result = smoothed_below(lambda _: None)
+    surface = shown(alone)
+    ob, now = smoothed_below(add_shell)
+    assert np.array_equal(now, result) and ob.reflection_lines.is_cage()
+    assert "modifier" not in ob.reflection_lines.report.notes and "shell" not in ob.reflection_lines.report.notes
+    assert len(shown(ob)) == 2 * len(surface)
+    assert np.abs(shown(ob)[:len(surface)] - surface).max() < 1e-6
+    assert viewport_cage.read_viewport_cage(ob) is not None  # the stripes lie on it
+
+
+@pytest.mark.parametrize("offset", [0.0, 1.0])
+def test_a_shell_off_the_surface_is_named_and_carries_the_stripes(offset: float) -> None:
+    _, result = smoothed_below(lambda _: None)
+    ob, now = smoothed_below(lambda ob: add_shell(ob, offset))
+    assert np.array_equal(now, result)
+    assert "The shell of Solid lies off the surface" in ob.reflection_lines.report.notes
+    assert viewport_cage.read_viewport_cage(ob) is None
+
+
 @pytest.mark.parametrize("add", [
-    lambda ob: ob.modifiers.new("Solid", 'SOLIDIFY'), lambda ob: add_nodes(ob, 'GeometryNodeTransform')],
-    ids=["solidify", "nodes"])
+    lambda ob: ob.modifiers.new("Bevel", 'BEVEL'), lambda ob: add_nodes(ob, 'GeometryNodeTransform')],
+    ids=["bevel", "nodes"])
 def test_what_follows_and_changes_the_surface_is_named(add) -> None:
     _, mesh = smoothed_below(lambda ob: setattr(ob.modifiers[0], "show_viewport", False))
     ob, result = smoothed_below(add)
