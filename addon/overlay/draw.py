@@ -7,7 +7,7 @@ import gpu
 import numpy as np
 
 from .. import native
-from ..bridge import image_pixels, viewport_cage, viewport_surface
+from ..bridge import image_pixels, view_region, viewport_cage, viewport_surface
 from ..model.solution import LastSolve
 from ..model.surface import Surface, Topology
 from ..state import last_panels, solve_history
@@ -20,6 +20,20 @@ UNSEEN_TIME = 60.0  # seconds until objects that no viewport draws are dropped; 
 KEPT_TEXTURES = 4  # environment images kept; one of 2,048 x 1,024 pixels takes 16 MB
 NOTHING = (np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32), np.zeros((0, 3)))
 BEFORE = "before "  # prefix of the names of fits of the shape before the last solve
+AFTER = "after "  # prefix of the names of uniforms of the shape beside it
+
+
+@dataclass
+class Uploaded:
+    """A batch, and the arrays that it was built from."""
+    arrays: tuple = ()
+    batch: gpu.types.GPUBatch | None = None
+
+    def take(self, arrays: tuple[np.ndarray, ...]) -> None:
+        """Builds the batch anew where the arrays changed."""
+        if len(arrays) != len(self.arrays) or not all(map(np.array_equal, arrays, self.arrays)):
+            self.batch = build_batch(*arrays) if len(arrays[1]) else None
+            self.arrays = arrays
 
 
 @dataclass
@@ -28,8 +42,8 @@ class ShownObject:
     kind: tuple = ()              # mode, content, solve and kind of surface when it was read
     stale: bool = True            # the surface may have changed since it was uploaded
     topology: Topology | None = None
-    uploaded: tuple = ()          # the arrays of the batch
-    batch: gpu.types.GPUBatch | None = None
+    surface: Uploaded = field(default_factory=Uploaded)
+    after: Uploaded | None = None  # beside the shape before the last solve, that after it
     cage: draw_cage.ShownCage | None = None   # of Edit Mode
     drawn: float = field(default_factory=time.monotonic)  # time of the last drawing
 
@@ -61,7 +75,7 @@ def list_kept_names() -> set[str]:
     """Returns the names of the objects of which anything is kept."""
     fits, limits = _cache.fits, _cache.limits
     every = (*_cache.shown, *_cache.uniforms, *fits.done, *fits.wanted, *fits.started, *limits.kept)
-    return {name.removeprefix(BEFORE) for name in every}
+    return {name.removeprefix(BEFORE).removeprefix(AFTER) for name in every}
 
 
 def count_textures() -> int:
@@ -93,8 +107,10 @@ def draw_objects(context: bpy.types.Context, settings: bpy.types.PropertyGroup) 
         shown = _cache.shown.setdefault(ob.name, ShownObject())
         shown.drawn = time.monotonic()
         refresh_object(shown, ob, settings, context.evaluated_depsgraph_get())
-        if shown.batch is not None:
-            draw_batch(ob.name, shown.batch, values, find_texture(settings))
+        middle = view_region.find_view_middle(context.area)[0] - context.region.x if shown.after is not None else 0
+        for name, uploaded, side in ((ob.name, shown.surface, -1.0), (AFTER + ob.name, shown.after, 1.0)):
+            if uploaded is not None and uploaded.batch is not None:
+                draw_batch(name, uploaded.batch, stripes.keep_side(values, side * middle), find_texture(settings))
         if shown.cage is not None:
             _cache.dots = _cache.dots or draw_cage.compile_dots()
             draw_cage.CagePainter(context, ob, _cache.dots).draw(shown.cage)
@@ -108,7 +124,8 @@ def drop_unseen_objects() -> None:
     for name in [name for name, shown in _cache.shown.items()
                  if shown.drawn < late or bpy.data.objects.get(name) is None]:
         del _cache.shown[name]
-        _cache.uniforms.pop(name, None)
+        for kept in (name, AFTER + name):
+            _cache.uniforms.pop(kept, None)
         _cache.limits.drop(name)
         for fit in (name, BEFORE + name):
             _cache.fits.drop(fit)
@@ -125,10 +142,12 @@ def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types
     read = read_limit_surface(ob, settings) or viewport_surface.read_viewport_surface(ob, depsgraph, shown.topology)
     if solution is not None and not solve_maps.is_current(solution, read.V, len(ob.data.vertices)):
         solution = None
-    arrays = build_arrays(ob, settings, read, solution)
-    if len(arrays) != len(shown.uploaded) or not all(map(np.array_equal, arrays, shown.uploaded)):
-        shown.batch = build_batch(*arrays) if len(arrays[1]) else None
-        shown.uploaded = arrays
+    shown.surface.take(build_arrays(ob, settings, read, solution))
+    if stripe_scene.is_split(settings) and solution is not None:
+        shown.after = shown.after or Uploaded()
+        shown.after.take(build_shape_arrays(ob, settings, read))
+    else:
+        shown.after = None
     shown.cage = draw_cage.start_cage(ob, read) if with_cage else None
     shown.topology, shown.kind, shown.stale = read.topology, kind, False
 
@@ -150,6 +169,12 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
         V, F, old = solve_maps.build_shape_before(solution, read.V, read.F, len(ob.data.vertices))
         shaded = _cache.fits.update_shaded(BEFORE + ob.name, old, F)
         return V[shaded.vertex], shaded.F, shaded.normals
+    return build_shape_arrays(ob, settings, read)
+
+
+def build_shape_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
+                       read: Surface) -> tuple[np.ndarray, ...]:
+    """Builds the arrays of the surface as it is now."""
     build = build_part_arrays if stripe_scene.is_part_only(ob, settings) else build_whole_arrays
     return build(ob.name, read)
 

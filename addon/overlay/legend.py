@@ -37,9 +37,13 @@ def describe_ends(scene: bpy.types.Scene, mode: str, full: float) -> tuple[str, 
 
 
 def draw_legend() -> None:
-    """Draws the legend in a viewport (POST_PIXEL)."""
+    """Draws the legend of a map, or of the two sides of a view, in a viewport (POST_PIXEL)."""
     context = bpy.context
     settings = context.scene.reflection_lines.stripes
+    if settings.show and stripe_scene.is_split(settings) and context.space_data.overlay.show_overlays \
+            and any(solve_history.find_last_solve(ob.name) is not None
+                    for ob in shown_objects.find_shown_objects(context, settings)):
+        draw_sides(context)
     full = find_full_value(context, settings)
     if full is None:
         return
@@ -48,14 +52,33 @@ def draw_legend() -> None:
     low = 4.5 * MARGIN * scale  # above the redo panel
     draw_bar(settings.mode, left, low, scale)
     ends = describe_ends(context.scene, settings.mode, full)
-    blf.size(FONT, SIZE * scale)
-    blf.color(FONT, 1.0, 1.0, 1.0, 1.0)
-    blf.enable(FONT, blf.SHADOW)
-    blf.shadow(FONT, 3, 0.0, 0.0, 0.0, 1.0)
+    start_text(scale)
     for text, share in zip(ends, (0.0, 0.5, 1.0), strict=True):
         draw_text(text, left + share * (WIDTH * scale - blf.dimensions(FONT, text)[0]), low - 1.2 * SIZE * scale)
     draw_text(TITLES[settings.mode], left, low + (HEIGHT + 5.0) * scale)
     blf.disable(FONT, blf.SHADOW)
+
+
+def draw_sides(context: bpy.types.Context) -> None:
+    """Draws the line between the shapes before and after the last solve, and their names."""
+    scale, height = context.preferences.system.ui_scale, context.region.height
+    middle = float(view_region.find_view_middle(context.area)[0] - context.region.x)
+    shader = gpu.shader.from_builtin('SMOOTH_COLOR')
+    batch_for_shader(shader, 'LINES', {"pos": [(middle, 0.0, 0.0), (middle, float(height), 0.0)],
+                                       "color": [(1.0, 1.0, 1.0, 1.0)] * 2}).draw(shader)
+    start_text(scale)
+    low = 4.5 * MARGIN * scale
+    draw_text("Before", middle - blf.dimensions(FONT, "Before")[0] - MARGIN * scale, low)
+    draw_text("After", middle + MARGIN * scale, low)
+    blf.disable(FONT, blf.SHADOW)
+
+
+def start_text(scale: float) -> None:
+    """Begins white text with a shadow, which is read on any stripes; ends with blf.disable."""
+    blf.size(FONT, SIZE * scale)
+    blf.color(FONT, 1.0, 1.0, 1.0, 1.0)
+    blf.enable(FONT, blf.SHADOW)
+    blf.shadow(FONT, 3, 0.0, 0.0, 0.0, 1.0)
 
 
 def draw_text(text: str, x: float, y: float) -> None:

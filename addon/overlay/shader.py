@@ -62,6 +62,7 @@ vec3 mirrored_color(vec3 r)
 FRAGMENT = """
 void main()
 {
+  if (ub.paint.w != 0.0 && gl_FragCoord.x * sign(ub.paint.w) < ub.paint.w) discard;
   vec3 n = normalize(normal);
   vec3 v = normalize(ub.eye.xyz - ub.eye.w * world);
   vec3 r = 2.0 * dot(n, v) * n - v;

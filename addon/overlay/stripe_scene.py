@@ -15,10 +15,16 @@ def needs_solution(settings: bpy.types.PropertyGroup) -> bool:
     return settings.before or settings.mode in MAPS
 
 
+def is_split(settings: bpy.types.PropertyGroup) -> bool:
+    """Returns whether the shapes before and after the last solve are drawn side by side."""
+    return settings.before and settings.side_by_side and settings.mode not in MAPS
+
+
 def identify_content(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> tuple:
     """Returns the settings that determine what is uploaded; all others change uniforms only."""
     is_map = settings.mode in MAPS
-    return is_map and settings.mode, is_map and settings.map_range, settings.before, is_part_only(ob, settings)
+    return is_map and settings.mode, is_map and settings.map_range, settings.before, is_part_only(ob, settings), \
+        is_split(settings)
 
 
 def is_part_only(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> bool:

@@ -101,6 +101,13 @@ def pack_uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.
     return np.concatenate([np.ravel(block) for block in blocks]).astype(np.float32)
 
 
+def keep_side(uniforms: np.ndarray, x: float) -> np.ndarray:
+    """Returns the uniforms for one side of a view only: right of x pixels from its left, or left of -x; 0 for all."""
+    kept = uniforms.copy()
+    kept[-1] = x
+    return kept
+
+
 def compute_normal_matrix(model: np.ndarray) -> np.ndarray:
     """Returns the cofactor matrix (4 x 4) that transforms normals, which exists for a flattened object too.
 

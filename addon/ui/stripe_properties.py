@@ -22,7 +22,7 @@ SCOPES = (
     ('COLLECTION', "Collection", "On all meshes of a collection"),
     ('VISIBLE', "All Visible", "On all visible meshes"),
 )
-NOT_COPIED = {"rna_type", "name", "show", "before"}
+NOT_COPIED = {"rna_type", "name", "show", "before", "side_by_side"}
 
 
 def color_property(name: str, default: tuple[float, float, float, float]) -> object:
@@ -33,6 +33,9 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     show: BoolProperty(name="Show Stripes", description="Draw the reflection of line lights over the mesh")
     before: BoolProperty(name="Before Last Solve",
                          description="Show the reflections that the panel had before its last solve")
+    side_by_side: BoolProperty(name="Side by Side", default=True,
+                               description="Left of the view's middle the reflections before the last solve, right of "
+                               "it those after")
     mode: EnumProperty(name="Mode", items=MODES, default='REFLECTION')
     eye: EnumProperty(name="Seen From", items=EYES, default='CAMERA',
                       update=lambda self, context: self.freeze_if_asked(context))

@@ -44,6 +44,8 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         else:
             self.draw_eye(layout, settings)
             rows.draw_switch(layout, stripes, "before")
+            if stripes.before:
+                rows.draw_switch(layout, stripes, "side_by_side")
         if stripes.mode == 'IMAGE':
             self.draw_image(layout, stripes)
 

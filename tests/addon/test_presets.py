@@ -40,7 +40,7 @@ def made(folder: Path) -> Path:
 
 def test_a_preset_has_every_setting_of_the_look() -> None:
     own = {each.identifier for each in stripes().bl_rna.properties}
-    left_out = {"rna_type", "name", "show", "before", "collection", "image", "frozen_eye"}
+    left_out = {"rna_type", "name", "show", "before", "side_by_side", "collection", "image", "frozen_eye"}
     operator = bpy.types.REFLINES_OT_save_stripes_preset
     paths = {f"bpy.context.scene.reflection_lines.stripes.{name}" for name in own - left_out}
     assert paths == set(operator.preset_values)

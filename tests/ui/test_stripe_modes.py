@@ -320,7 +320,7 @@ def test_a_map_of_a_changed_mesh_is_not_shown(driver: window.Window) -> Steps:
 
 def test_before_the_last_solve(driver: window.Window) -> Steps:
     ob, before, _ = yield from solved_panel(driver, "Before")
-    stripes().before = True
+    stripes().before, stripes().side_by_side = True, False
     picture = yield from captured(driver)
     stripes().before = False
     reflines = sys.modules["reflection_lines"].native.reflines
@@ -329,6 +329,26 @@ def test_before_the_last_solve(driver: window.Window) -> Steps:
     normals = (reflines.NormalFit(before, F).normals(before)[F[triangle]] * barycentric[:, :, None]).sum(axis=1)
     sample = Sample(picture[pixel[:, 1], pixel[:, 0]], normals, before)
     sample.agree(expected_light(reflines.theta(normals, sample.v, sample.a)))
+
+
+def test_before_and_after_side_by_side(driver: window.Window) -> Steps:
+    """Left of the middle it is the picture before the last solve, right of it the present one, to the pixel."""
+    yield from solved_panel(driver, "Sides")
+    after = yield from captured(driver)
+    stripes().before, stripes().side_by_side = True, False
+    before = yield from captured(driver)
+    stripes().side_by_side = True
+    both = yield from captured(driver)
+    if "REFLINES_PICTURES" in os.environ:
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "sides.png"))
+        yield 0.3
+    stripes().before = False
+    view_region = sys.modules["reflection_lines"].bridge.view_region
+    middle = view_region.find_view_middle(driver.area())[0] - driver.region().x
+    assert np.array_equal(both[:, :middle - 1], before[:, :middle - 1])
+    assert np.array_equal(both[:, middle + 1:], after[:, middle + 1:])
+    for side in (slice(None, middle), slice(middle, None)):
+        assert (before[:, side] != after[:, side]).mean() > 0.05
 
 
 def test_the_legend_has_units_and_sign(driver: window.Window) -> Steps:
@@ -390,4 +410,5 @@ window.run(test_highlight_lines, test_isophotes, test_environment_image, test_no
            test_a_frozen_eye_stays_while_the_view_turns, test_edges_are_soft_at_any_zoom, test_only_the_selected_faces,
            test_a_part_has_the_normals_of_the_whole, test_a_collection, test_named_setups_are_kept_and_picked,
            test_deviation_map, test_residual_map, test_a_map_of_a_changed_mesh_is_not_shown, test_before_the_last_solve,
+           test_before_and_after_side_by_side,
            test_the_legend_has_units_and_sign, test_a_large_panel_is_drawn_at_once_and_then_better)

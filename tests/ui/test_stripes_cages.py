@@ -99,7 +99,7 @@ def test_a_file_with_an_edge_of_too_many_faces_shows_the_modifiers_surface(drive
     assert bpy.context.scene.reflection_lines.stripes.show
     shown = draw._cache.shown["Book"]
     mesh = bpy.data.objects["Book"].evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    assert shown.batch is not None
+    assert shown.surface.batch is not None
     assert {len(mesh.vertices)} <= {int(shown.topology.corners.max()) + 1}
     with driver.override():
         scenes.edit(bpy.data.objects["Book"])
