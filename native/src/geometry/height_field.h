@@ -33,6 +33,9 @@ struct Boundary {
 // shortens, see SmoothOptions::longest); selections without such faces keep their bits.
 constexpr double kSilhouette = 0.2;
 
+// The triangles of a region that face the viewer, over the image plane. Coordinates and heights are relative to the
+// region's centroid; RegionPieces converts them to the world's origin, which all public ones have. With heights from
+// the world's origin a panel 1,000 times its size away took 100 steps and did not converge, where 3 suffice.
 struct HeightField {
   Triangles F;              // #T x 3: the triangles that face the viewer, indices into the region's vertices
   std::vector<int> source;  // #T: index of each one among the triangles of the region

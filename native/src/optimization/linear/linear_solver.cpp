@@ -200,7 +200,9 @@ class LinearSolver::Cholmod final : public Backend {
 };
 
 // UMFPACK's L U with its symmetric strategy, with 64-bit indices: the 32-bit interface overflows its work space at one
-// million unknowns.
+// million unknowns. Measured at 9k | 100k unknowns, ms: analysis 75 | 1,257, factorization 80 | 1,504, a solve 3.2 |
+// 81; CHOLMOD 12 | 188, 28 | 610, 1.4 | 50. Whole solves of a mesh take 2.4 | 2.2 times as long. It is no default: it
+// is for comparison with CHOLMOD by an independent factorization.
 class LinearSolver::Umfpack final : public Backend {
  public:
   Umfpack() {
