@@ -1,9 +1,11 @@
 """Looks of the stripes that come with the add-on, by the names of the settings in ui/stripe_properties.py."""
 
+Setting = str | int | float | tuple[float, float, float, float]
+
 WHITE, BLACK = (0.9, 0.93, 1.0, 1.0), (0.01, 0.012, 0.016, 1.0)
 
 
-def build_bands(mode: str, count: int, width: float, softness: float) -> dict[str, object]:
+def build_bands(mode: str, count: int, width: float, softness: float) -> dict[str, Setting]:
     return {"mode": mode, "count": count, "width": width, "softness": softness, "color": WHITE, "gap_color": BLACK,
             "opacity": 0.9}
 

@@ -33,7 +33,7 @@ class Fit:
     dense: DenseMesh
     view_direction: np.ndarray
     line_direction: np.ndarray
-    match: tuple = field(default=(), init=False)
+    match: "tuple[native.Target, np.ndarray, np.ndarray, np.ndarray] | None" = field(default=None, init=False)
     optimizer: "native.CageOptimizer | None" = field(default=None, init=False)
     before: Misfit | None = field(default=None, init=False)
 

@@ -211,3 +211,29 @@ def test_the_addon_is_annotated() -> None:
                 bare = [a.arg for a in arguments if a.annotation is None and a.arg not in ("self", "cls", "_")]
                 wrong += [f"{file}:{node.lineno} {node.name}({', '.join(bare)})"] if bare else []
     assert not wrong, "\n".join(wrong)
+
+
+def named_types(annotation: ast.expr | None) -> set[str]:
+    """The names in an annotation, those in a string among them."""
+    if annotation is None:
+        return set()
+    if isinstance(annotation, ast.Constant) and isinstance(annotation.value, str):
+        annotation = ast.parse(annotation.value, mode="eval")
+    return {node.id for node in ast.walk(annotation) if isinstance(node, ast.Name)}
+
+
+def test_numbers_and_optimizers_have_types() -> None:
+            wrong += [f"{module}:{node.lineno}" for wanted in annotations if "object" in named_types(wanted)]
+    handler's `*_` takes what Blender passes."""
+    wrong = []
+    for module, tree in addon_modules().items():
+        if module.startswith(("operators.", "ui.", "overlay.")):
+            continue
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef):
+                arguments = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+                annotations = [node.returns, *(argument.annotation for argument in arguments)]
+            else:
+                annotations = [node.annotation] if isinstance(node, ast.AnnAssign) else []
+            wrong += [f"{module}:{node.lineno}" for annotation in annotations if "object" in named_types(annotation)]
+    assert not wrong, f"name the type: {wrong}"

@@ -53,7 +53,8 @@ ReachableTarget::ReachableTarget(PieceProblem& piece, const std::vector<Target>&
     const Mask counts = is_reduced(wanted[k]) ? find_counting_triangles(piece, wanted[k]) : Mask::Constant(n, false);
     area_.segment(static_cast<Eigen::Index>(k) * n, n) = counts.select(field.area.array(), 0.0);
     counts_.push_back(counts);
-    norm_ += area_.segment(static_cast<Eigen::Index>(k) * n, n).dot(gather_rows(wanted[k]).rowwise().squaredNorm());
+    squared_norm_ +=
+        area_.segment(static_cast<Eigen::Index>(k) * n, n).dot(gather_rows(wanted[k]).rowwise().squaredNorm());
   }
   unreachable_ = PlaneVectors::Zero(area_.size(), 2);
 }
@@ -88,7 +89,7 @@ PlaneVectors ReachableTarget::average(PlaneVectors values) {
 }
 
 bool ReachableTarget::is_visible(const PlaneVectors& values) const {
-  return area_.dot(values.rowwise().squaredNorm()) > kInvisible * kInvisible * norm_;
+  return area_.dot(values.rowwise().squaredNorm()) > kInvisible * kInvisible * squared_norm_;
 }
 
 PlaneVectors ReachableTarget::extrapolate(const PlaneVectors& left, const PlaneVectors& change) const {

@@ -41,7 +41,7 @@ class ReachableTarget {
   const std::vector<Target>& wanted_;
   Vector area_;                                  // area of the rows; 0 where they do not count
   std::vector<Mask> counts_;                     // #T for each target
-  double norm_ = 0.0;                            // norm of the targets: root mean square times area
+  double squared_norm_ = 0.0;                    // sum of area |target|^2
   PlaneVectors unreachable_;                     // c
   PlaneVectors last_unreachable_, last_change_;  // of the previous round; empty in the first
 };
