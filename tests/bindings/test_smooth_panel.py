@@ -149,6 +149,27 @@ def test_no_vertex_moves_beyond_the_limit(bonnet: tuple[np.ndarray, np.ndarray])
     assert press(flawed, F)[1].limited == 0
 
 
+@pytest.mark.parametrize("limit", [0.00005, 0.0002])
+def test_a_limit_below_the_flaw_leaves_the_lines_more_even_than_they_were(bonnet: tuple[np.ndarray, np.ndarray],
+                                                                         limit: float) -> None:
+    """Cut at the limit the move has a rim round every dent, and the press refuses its own result."""
+    V, F = bonnet
+    _, report = press(flaw_of("dents", V), F, limit=limit)
+    assert report.applied and report.largest_move == pytest.approx(limit)
+    assert all(after <= 1.01 * before for before, after in
+               zip(report.unevenness_before, report.unevenness_after, strict=True))
+
+
+def test_the_report_tells_of_the_region_and_where_the_lines_stray(bonnet: tuple[np.ndarray, np.ndarray]) -> None:
+    V, F = bonnet
+    positions, report = press(flaw_of("noise", V), F)
+    assert report.region.triangles == len(F) and not report.region.closed and len(report.stray) == len(F)
+    edges = (positions[F][:, 1:] - positions[F][:, :1])[:, :, :2]
+    area = np.abs(np.linalg.det(edges))
+    stray = np.degrees(np.sqrt(area @ report.stray**2 / area.sum())) * report.length
+    assert stray == pytest.approx(report.unevenness_after[0], rel=1e-6)
+
+
 def test_strength_scales_the_move(bonnet: tuple[np.ndarray, np.ndarray]) -> None:
     V, F = bonnet
     flawed = flaw_of("dents", V)
