@@ -51,12 +51,12 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         return partial(smooth.build_smooth_target, settings=Smooth(length, self.strength, self.directional))
 
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
-        seen = facing.read_patch_view(context.scene, patch)
-        if self.directional or not automatic_smooth.suits(patch, seen):
+        if self.directional:
             return super().solve_patch(context, ob, patch)
         if self.length:  # what 0 stands for is known after an automatic press only
             return replace(super().solve_patch(context, ob, patch), automatic_length=0.0)
         settings = AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric, self.limit or None)
+        seen = facing.read_patch_view(context.scene, patch)
         with live_optimizer.convert_native_errors(patch):
             return automatic_smooth.smooth_panel(patch, seen, self.border, settings)
 

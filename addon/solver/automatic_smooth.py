@@ -1,4 +1,4 @@
-"""The automatic press of Smooth: the native rules find the flaws of a mesh patch and leave its design alone."""
+"""The automatic press of Smooth: the native rules find the flaws of a patch and leave its design alone."""
 import time
 from dataclasses import dataclass
 
@@ -23,40 +23,23 @@ class AutomaticSmooth:
     limit: float | None = None  # largest move along the view, world units; None: automatic
 
 
-def suits(patch: Patch, seen: View) -> bool:
-    """Returns whether the native rules know the patch: no cage, and no half joined with its image."""
-    return choose_formulation(patch, seen).is_alone
-
-
 def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth) -> Solution:
-    """Calls reflines.smooth_panel once; raises the native module's errors.
+    """Calls the native press once; raises the native module's errors.
 
     All numbers are its own: the score is the unevenness, root mean square over the lights, and the residual how far the
     field of the light given strays from its smoothed self. After a refusal both are those of the start.
     """
     begin = time.perf_counter()
     formulation = choose_formulation(patch, seen)
-    positions, told = call_native(formulation, border, settings)
+    press = formulation.press_smooth(border, vars(settings))
+    told = press.told
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
     report = build_report(told, time.perf_counter() - begin)
     before, after = told.unevenness_before, told.unevenness_after if told.applied else told.unevenness_before
     scores, lacks = zip(*((float(np.sqrt(np.mean(np.square(each)))), np.radians(each[0]) / told.length)
                           for each in (before, after)), strict=True)
-    return Solution(patch, positions, report, None, told.stray, *lacks, told.length, *scores,
+    return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *scores,
                     choose_notes(formulation, told), told.length, automatic_limit=0.0 if settings.limit else told.limit)
-
-
-def call_native(formulation: Formulation, border: str,
-                settings: AutomaticSmooth) -> tuple[np.ndarray, "native.SmoothPanelReport"]:
-    """Calls the native press. Marked creases are held; the automatic rule would take noise for creases, and the native
-    rules keep by themselves what bends.
-    """
-    patch = formulation.patch
-    held = np.zeros(len(patch.V), dtype=bool)
-    if patch.creases.rule != "none":
-        held[patch.creases.marked.ravel()] = True
-    return native.reflines.smooth_panel(patch.V, patch.F, **formulation.choose_directions(), fixed=held,
-                                        border=formulation.choose_border(border), **vars(settings))
 
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> PressReport:

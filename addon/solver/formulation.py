@@ -3,6 +3,7 @@
 There are four: the patch alone, a patch that is symmetric in itself, a patch joined with the image that a Mirror
 modifier adds, and a cage. `choose_formulation` decides once which one holds; all other code uses its result.
 """
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,16 @@ from ..model.patch import Patch
 from ..model.view import View
 from ..targets import mirror_target
 
+PressSettings = Mapping[str, str | float | bool | None]  # arguments of reflines.smooth_panel by their names
 BORDER_CODES = {"free": 0, "fixed": 1, "clamped": 2}  # codes of a vertex's border
+
+
+@dataclass(frozen=True)
+class Press:
+    """The result of an automatic press of Smooth, as arrays of the patch."""
+    positions: np.ndarray  # #V x 3, world space
+    stray: np.ndarray      # #F, see native.SmoothPanelReport
+    told: "native.SmoothPanelReport"
 
 
 @dataclass(frozen=True)
@@ -31,11 +41,6 @@ class Formulation:
     def choose_directions(self) -> dict[str, np.ndarray]:
         """Returns the directions as arguments of the native constructors."""
         return {"view_direction": self.view.view_direction, "line_direction": self.view.line_direction}
-
-    @property
-    def is_alone(self) -> bool:
-        """True where the solved vertices are those of the patch and no others."""
-        return True
 
     def choose_border(self, border: str) -> str | np.ndarray:
         """Returns the border, or its codes vertex by vertex (#V), as the native module takes it."""
@@ -62,6 +67,22 @@ class Formulation:
         """Reads the residual of the patch's triangles: #F."""
         return optimizer.residual(target)[:len(self.patch.F)]
 
+    def hold_marked_creases(self) -> np.ndarray:
+        """Returns which vertices the automatic press of Smooth holds: #V, bool. The automatic rule would take noise for
+        creases, and the native press keeps by itself what bends.
+        """
+        held = np.zeros(len(self.patch.V), dtype=bool)
+        if self.patch.creases.rule != "none":
+            held[self.patch.creases.marked.ravel()] = True
+        return held
+
+    def press_smooth(self, border: str, settings: PressSettings) -> Press:
+        """Calls the native press of Smooth; raises the native module's errors."""
+        positions, told = native.reflines.smooth_panel(
+            self.patch.V, self.patch.F, **self.choose_directions(), fixed=self.hold_marked_creases(),
+            border=self.choose_border(border), **settings)
+        return Press(positions, told.stray, told)
+
 
 class SymmetricFormulation(Formulation):
     """A patch that is symmetric in itself: the moves of mirror images are averaged."""
@@ -82,10 +103,6 @@ class JoinedFormulation(Formulation):
     def is_symmetric(self) -> bool:
         return True
 
-    @property
-    def is_alone(self) -> bool:
-        return False
-
     def join(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Returns positions (world space), triangles, and mirror images of both halves."""
         local, F, partner = mirror.join_with_image(self.patch.mirror, self.patch.local, self.patch.F)
@@ -99,8 +116,20 @@ class JoinedFormulation(Formulation):
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         V, _, partner = self.join()
-        move, own = optimizer.positions - V, len(self.patch.V)
+        return self.average_images(optimizer.positions - V, partner)
+
+    def average_images(self, move: np.ndarray, partner: np.ndarray) -> np.ndarray:
+        """Returns the patch's positions from the moves of both halves: those of mirror images are averaged."""
+        own = len(self.patch.V)
         return self.patch.V + 0.5 * (move[:own] + move[partner[:own]])
+
+    def press_smooth(self, border: str, settings: PressSettings) -> Press:
+        V, F, partner = self.join()
+        own = self.hold_marked_creases()
+        held = np.append(own, own[partner[len(own):]])
+        positions, told = native.reflines.smooth_panel(V, F, **self.choose_directions(), fixed=held, border=border,
+                                                       **settings)
+        return Press(self.average_images(positions - V, partner), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         sign = mirror.compute_theta_sign(self.patch.mirror, self.patch.matrix, self.view.line_direction)
@@ -115,10 +144,6 @@ class CageFormulation(Formulation):
     def is_symmetric(self) -> bool:
         return self.patch.is_symmetric_for(self.view.view_direction)
 
-    @property
-    def is_alone(self) -> bool:
-        return False
-
     def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.CageOptimizer":
         return native.reflines.CageOptimizer(**self.patch.cage.build_arguments(self.is_symmetric),
                                              **self.choose_directions(), progress=progress, border=border,
@@ -132,9 +157,20 @@ class CageFormulation(Formulation):
         residual, faces = optimizer.residual(target), len(self.patch.cage.sizes)
         squared, area = (np.bincount(optimizer.parent, values, faces)
                          for values in (optimizer.area * residual**2, optimizer.area))
-        mean = np.sqrt(squared / np.maximum(area, 1e-300))
+        return self.spread_to_triangles(np.sqrt(squared / np.maximum(area, 1e-300)))
+
+    def spread_to_triangles(self, values: np.ndarray) -> np.ndarray:
+        """Returns the values of the cage's faces (#faces) for the patch's triangles: #F."""
         own = np.flatnonzero(self.patch.faces)
-        return np.repeat(mean[own], self.patch.cage.sizes[own] - 2)
+        return np.repeat(values[own], self.patch.cage.sizes[own] - 2)
+
+    def press_smooth(self, border: str, settings: PressSettings) -> Press:
+        cage = self.patch.cage
+        arguments = cage.build_arguments(self.is_symmetric)
+        arguments["limit_surface"] = arguments.pop("limit")
+        positions, told = native.reflines.smooth_cage_panel(**arguments, **self.choose_directions(), border=border,
+                                                            **settings)
+        return Press(self.patch.V + (positions - cage.V)[self.patch.index], self.spread_to_triangles(told.stray), told)
 
 
 def choose_formulation(patch: Patch, view: View) -> Formulation:

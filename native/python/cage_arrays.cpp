@@ -26,4 +26,14 @@ SubdivisionOptions subdivision_options(int level, const std::string& scheme, con
           limit};
 }
 
+CageOptions cage_options_of(const std::optional<Mask>& region, const std::string& border,
+                            const std::optional<Mask>& fixed, const std::optional<Indices>& partner) {
+  CageOptions options;
+  if (region) options.region = *region;
+  options.hold = find_named(kBorders, border, "border");
+  if (fixed) options.held = *fixed;
+  if (partner) options.partner = index_vector(*partner);
+  return options;
+}
+
 }  // namespace reflines

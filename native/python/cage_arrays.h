@@ -3,10 +3,12 @@
 
 #include <pybind11/numpy.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "python/index_arrays.h"
+#include "reflines/cage_optimizer.h"
 #include "reflines/subdivision.h"
 #include "reflines/types.h"
 
@@ -24,5 +26,9 @@ struct CageArrays {
 
 Cage cage_of(const CageArrays& arrays, int vertices);
 SubdivisionOptions subdivision_options(int level, const std::string& scheme, const std::string& boundary, bool limit);
+
+// Reads what of a cage may move; the other options keep their defaults.
+CageOptions cage_options_of(const std::optional<Mask>& region, const std::string& border,
+                            const std::optional<Mask>& fixed, const std::optional<Indices>& partner);
 
 }  // namespace reflines

@@ -55,11 +55,7 @@ std::unique_ptr<CageOptimizer> build_optimizer(
     std::shared_ptr<Progress> progress) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
-  CageOptions options;
-  if (region) options.region = *region;
-  options.hold = find_named(kBorders, border, "border");
-  if (fixed) options.held = *fixed;
-  if (partner) options.partner = index_vector(*partner);
+  CageOptions options = cage_options_of(region, border, fixed, partner);
   options.subdivision = subdivision_options(level, scheme, boundary, limit);
   options.sparse = sparse;
   options.shape.stencil = find_named(kStencils, stencil, "stencil");

@@ -161,13 +161,14 @@ class SmoothPanelReport:
     solve: Report              # of the last solve
     length: float              # the size of the flaws that was used
     limit: float               # no vertex moved further than this
-    largest_move: float        # along the view direction
+    largest_move: float        # of the surface along the view direction
+    largest_control_move: float  # of the vertices: those of a cage move further than its surface
     limited: int               # vertices that the limit holds back
     bumps: int                 # round dents and bumps that were taken away
     mirrored: int              # vertices of a symmetric panel; 0: it is not symmetric
     held_faces: int            # triangles that would have turned by more than 45 degrees and were held instead
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
-    unevenness_after: list[float]   # length, degrees, root mean square; the creases are those of the start in both
+    unevenness_after: list[float]   # length, degrees, root mean square; creases are those of both shapes
     stray: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,
                                # radians / length; by area its root mean square is the first unevenness over the length
     region: Region             # of the panel as it came
@@ -187,6 +188,21 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
     automatic rules. Returns the positions (#V x 3; vertices that did not move carry the bits they came with) and a report.
 
     Raises InvalidInput, SolverFailure, and Cancelled where `progress` was cancelled."""
+
+def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
+                      view_direction: Sequence[float], line_direction: Sequence[float],
+                      region: np.ndarray | None = None, border: Border = "clamped", fixed: np.ndarray | None = None,
+                      partner: np.ndarray | None = None, level: int = 2, scheme: Scheme = "catmull_clark",
+                      boundary: Boundary = "all", creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
+                      corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,
+                      limit_surface: bool = True,          # Subdivision's `limit`
+                      lights: Literal["crossed", "single"] = "crossed", length: float | None = None,
+                      strength: float = 1.0,
+                      limit: float | None = None,          # largest move along the view, of the cage and so of its surface
+                      symmetric: bool = True,
+                      progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
+    """Does what smooth_panel does for the cage of a subdivision surface: flaws are looked for in the surface, and the cage's
+    vertices move. The arguments are those of CageOptimizer and smooth_panel. Returns the cage's positions (#V x 3)."""
 
 class CageOptimizer(ShapeOptimizer):
     """The optimizer of a region of a subdivision surface whose unknowns are the heights of its cage; see

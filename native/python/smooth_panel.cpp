@@ -9,6 +9,7 @@
 
 #include "python/bind.h"
 #include "python/border_codes.h"
+#include "python/cage_arrays.h"
 #include "python/gil_handover.h"
 #include "python/index_arrays.h"
 #include "python/option_names.h"
@@ -20,33 +21,62 @@ namespace {
 
 const std::map<std::string, Lights> kLights = {{"crossed", Lights::kCrossed}, {"single", Lights::kSingle}};
 
-// A length that was given must be positive: 0 is the C++ options' word for automatic.
+// Refuses a given length that is not positive: in the C++ options 0 means automatic.
 double given(const std::optional<double>& length, const char* name) {
   if (length && !(*length > 0))
     throw InvalidInput(std::string(name) + " must be a positive length, or None for automatic.");
   return length.value_or(0.0);
 }
 
-py::tuple smooth(const Positions& V, const Indices& F, const Vector3& view_direction, const Vector3& line_direction,
-                 const Codes& border, const std::optional<Mask>& fixed, const std::string& lights,
-                 const std::optional<double>& length, double strength, const std::optional<double>& limit,
-                 bool symmetric, std::shared_ptr<Progress> progress) {
+SmoothPanelOptions options_of(const std::string& lights, const std::optional<double>& length, double strength,
+                              const std::optional<double>& limit, bool symmetric, std::shared_ptr<Progress> progress) {
   SmoothPanelOptions options;
-  options.border = border_codes(border, V.rows());
-  if (fixed) options.held = *fixed;
   options.lights = find_named(kLights, lights, "choice of lights");
   options.length = given(length, "The length");
   options.strength = strength;
   options.limit = given(limit, "The limit");
   options.symmetric = symmetric;
   options.progress = std::move(progress);
-  const Triangles triangles = triangles_of(F);
+  return options;
+}
+
+// Runs a press without the GIL and returns positions and report.
+template <typename Press>
+py::tuple run_unlocked(const Press& press) {
   SmoothPanelResult result;
   {
     const ReleaseGil release;
-    result = smooth_panel(V, triangles, view_direction, line_direction, options);
+    result = press();
   }
   return py::make_tuple(std::move(result.positions), std::move(result.report));
+}
+
+py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
+                      const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
+                      const std::string& lights, const std::optional<double>& length, double strength,
+                      const std::optional<double>& limit, bool symmetric, std::shared_ptr<Progress> progress) {
+  SmoothPanelOptions options = options_of(lights, length, strength, limit, symmetric, std::move(progress));
+  options.border = border_codes(border, V.rows());
+  if (fixed) options.held = *fixed;
+  const Triangles triangles = triangles_of(F);
+  return run_unlocked([&] { return smooth_panel(V, triangles, view_direction, line_direction, options); });
+}
+
+py::tuple smooth_cage(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
+                      const Vector3& view_direction, const Vector3& line_direction, const std::optional<Mask>& region,
+                      const std::string& border, const std::optional<Mask>& fixed,
+                      const std::optional<Indices>& partner, int level, const std::string& scheme,
+                      const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness,
+                      const Indices& corners, const Numbers& corner_sharpness, bool limit_surface,
+                      const std::string& lights, const std::optional<double>& length, double strength,
+                      const std::optional<double>& limit, bool symmetric, std::shared_ptr<Progress> progress) {
+  const SmoothPanelOptions options = options_of(lights, length, strength, limit, symmetric, std::move(progress));
+  const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
+                            static_cast<int>(V.rows()));
+  CageOptions cage_options = cage_options_of(region, border, fixed, partner);
+  cage_options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
+  return run_unlocked(
+      [&] { return smooth_cage_panel(cage, V, view_direction, line_direction, cage_options, options); });
 }
 
 }  // namespace
@@ -59,6 +89,7 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("length", &Told::length)
       .def_readonly("limit", &Told::limit)
       .def_readonly("largest_move", &Told::largest_move)
+      .def_readonly("largest_control_move", &Told::largest_control_move)
       .def_readonly("limited", &Told::limited)
       .def_readonly("bumps", &Told::bumps)
       .def_readonly("mirrored", &Told::mirrored)
@@ -69,8 +100,18 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("region", &Told::region)
       .def_readonly("applied", &Told::applied)
       .def_readonly("messages", &Told::messages);
-  module.def("smooth_panel", &smooth, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
+  module.def("smooth_panel", &smooth_mesh, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
              py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
+             py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("strength") = defaults.strength,
+             py::arg("limit") = py::none(), py::arg("symmetric") = defaults.symmetric,
+             py::arg("progress") = py::none());
+  const SubdivisionOptions subdivision;
+  module.def("smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
+             py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),
+             py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
+             py::arg("level") = subdivision.level, py::arg("scheme") = "catmull_clark", py::arg("boundary") = "all",
+             py::arg("creases") = Indices(), py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
+             py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
              py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("strength") = defaults.strength,
              py::arg("limit") = py::none(), py::arg("symmetric") = defaults.symmetric,
              py::arg("progress") = py::none());

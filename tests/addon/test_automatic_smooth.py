@@ -179,3 +179,48 @@ def test_a_length_and_along_the_lines_do_not_ask_the_native_function(monkeypatch
     assert scenes.smooth(length=0.5) == {'FINISHED'}
     assert scenes.smooth(directional=True) == {'FINISHED'}
     assert ob.reflection_lines.report.termination == "converged"
+
+
+def half_of_a_dented_bonnet() -> bpy.types.Object:
+    """x from 0 to 1 with its image by a Mirror modifier, and a dent across the seam."""
+    ob = scenes.panel("Half", lambda x, y: 0.0, cells=CELLS)
+    for vertex in ob.data.vertices:
+        x, y = 0.5 * (vertex.co.x + 1.0), vertex.co.y
+        vertex.co = (x, y, bonnet(x, y) - 0.004 * np.exp(-(x**2 + (y - 0.2)**2) / 0.1**2))
+    ob.modifiers.new("Mirror", 'MIRROR')
+    scenes.look_from_above()
+    bpy.ops.reflines.add_light_direction(direction=(1.0, 0.0, 0.0))  # as symmetric as the view
+    scenes.edit(ob)
+    scenes.select_faces(ob, lambda face: face % CELLS < CELLS - 1 and 0 < face // CELLS < CELLS - 1)
+    return ob
+
+
+def test_a_half_is_healed_with_its_image() -> None:
+    ob = half_of_a_dented_bonnet()
+    before = scenes.positions(ob)
+    assert scenes.smooth() == {'FINISHED'}
+    after = scenes.positions(ob)
+    seam = before[:, 0] == 0.0
+    clean = np.array([bonnet(*vertex[:2]) for vertex in before])
+    assert (after[seam, 0] == 0.0).all()
+    assert np.abs(after[:, 2] - clean).max() < 0.35 * np.abs(before[:, 2] - clean).max()
+
+
+def test_a_cage_gets_what_the_native_function_gives() -> None:
+    ob = scenes.panel(height=lambda x, y: scenes.crown(x, y) + 0.004 * np.cos(17.0 * x) * np.cos(13.0 * y), cells=12)
+    ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+    scenes.look_from_above()
+    scenes.edit_inner(ob, 12)
+    before = scenes.positions(ob)
+    assert scenes.smooth() == {'FINISHED'}
+    last, report = solve_history.find_last_solve(ob.name), ob.reflection_lines.report
+    cage, scene = last.patch.cage, bpy.context.scene.reflection_lines
+    arguments = cage.build_arguments(symmetric=False)
+    arguments["limit_surface"] = arguments.pop("limit")
+    positions, told = native.reflines.smooth_cage_panel(
+        **arguments, view_direction=unit_axis(scene.camera), line_direction=unit_axis(scene.light))
+    assert told.applied and np.abs(positions - cage.V).max() > 1e-4
+    assert np.array_equal(scenes.positions(ob), positions.astype(np.float32))
+    assert report.largest_move == pytest.approx(told.largest_move, rel=1e-4)
+    assert np.abs(scenes.positions(ob) - before)[:, 2].max() > report.largest_move
+    assert last.residual.shape == (len(last.patch.F),) and last.residual.max() > 0

@@ -219,7 +219,7 @@ def test_a_cancelled_press_raises(bonnet: tuple[np.ndarray, np.ndarray]) -> None
 
 @pytest.mark.skipif(not JUDGE.is_file(), reason="the judge's panels are not here")
 def test_real_panels_are_restored() -> None:
-    """Medians of four real panels: 0.16 / 0.18 degrees harm, 0.24 of dents, 0.43 of ripple, 0.46 of noise left."""
+    """Medians of four real panels: 0.17 / 0.18 degrees harm, 0.24 of dents, 0.36 of ripple, 0.39 of noise left."""
     spec = importlib.util.spec_from_file_location("restoration", JUDGE)
     judge = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(judge)
@@ -228,6 +228,7 @@ def test_real_panels_are_restored() -> None:
     results = [judge.judge(panels[name], judge.present) for name in names]
     harm = np.array([result["harm"] for result in results])
     assert harm.max() < 0.6 and np.median(harm, axis=0).max() < 0.3
-    for kind, most in (("dents", 0.4), ("ripple", 0.5), ("noise", 0.5)):
-        assert np.median([result[kind] for result in results], axis=0).max() < most, kind
+    for kind in ("dents", "ripple", "noise"):
+        own, crossed = np.median([result[kind] for result in results], axis=0)
+        assert own < 0.4 and crossed < 0.5, kind
     assert max(result["move"] for result in results) < 0.05

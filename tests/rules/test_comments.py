@@ -12,10 +12,6 @@ CPP_ROOMS = ("native/include/", "native/src/", "native/python/", "native/example
 PYTHON_ROOMS = ("addon/bridge/", "addon/model/", "addon/targets/", "addon/solver/", "addon/state/",
                 "addon/interactive/", "addon/native.py", "addon/library_copy.py", "native/python/reflines.pyi")
 
-# Their comments are rewritten with their code.
-LATER = ("native/src/restoration/", "native/include/reflines/smooth_panel.h", "native/python/smooth_panel.cpp",
-         "addon/solver/automatic_smooth.py")
-
 # A sentence that begins so has no subject: "Of one worker thread.", "Whether it holds.".
 FRAGMENT = re.compile(r"(Of|For|Whether|What|Who|Where|How|Those|That|By|From|Within|At|As|Like|Likewise|Also|So|Not|"
                       r"All|Unlike|Then|Else|The same)\b")
@@ -50,8 +46,7 @@ def blocks(text: str) -> Iterator[tuple[int, str, str]]:
 
 
 def rooms(prefixes: tuple[str, ...], *suffixes: str) -> list[Path]:
-    return [file for file in files() if file.as_posix().startswith(prefixes) and file.suffix in suffixes
-            and not file.as_posix().startswith(LATER)]
+    return [file for file in files() if file.as_posix().startswith(prefixes) and file.suffix in suffixes]
 
 
 def judge_block(text: str, code: str) -> str:

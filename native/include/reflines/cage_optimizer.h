@@ -45,9 +45,10 @@ class CageOptimizer {
   Positions cage_positions() const;  // #V x 3; vertices that did not move carry the bits they came with
   Mask cage_free() const;            // #V
 
-  const Triangles& triangles() const;  // #F x 3 of the region's vertices
-  const IndexVector& parent() const;   // #F: the cage's face
-  const IndexVector& refined() const;  // #region vertices: number among all refined ones
+  const Triangles& triangles() const;     // #F x 3 of the region's vertices
+  const IndexVector& parent() const;      // #F: the cage's face
+  const IndexVector& refined() const;     // #region vertices: number among all refined ones
+  const SparseMatrix& influence() const;  // #region vertices x #V: the subdivision matrix; rows sum to 1, none is < 0
 
   // Moves the cage so that its surface is nearest to these heights along the view (#region vertices) by least squares;
   // `weight` (#region vertices) is the area of each height, 0 where there is none. Until a reset, solves are pulled to

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reflines/cage_optimizer.h"
 #include "reflines/progress.h"
 #include "reflines/report.h"
 #include "reflines/shape_optimizer.h"
@@ -29,22 +30,25 @@ struct SmoothPanelOptions {
 };
 
 struct SmoothPanelReport {
-  Report solve;                      // of the last solve
-  double length = 0.0, limit = 0.0;  // those used
-  double largest_move = 0.0;         // along the view, in units of V
-  int limited = 0;                   // vertices that the limit holds back
-  int bumps = 0;                     // round dents and bumps that were taken away
-  int mirrored = 0;                  // vertices of a symmetric panel; 0: it is not symmetric
-  int held_faces = 0;                // triangles that would have turned by more than 45 degrees and were held instead
+  Report solve;                       // of the last solve
+  double length = 0.0, limit = 0.0;   // those used
+  double largest_move = 0.0;          // of the surface along the view, in units of V
+  double largest_control_move = 0.0;  // of the vertices: for a cage more than its surface moves
+  int limited = 0;                    // vertices that the limit holds back
+  int bumps = 0;                      // round dents and bumps that were taken away
+  int mirrored = 0;                   // vertices of a symmetric panel; 0: it is not symmetric
+  int held_faces = 0;                 // triangles that would have turned by more than 45 degrees and were held instead
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
-  Vector stray;   // #F: how far the field of the light given is from its smoothed self in the result, radians / length
+  Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
+                  // result, radians / length
   Region region;  // of the shape at the start
   bool applied = true;                // false: some light would have become worse, and nothing was moved
   std::vector<std::string> messages;  // sentences for the user, the most important first
 };
 
 struct SmoothPanelResult {
-  Positions positions;  // #V x 3; vertices that did not move carry the bits they came with
+  Positions
+      positions;  // #V x 3, of the cage where there is one; vertices that did not move carry the bits they came with
   SmoothPanelReport report;
 };
 
@@ -56,9 +60,16 @@ struct SmoothPanelResult {
 //     for, within the limit; where its rims make a light's lines less even, all moves are scaled down to it instead.
 // A result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far the
 // lines stray from their smoothed selves within one length, in degrees, root mean square over the region; the creases
-// are those of the start before and after. Where it rises in a light by more than 1 %, nothing is applied. Throws
-// InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
+// are those that start and result have in common. Where it rises in a light by more than 1 %, nothing is applied.
+// Throws InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options = {});
+
+// Takes flaws out of a subdivision surface with the cage V (#V x 3): they are looked for in the surface, and the cage's
+// vertices move. `cage_options` say what is held; the options' border and held are not read. The limit holds for the
+// cage's vertices and so for the surface, which lies in their convex hull.
+SmoothPanelResult smooth_cage_panel(const Cage& cage, const Positions& V, const Vector3& view_direction,
+                                    const Vector3& line_direction, const CageOptions& cage_options,
+                                    const SmoothPanelOptions& options = {});
 
 }  // namespace reflines

@@ -12,15 +12,15 @@
 namespace reflines {
 namespace {
 
-// Of the length. A bump narrower than the smallest is no wider than the mesh's own facets; one wider than the largest
-// is as long as the curves of a design. One flatter than the least is not seen, one deeper than the greatest is a
-// feature.
+// Bounds relative to the length. A bump narrower than the smallest is no wider than the mesh's own facets; one wider
+// than the largest is as long as the curves of a design. One flatter than the least is not seen, one deeper than the
+// greatest is a feature.
 constexpr double kSmallestRadius = 0.25, kLargestRadius = 0.63;
 constexpr double kLeastHeight = 7e-4, kGreatestHeight = 0.028;
 
-// Up to this share of the length the Hessians are smoothed before bumps are looked for: of 0.6 and 0.9 the first finds
-// more dents, and less of the mesh is taken for bumps than without. Creases of ten median jumps are kept, so that
-// fillets are not smeared over the dents beside them.
+// Length, relative to that of the flaws, up to which the Hessians are smoothed before bumps are looked for: of 0.6 and
+// 0.9 the first finds more dents, and less of the mesh is taken for bumps than without. Creases of ten median jumps are
+// kept, so that fillets are not smeared over the dents beside them.
 constexpr double kPresmoothed = 0.6;
 constexpr SmootherOptions kPresmoother = {.crease_jump = 10.0, .rounds = 4};
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "restoration/flaw_weight.h"
+#include "restoration/weighted_median.h"
 
 namespace reflines {
 namespace {
@@ -65,7 +65,7 @@ class DiskIndex {
   std::map<std::pair<int, int>, std::vector<int>> cells_;
 };
 
-// What the surface in one disk looks like in units of the radius.
+// The surface in one disk, in units of the radius.
 struct Disk {
   Rows3 background, bump, surface;  // rows: 1, x, y; the bump's Hessian at height 1; the surface's
   Vector area, radius;
@@ -97,7 +97,7 @@ Disk read_disk(const HessianSamples& samples, const std::vector<int>& members, c
   return disk;
 }
 
-// A weighted least-squares fit of background and bump; the misfit of each sample into `misfit`.
+// Fits background and bump by weighted least squares; `misfit` gets that of each sample.
 Bump fit_bump(const Disk& disk, const Vector& weight, Vector& misfit) {
   const Eigen::Matrix3d normal = disk.background.transpose() * weight.asDiagonal() * disk.background;
   const Eigen::LDLT<Eigen::Matrix3d> solve(normal + 1e-12 * normal.trace() * Eigen::Matrix3d::Identity());
@@ -112,8 +112,8 @@ Bump fit_bump(const Disk& disk, const Vector& weight, Vector& misfit) {
   return {{}, 0.0, height, height * height * own / std::max(all, 1e-300)};
 }
 
-// The plain fit, or the robust one where that explains more of a disk that is good surface for the most part: a feature
-// that crosses the disk's rim then does not count.
+// Returns the plain fit, or the robust one where that explains more of a disk that is good surface for the most part: a
+// feature that crosses the disk's rim then does not count.
 Bump measure_bump(const Disk& disk) {
   Vector misfit, weight = disk.area;
   const Bump plain = fit_bump(disk, weight, misfit);
@@ -129,7 +129,7 @@ Bump measure_bump(const Disk& disk) {
   return good && robust.explained > plain.explained ? robust : plain;
 }
 
-// explained = 0 where the disk cannot be judged.
+// Fits a bump at p; its `explained` is 0 where the disk cannot be judged.
 Bump measure_at(const HessianSamples& samples, const DiskIndex& index, const Vector2& p, double radius) {
   const std::vector<int> members = index.gather(p, kReach * radius);
   Bump result{p, radius, 0.0, 0.0};
@@ -142,7 +142,7 @@ Bump measure_at(const HessianSamples& samples, const DiskIndex& index, const Vec
   return result;
 }
 
-// The best of neighbouring centres and radii, twice with a halved step.
+// Searches the neighbouring centres and radii for the best, twice with a halved step.
 Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSearchOptions& options, Bump best) {
   for (const double step : {0.3, 0.15}) {
     const Bump from = best;
@@ -157,7 +157,7 @@ Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSea
   return best;
 }
 
-// One seed a cell of a grid, the first of each.
+// Keeps one seed a cell of a grid, the first of each.
 PlanePositions thin(const PlanePositions& seeds, double spacing) {
   std::map<std::pair<int, int>, int> first;
   for (int s = 0; s < seeds.rows(); ++s) {

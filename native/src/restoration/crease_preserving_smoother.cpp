@@ -6,6 +6,7 @@
 
 #include "geometry/mesh.h"
 #include "optimization/linear/linear_solver.h"
+#include "restoration/weighted_median.h"
 
 namespace reflines {
 namespace {
@@ -25,13 +26,6 @@ Eigen::Matrix<double, 3, 2> barycentric_gradients(const PlanePositions& xy, cons
   return result;
 }
 
-double median(Vector values) {
-  if (values.size() == 0) return 0.0;
-  double* middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  return *middle;
-}
-
 int entry_index(const SparseMatrix& A, int i, int j) {
   const int row = std::max(i, j), column = std::min(i, j);
   const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
@@ -49,6 +43,9 @@ CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, con
     for (int i = 0; i < 3; ++i) corner_(F(t, i)) += kCornerWeight * area(t) / 3.0;
   }
   add_edges(xy, F, area);
+  edge_size_.resize(static_cast<Eigen::Index>(edges_.size()));
+  for (size_t e = 0; e < edges_.size(); ++e)
+    edge_size_(static_cast<Eigen::Index>(e)) = std::sqrt(edges_[e].weight) * edges_[e].distance;
   build_pattern(static_cast<int>(xy.rows()));
 }
 
@@ -182,7 +179,7 @@ TriangleFields CreasePreservingSmoother::smooth(const TriangleFields& g, Progres
     if (progress) progress->enter(static_cast<double>(round) / options_.rounds, "smoothing the lines");
     if (round > 0) {
       const Vector jump = measure_jumps(U);
-      const double scale = options_.crease_jump * median(jump) + 1e-300;
+      const double scale = options_.crease_jump * weighted_median(jump, edge_size_) + 1e-300;
       trust = ((1.0 + (jump.array() / scale).square()).square().inverse() + kLeastTrust).matrix();
     }
     U = system.solve(trust, rhs);

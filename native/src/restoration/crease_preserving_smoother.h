@@ -20,8 +20,12 @@ using TriangleFields = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 // along a line (a fillet's edge, a character line), the jumps are many times the median; their weight w_e falls to
 // nothing, and the field is smoothed on both sides of the line but not across it.
 struct SmootherOptions {
-  double crease_jump;  // times the median: jumps of this size have a quarter of the full weight
-  int rounds;          // of reweighting; the weights settle to 2 % within six
+  // Times the median jump, to which each edge counts by the square root of its triangles' area: jumps of this size have
+  // a quarter of the full weight. Were edges only counted, features, which have most of them, would set the scale: the
+  // harm to 26 clean panels was 0.20 / 0.21 degrees in the median instead of 0.18 / 0.17 with the same jump of 2. By
+  // the area itself it is 0.17 / 0.16, but less of ripples and dents goes.
+  double crease_jump;
+  int rounds;  // of reweighting; the weights settle to 2 % within six
 };
 
 class CreasePreservingSmoother {
@@ -30,11 +34,11 @@ class CreasePreservingSmoother {
   CreasePreservingSmoother(const PlanePositions& xy, const Triangles& F, const Vector& area, double length,
                            const SmootherOptions& options);
 
-  // The smoothed field (#F x m) of g (#F x m): means of U over triangles, g itself where the area is 0. The last
+  // Smooths g (#F x m). Returns means (#F x m) of U over triangles, g itself where the area is 0. The last
   // weights w_e (#inner edges) are put into `creases` where it is not null. `progress` may be null; throws Cancelled.
   TriangleFields smooth(const TriangleFields& g, Progress* progress, Vector* creases = nullptr) const;
 
-  // The same in one step, with weights that an earlier smoothing found.
+  // Smooths g in one step, with weights that an earlier smoothing found.
   TriangleFields smooth_with(const Vector& creases, const TriangleFields& g) const;
 
  private:
@@ -58,7 +62,8 @@ class CreasePreservingSmoother {
   Triangles F_;
   Vector area_, corner_;  // #F; #V: what keeps vertices without data and isolated triangles determined
   std::vector<Edge> edges_;
-  SparseMatrix pattern_;                              // lower triangle, values zero
+  Vector edge_size_;      // #inner edges: proportional to the square root of the area of their two triangles
+  SparseMatrix pattern_;  // lower triangle, values zero
   std::vector<int> triangle_entries_, edge_entries_;  // where their products add up in the values
 };
 

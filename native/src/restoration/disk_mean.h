@@ -14,7 +14,7 @@ class DiskMean {
   // Points p (#P x 2) and how much each counts (#P, >= 0); keeps no reference to them.
   DiskMean(PlanePositions points, Vector weight, double radius);
 
-  // #P: the mean of `values` (#P) around each point; the value itself where nothing around it counts.
+  // Returns the mean of `values` (#P) around each point (#P); the value itself where nothing around it counts.
   Vector of(const Vector& values) const;
 
  private:

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <utility>
-#include <vector>
 
 #include "restoration/disk_mean.h"
+#include "restoration/weighted_median.h"
 
 namespace reflines {
 namespace {
@@ -16,8 +14,8 @@ namespace {
 // 0.13, 0.15, 0.17, 0.21 degrees in the median.
 constexpr double kShallow = 0.35;
 
-// So are changes up to this many times the region's median. Of 3, 4, 5 and 6: 0.65, 0.57, 0.55, 0.53 left of noise, and
-// no more harm.
+// Changes up to this many times the region's median are taken for flaws, too. Of 3, 4, 5 and 6: 0.65, 0.57, 0.55, 0.53
+// left of noise, and no more harm.
 constexpr double kTypical = 5.0;
 
 // Radians over the length: a typical change beyond it is no noise. Vertex noise of 1 % of an edge makes 0.1 to 0.6,
@@ -25,26 +23,13 @@ constexpr double kTypical = 5.0;
 // nothing, and without this bound such selections were changed by 5 degrees.
 constexpr double kFeaturesAllOver = 1.1;
 
-// Of the length: over which changes are averaged, so that noise does not decide by itself what is noise.
+// Radius, relative to the length, over which changes are averaged, so that noise does not decide by itself what is
+// noise.
 constexpr double kAveraged = 0.28;
 
 double geman_mcclure(double x) { return 1.0 / ((1.0 + x * x) * (1.0 + x * x)); }
 
 }  // namespace
-
-double weighted_median(const Vector& values, const Vector& weight) {
-  std::vector<int> order(values.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return std::pair(values(i), i) < std::pair(values(j), j); });
-  const double half = 0.5 * weight.sum();
-  double below = 0;
-  for (const int k : order) {
-    below += weight(k);
-    if (below >= half) return values(k);
-  }
-  return values(order.back());
-}
 
 Vector flaw_weight(const TriangleFields& change, const PlanePositions& centers, const Vector& area, double length) {
   const DiskMean mean(centers, area, kAveraged * length);

@@ -68,6 +68,8 @@ const IndexVector& CageOptimizer::parent() const { return cage_surface_->parent;
 
 const IndexVector& CageOptimizer::refined() const { return cage_surface_->refined; }
 
+const SparseMatrix& CageOptimizer::influence() const { return cage_surface_->S; }
+
 Mask CageOptimizer::cage_free() const {
   Mask result = Mask::Constant(V_.rows(), false);
   for (const int k : surface().free_unknowns()) {

@@ -1,0 +1,66 @@
+#include "restoration/controlled_surface.h"
+
+#include <utility>
+
+namespace reflines {
+namespace {
+
+constexpr int kMostLimited = 20000;  // free vertices; see can_limit
+
+}  // namespace
+
+MeshSurface::MeshSurface(const Positions& V, const Triangles& F, const Vector3& view, std::vector<Vector3> families,
+                         ShapeOptions shape)
+    : V_(V), F_(F), view_(view), families_(std::move(families)), shape_(std::move(shape)) {
+  build();
+}
+
+void MeshSurface::build() { optimizer_ = std::make_unique<ShapeOptimizer>(V_, F_, view_, families_, shape_); }
+
+Vector MeshSurface::control_move() const {
+  const ImagePlane& frame = optimizer_->frame();
+  return frame.heights(optimizer_->positions()) - frame.heights(V_);
+}
+
+bool MeshSurface::can_limit() const { return optimizer_->region().free <= kMostLimited; }
+
+void MeshSurface::hold(const Mask& vertices) {
+  shape_.held = shape_.held.size() > 0 ? Mask(shape_.held || vertices) : vertices;
+  build();
+}
+
+CageControlledSurface::CageControlledSurface(Cage cage, const Positions& V, const Vector3& view,
+                                             std::vector<Vector3> families, CageOptions options)
+    : cage_(std::move(cage)), V_(V), view_(view), families_(std::move(families)), options_(std::move(options)) {
+  build();
+  surface_ = optimizer_->surface().positions();
+}
+
+void CageControlledSurface::build() {
+  optimizer_ = std::make_unique<CageOptimizer>(cage_, V_, view_, families_, options_);
+}
+
+Vector CageControlledSurface::control_move() const {
+  const ImagePlane& frame = optimizer_->surface().frame();
+  return frame.heights(optimizer_->cage_positions()) - frame.heights(V_);
+}
+
+Vector CageControlledSurface::gather_faces(const Vector& values) const {
+  const IndexVector& parent = optimizer_->parent();
+  const Vector area = optimizer_->surface().area();
+  Vector squares = Vector::Zero(cage_.face_offsets.size() - 1), areas = squares;
+  for (Eigen::Index t = 0; t < values.size(); ++t) {
+    squares(parent(t)) += area(t) * values(t) * values(t);
+    areas(parent(t)) += area(t);
+  }
+  return (squares.array() / areas.array().max(1e-300)).sqrt();
+}
+
+void CageControlledSurface::hold(const Mask& vertices) {
+  const Vector influence = optimizer_->influence().transpose() * vertices.cast<double>().matrix();
+  const Mask controls = influence.array() > 0;
+  options_.held = options_.held.size() > 0 ? Mask(options_.held || controls) : controls;
+  build();
+}
+
+}  // namespace reflines

@@ -1,0 +1,59 @@
+// The steps of one press of Smooth, for meshes and cages alike: see smooth_panel.h.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reflines/smooth_panel.h"
+#include "restoration/controlled_surface.h"
+#include "restoration/crease_preserving_smoother.h"
+
+namespace reflines {
+
+// Weight of staying near the start (see Energy): the lines hardly see a shape that is as long as the panel, and this
+// keeps it where it is. Of 0, 1e5, 1e6, 1e7, with the lines of the clean panel as target: 0, 0.4, 4 and 30 % left of
+// dents, and less harm the higher. A cage has few unknowns, which drift less, and each lifts much surface: of 1e6, 1e5
+// and 1e4, 0.61, 0.50 and 0.48 left of noise in the cage of a roof, and no clean cage moves by more than 0.7 mm.
+inline constexpr double kMeshProximity = 1e6, kCageProximity = 1e4;
+
+class Restoration {
+ public:
+  // Keeps references to both until it is destroyed.
+  Restoration(ControlledSurface& surface, const SmoothPanelOptions& options);
+
+  // Finds the flaws and solves for the shape without them. Positions (#C x 3) are those of the control vertices.
+  SmoothPanelResult run();
+
+ private:
+  Progress* progress() const { return options_.progress.get(); }
+  Vector restore();
+  void solve(const std::vector<Target>& targets, const MoveLimit& limit);
+  Vector restore_within_limit(const std::vector<Target>& targets);
+  Vector scale_to_limit() const;
+  Vector use_symmetry(const Vector& z);
+  Vector remove_all_bumps(Vector z);
+  std::vector<Target> plan(const Vector& z);
+  Vector average_partners(const Vector& move) const;
+  TriangleFields read_fields(const Vector& z);
+  Positions lift(const Positions& V, const Vector& move) const;
+  // Vertices of triangles that the move turns by more than 45 degrees, and the number of these triangles.
+  Mask find_turned(const Vector& move, int& count) const;
+  std::vector<double> measure_unevenness(const Vector& z, const Vector& creases, Vector& stray);
+  void measure_result(const Vector& move);
+  int find_worse_light() const;
+  SmoothPanelResult judge(const Vector& move);
+  void tell();
+
+  ControlledSurface& surface_;
+  const SmoothPanelOptions& options_;
+  ImagePlane frame_;
+  Vector start_;  // #V, heights of the surface as its optimizer has them
+  SmoothPanelReport report_;
+  CreasePreservingSmoother smoother_;
+  Vector creases_;       // weights of the inner edges, of the start
+  IndexVector partner_;  // #C, see MirrorEvidence; empty: no symmetry
+  Vector unlimited_;     // #C, the move of the last solve
+  Vector stray_before_;  // SmoothPanelReport::stray of the start
+};
+
+}  // namespace reflines
