@@ -58,7 +58,6 @@ BumpRemoval remove_bumps(const HeightField& field, double length, Progress* prog
       find_bumps(read_hessians(field, kPresmoothed * length, progress), free_vertices(field), options, progress);
   BumpRemoval result{Vector::Zero(field.vertex_count()), static_cast<int>(bumps.size())};
   for (int v = 0; v < field.vertex_count(); ++v) {
-    if (field.role[v] != VertexRole::kFree) continue;
     for (const Bump& bump : bumps) {
       const double distance = (field.xy.row(v).transpose() - bump.center).squaredNorm();
       result.move(v) -= bump.height * std::exp(-distance / (bump.radius * bump.radius));

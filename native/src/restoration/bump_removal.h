@@ -8,7 +8,7 @@
 namespace reflines {
 
 struct BumpRemoval {
-  Vector move;    // #V of the field, along the view: what takes the bumps away, 0 at vertices that are not free
+  Vector move;    // #V of the field, along the view, that takes the bumps away; of held vertices, too
   int count = 0;  // of the bumps
 };
 

@@ -12,6 +12,7 @@ namespace reflines {
 namespace {
 
 constexpr double kLeastTrust = 1e-6;
+constexpr int kWarmRounds = 3;          // from weights of a field that is nearly the same
 constexpr double kCornerWeight = 1e-4;  // see LineSmoother: undetermined corners of triangles that hang on one vertex
 
 constexpr int kTriangleProducts = 6, kEdgeProducts = 10;  // of the lower triangles of 3 x 3 and 4 x 4 matrices
@@ -35,6 +36,30 @@ int entry_index(const SparseMatrix& A, int i, int j) {
 
 }  // namespace
 
+// The linear system: its pattern is analyzed once, and its weights are factored for each solve.
+class CreasePreservingSmoother::System {
+ public:
+  explicit System(const CreasePreservingSmoother& owner) : owner_(owner), solver_(LinearSolverKind::kCholmod) {
+    solver_.analyze(owner.pattern_);
+  }
+  TriangleFields solve(const Vector& trust, const TriangleFields& rhs) {
+    owner_.assemble(trust, A_);
+    solver_.factorize(A_);
+    TriangleFields U = rhs;
+    for (Eigen::Index k = 0; k < rhs.cols(); ++k) {
+      Vector x = rhs.col(k);
+      solver_.solve(x);
+      U.col(k) = x;
+    }
+    return U;
+  }
+
+ private:
+  const CreasePreservingSmoother& owner_;
+  LinearSolver solver_;
+  SparseMatrix A_;
+};
+
 CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, const Triangles& F, const Vector& area,
                                                    double length, const SmootherOptions& options)
     : stiffness_(std::pow(length / (2 * std::numbers::pi), 4)), options_(options), F_(F), area_(area) {
@@ -47,7 +72,10 @@ CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, con
   for (size_t e = 0; e < edges_.size(); ++e)
     edge_size_(static_cast<Eigen::Index>(e)) = std::sqrt(edges_[e].weight) * edges_[e].distance;
   build_pattern(static_cast<int>(xy.rows()));
+  system_ = std::make_unique<System>(*this);
 }
+
+CreasePreservingSmoother::~CreasePreservingSmoother() = default;
 
 void CreasePreservingSmoother::add_edges(const PlanePositions& xy, const Triangles& F, const Vector& area) {
   const Triangles neighbors = edge_neighbors(F);
@@ -138,30 +166,6 @@ TriangleFields CreasePreservingSmoother::right_hand_side(const TriangleFields& g
   return result;
 }
 
-// The factored system of one set of weights.
-class CreasePreservingSmoother::System {
- public:
-  explicit System(const CreasePreservingSmoother& owner) : owner_(owner), solver_(LinearSolverKind::kCholmod) {
-    solver_.analyze(owner.pattern_);
-  }
-  TriangleFields solve(const Vector& trust, const TriangleFields& rhs) {
-    owner_.assemble(trust, A_);
-    solver_.factorize(A_);
-    TriangleFields U = rhs;
-    for (Eigen::Index k = 0; k < rhs.cols(); ++k) {
-      Vector x = rhs.col(k);
-      solver_.solve(x);
-      U.col(k) = x;
-    }
-    return U;
-  }
-
- private:
-  const CreasePreservingSmoother& owner_;
-  LinearSolver solver_;
-  SparseMatrix A_;
-};
-
 TriangleFields CreasePreservingSmoother::mean_over_triangles(const TriangleFields& U, const TriangleFields& g) const {
   TriangleFields result = g;
   for (int t = 0; t < F_.rows(); ++t) {
@@ -171,25 +175,26 @@ TriangleFields CreasePreservingSmoother::mean_over_triangles(const TriangleField
 }
 
 TriangleFields CreasePreservingSmoother::smooth(const TriangleFields& g, Progress* progress, Vector* creases) const {
-  System system(*this);
   const TriangleFields rhs = right_hand_side(g);
-  Vector trust = Vector::Ones(static_cast<Eigen::Index>(edges_.size()));
+  const bool warm = creases && creases->size() > 0;
+  Vector trust = warm ? *creases : Vector::Ones(static_cast<Eigen::Index>(edges_.size()));
+  const int rounds = warm ? kWarmRounds : options_.rounds;
   TriangleFields U;
-  for (int round = 0; round < options_.rounds; ++round) {
-    if (progress) progress->enter(static_cast<double>(round) / options_.rounds, "smoothing the lines");
+  for (int round = 0; round < rounds; ++round) {
+    if (progress) progress->enter(static_cast<double>(round) / rounds, "smoothing the lines");
     if (round > 0) {
       const Vector jump = measure_jumps(U);
       const double scale = options_.crease_jump * weighted_median(jump, edge_size_) + 1e-300;
       trust = ((1.0 + (jump.array() / scale).square()).square().inverse() + kLeastTrust).matrix();
     }
-    U = system.solve(trust, rhs);
+    U = system_->solve(trust, rhs);
   }
   if (creases) *creases = trust;
   return mean_over_triangles(U, g);
 }
 
 TriangleFields CreasePreservingSmoother::smooth_with(const Vector& creases, const TriangleFields& g) const {
-  return mean_over_triangles(System(*this).solve(creases, right_hand_side(g)), g);
+  return mean_over_triangles(system_->solve(creases, right_hand_side(g)), g);
 }
 
 }  // namespace reflines

@@ -3,6 +3,7 @@
 // derivative.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "reflines/progress.h"
@@ -33,9 +34,12 @@ class CreasePreservingSmoother {
   // xy (#V x 2), F (#F x 3), area (#F, projected; triangles of area 0 are left out). `length` > 0, in units of xy.
   CreasePreservingSmoother(const PlanePositions& xy, const Triangles& F, const Vector& area, double length,
                            const SmootherOptions& options);
+  CreasePreservingSmoother(const CreasePreservingSmoother&) = delete;
+  ~CreasePreservingSmoother();
 
-  // Smooths g (#F x m). Returns means (#F x m) of U over triangles, g itself where the area is 0. The last
-  // weights w_e (#inner edges) are put into `creases` where it is not null. `progress` may be null; throws Cancelled.
+  // Smooths g (#F x m). Returns means (#F x m) of U over triangles, g itself where the area is 0. The last weights w_e
+  // (#inner edges) are put into `creases` where it is not null; weights that it has, those of a field that is nearly g,
+  // are where the iteration starts. `progress` may be null; throws Cancelled.
   TriangleFields smooth(const TriangleFields& g, Progress* progress, Vector* creases = nullptr) const;
 
   // Smooths g in one step, with weights that an earlier smoothing found.
@@ -65,6 +69,7 @@ class CreasePreservingSmoother {
   Vector edge_size_;      // #inner edges: proportional to the square root of the area of their two triangles
   SparseMatrix pattern_;  // lower triangle, values zero
   std::vector<int> triangle_entries_, edge_entries_;  // where their products add up in the values
+  std::unique_ptr<System> system_;                    // refers to *this
 };
 
 }  // namespace reflines

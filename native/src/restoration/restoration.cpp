@@ -34,6 +34,10 @@ constexpr int kBumpRounds = 3;  // where dents overlap, the second is seen when 
 // kSaturating and more are the limit itself.
 constexpr double kSaturating = 0.6;
 
+// Height, relative to the diagonal: where vertices that stay differ by more from their partners, the move is not made
+// symmetric, which would kink the lines beside them.
+constexpr double kSymmetricHold = 1e-5;
+
 constexpr double kTurned = std::numbers::pi / 4;
 constexpr int kRetries = 3;
 constexpr double kWorse = 1.01;
@@ -144,7 +148,8 @@ Vector Restoration::use_symmetry(const Vector& z) {
   if (report_.mirrored == 0) return z;
   const Positions& C = surface_.control_positions();
   partner_ = find_mirror_partners(frame_.project(C), frame_.heights(C), diagonal_of(C), axes);
-  return z + optimizer.free().select(evidence.correction.array(), 0.0).matrix();
+  if (!is_held_symmetrically()) partner_.resize(0);
+  return z + evidence.correction;
 }
 
 Vector Restoration::remove_all_bumps(Vector z) {
@@ -166,9 +171,22 @@ Vector Restoration::remove_all_bumps(Vector z) {
 std::vector<Target> Restoration::plan(const Vector& z) {
   const ShapeOptimizer& optimizer = surface_.optimizer();
   const TriangleFields fields = read_fields(z);
-  const TriangleFields change = smoother_.smooth(fields, progress()) - fields;
+  Vector creases = creases_;
+  const TriangleFields change = smoother_.smooth(fields, progress(), &creases) - fields;
   const Vector weight = flaw_weight(change, optimizer.centers(), optimizer.area(), report_.length);
   return make_targets(fields + weight.asDiagonal() * change);
+}
+
+// Returns true where the control vertices that stay are as high as their partners.
+bool Restoration::is_held_symmetrically() const {
+  const Positions& C = surface_.control_positions();
+  const Vector z = frame_.heights(C);
+  const Mask free = surface_.control_free();
+  for (Eigen::Index v = 0; v < partner_.size(); ++v) {
+    const bool moves = free(v) && free(partner_(v));
+    if (!moves && std::abs(z(v) - z(partner_(v))) > kSymmetricHold * diagonal_of(C)) return false;
+  }
+  return partner_.size() > 0;
 }
 
 // Averages the heights of partners. Stencils and the cut of quads are not symmetric, so that the solve leaves partners
@@ -238,7 +256,7 @@ std::vector<double> Restoration::measure_unevenness(const Vector& z, const Vecto
 // result only. By those of the start, a dent of 2 % of the length counted as design, and its healing was refused.
 void Restoration::measure_result(const Vector& move) {
   const Vector z = start_ + surface_.surface_move(move);
-  Vector creases;
+  Vector creases = creases_;
   smoother_.smooth(read_fields(z), progress(), &creases);
   creases = creases.cwiseMax(creases_);
   report_.unevenness_before = measure_unevenness(start_, creases, stray_before_);

@@ -33,6 +33,7 @@ class Restoration {
   Vector use_symmetry(const Vector& z);
   Vector remove_all_bumps(Vector z);
   std::vector<Target> plan(const Vector& z);
+  bool is_held_symmetrically() const;
   Vector average_partners(const Vector& move) const;
   TriangleFields read_fields(const Vector& z);
   Positions lift(const Positions& V, const Vector& move) const;
