@@ -14,7 +14,7 @@ from dataclasses import asdict
 from datetime import date
 from pathlib import Path
 
-from bench import live
+from bench import live, restoration
 from bench.row import Row
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -41,6 +41,12 @@ REACH = {
     "cgal_fair_over_ours_10k": (20.0, False), "biharmonic_over_ours_100k": (0.5, False),
     "cage_warm_step_ms": (33.0, True), "bounded_over_free_10k": (5.0, True), "bounded_over_free_100k": (5.0, True),
     "bounded_warm_over_free_10k": (2.0, True), "bounded_warm_over_free_100k": (2.0, True),
+    "restoration_harm_given": (0.3, True), "restoration_harm_crossed": (0.3, True),
+    "restoration_harm_worst": (0.6, True), "restoration_dents_given": (0.4, True),
+    "restoration_dents_crossed": (0.5, True),
+    "restoration_ripple_given": (0.4, True), "restoration_ripple_crossed": (0.5, True),
+    "restoration_noise_given": (0.4, True), "restoration_noise_crossed": (0.5, True), "restoration_move": (0.05, True),
+    "restoration_cage_move": (3.0, True), "two_lights_over_one": (1.6, True),
 }
 
 
@@ -198,7 +204,8 @@ def main() -> None:
     sizes = FIGURE_SIZES[:-1] if quick else FIGURE_SIZES
     cages = medians(run("bench_solve", "^(cage_solve|dense_solve|cage_warm_step)", REPETITIONS)[0])
     bounded, _ = run("bench_solve", "^bounded", REPETITIONS)
-    rows = [*solve_rows(times), *bounded_rows(bounded), *cgal_rows(times), *strategy_rows(sizes), *cage_rows(cages)]
+    rows = [*solve_rows(times), *bounded_rows(bounded), *cgal_rows(times), *strategy_rows(sizes), *cage_rows(cages),
+            *restoration.rows()]
     if not quick:
         rows += [*million_rows(times), *live.rows()]
     values = [asdict(row) for row in rows]

@@ -1,0 +1,77 @@
+"""Draws the sheet of the press of Smooth: stripes of real panels before and after it, in both lights, to be looked at.
+
+    PYTHONPATH=addon:tests python3 -m bench.restoration_sheet    writes build/bench/restoration.png
+
+A row a panel: flawed by dents and healed, then clean and pressed, each in the light given and in the crossed one. The
+stripes are drawn from the normals of the triangles, by the judge's own formula of theta.
+"""
+from collections.abc import Iterator
+
+import matplotlib
+import numpy as np
+import reflines
+
+from bench.restoration import JUDGE, ROOT, load_judge, read_cage, read_panels
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  (after the choice of what draws)
+
+STRIPES = 24  # over the circle of theta
+Shape = tuple[np.ndarray, np.ndarray]  # V #V x 3, F #F x 3
+
+
+def press_mesh(judge: object, panel: dict) -> Iterator[tuple[str, Shape]]:
+    """Yields the shapes of a mesh's row with their titles."""
+    V, F = judge.load(panel["file"], panel.get("patch"))
+    v, a = judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
+    diagonal = np.linalg.norm(np.ptp(V, axis=0))
+    flawed = V + 2 * judge.heights("dents", V, F, v, diagonal)[:, None] * v
+    yield "dents", (flawed, F)
+    yield "dents, pressed", (judge.present(flawed, F, v, a), F)
+    yield "clean", (V, F)
+    yield "clean, pressed", (judge.present(V, F, v, a), F)
+
+
+def press_cage(judge: object, panel: dict) -> Iterator[tuple[str, Shape]]:
+    """Yields the shapes of a cage's row: what a careless selection takes, and the patch."""
+    for selected in ("box", "patch"):
+        V, offsets, corners, region = read_cage(panel, selected)
+        surface = reflines.Subdivision(offsets, corners, vertices=len(V), level=2)
+        quads = surface.faces[region[surface.face_parent]]
+        F = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+        pressed, _ = reflines.smooth_cage_panel(V, offsets, corners, region=region,
+                                                view_direction=panel["view_direction"],
+                                                line_direction=panel["light_across"])
+        yield selected, (surface.positions(V), F)
+        yield f"{selected}, pressed", (surface.positions(pressed), F)
+
+
+def draw(axes: pyplot.Axes, judge: object, shape: Shape, view: np.ndarray, light: np.ndarray) -> None:
+    V, F = shape
+    x, y, _ = reflines.image_plane(view, light)
+    normals = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
+    facing = normals @ view > 0.2 * np.linalg.norm(normals, axis=1)
+    shade = 0.5 + 0.5 * np.tanh(4 * np.sin(STRIPES * judge.theta(V, F, view, light)))
+    axes.tripcolor(V @ x, V @ y, F[facing], facecolors=shade[facing], cmap="gray", vmin=0, vmax=1)
+    axes.set_aspect("equal")
+    axes.axis("off")
+
+
+def main() -> None:
+    judge = load_judge()
+    panels = read_panels(cages=False) | read_panels(cages=True)
+    figure, grid = pyplot.subplots(len(panels), 8, figsize=(24, 3 * len(panels)))
+    for row, (name, panel) in zip(grid, panels.items(), strict=True):
+        v, a = judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
+        for k, (title, shape) in enumerate((press_cage if panel["cage"] else press_mesh)(judge, panel)):
+            for light in (0, 1):
+                draw(row[k + 4 * light], judge, shape, v, (a, judge.unit(np.cross(v, a)))[light])
+                row[k + 4 * light].set_title(f"{name}: {title}{', crossed' if light else ''}", fontsize=7)
+    out = ROOT / "build/bench/restoration.png"
+    out.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(out, dpi=80, bbox_inches="tight")
+    print(f"{out.relative_to(ROOT)}: {len(panels)} panels of {JUDGE.parent.name}")
+
+
+if __name__ == "__main__":
+    main()
