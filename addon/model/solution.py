@@ -42,6 +42,7 @@ class Solution:
     notes: tuple[str, ...]
     automatic_length: float = 0.0  # what the length 0 stands for in this patch, world units
     remedy: str = ""  # a border with which more of the target could be reached; empty where there is none
+    cage_move: float = 0.0  # largest move of a cage's vertices; its surface, which report tells, moves less
     automatic_limit: float = 0.0  # what the limit 0 stood for, world units; 0 where it is not known
 
     def to_last_solve(self) -> "LastSolve":

@@ -39,7 +39,8 @@ def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmoot
     scores, lacks = zip(*((float(np.sqrt(np.mean(np.square(each)))), np.radians(each[0]) / told.length)
                           for each in (before, after)), strict=True)
     return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *scores,
-                    choose_notes(formulation, told), told.length, automatic_limit=0.0 if settings.limit else told.limit)
+                    choose_notes(formulation, told), told.length, automatic_limit=0.0 if settings.limit else told.limit,
+                    cage_move=press.cage_move)
 
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> PressReport:

@@ -25,6 +25,7 @@ class Press:
     positions: np.ndarray  # #V x 3, world space
     stray: np.ndarray      # #F, see native.SmoothPanelReport
     told: "native.SmoothPanelReport"
+    cage_move: float = 0.0  # largest move of a cage's vertices, which is more than its surface's
 
 
 @dataclass(frozen=True)
@@ -170,7 +171,8 @@ class CageFormulation(Formulation):
         arguments["limit_surface"] = arguments.pop("limit")
         positions, told = native.reflines.smooth_cage_panel(**arguments, **self.choose_directions(), border=border,
                                                             **settings)
-        return Press(self.patch.V + (positions - cage.V)[self.patch.index], self.spread_to_triangles(told.stray), told)
+        return Press(self.patch.V + (positions - cage.V)[self.patch.index], self.spread_to_triangles(told.stray), told,
+                     told.largest_control_move)
 
 
 def choose_formulation(patch: Patch, view: View) -> Formulation:

@@ -63,6 +63,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
     score_before: FloatProperty(name="Wobble Before", description="Wobble of the reflection lines, in degrees")
     score_after: FloatProperty(name="Wobble After", description="Wobble of the reflection lines, in degrees")
     largest_move: FloatProperty(name="Largest Move", unit='LENGTH', precision=6)
+    cage_move: FloatProperty(name="Largest Move of the Cage", unit='LENGTH', precision=6)
     residual_before: FloatProperty(name="Residual Before", description="What the lines' gradient lacked of the "
                                    "wanted one: root mean square, radians per unit of length")
     residual_after: FloatProperty(name="Residual After", description="What it still lacks")
@@ -73,14 +74,22 @@ class ReflinesReport(bpy.types.PropertyGroup):
         for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move", "limited"):
             setattr(self, name, getattr(solution.report, name))
         for name in ("length", "score_before", "score_after", "residual_before", "residual_after", "remedy",
-                     "automatic_length", "automatic_limit"):
+                     "automatic_length", "automatic_limit", "cage_move"):
             setattr(self, name, getattr(solution, name))
         self.notes, self.fit = "\n".join(notes), ""
 
     def headline(self) -> str:
         """Says what the solve did in an artist's words, the largest first."""
+        if not self.largest_move:
+            return "Nothing moved"
         held = f" (the limit held {self.limited} back)" if self.limited else ""
-        return f"{self.gain()}, moved at most {self.moved(2)}{held}" if self.largest_move else "Nothing moved"
+        return f"{self.gain()}, moved at most {self.moved(2)}{self.moved_cage()}{held}"
+
+    def moved_cage(self) -> str:
+        """Says how far the cage's vertices moved, where that is more than their surface."""
+        if self.cage_move <= self.largest_move:
+            return ""
+        return f", its cage {units.format_length(self.cage_move, bpy.context.scene, 2)}"
 
     def gain(self) -> str:
         """Says how much smoother the lines became, or how much of the wish was reached."""

@@ -224,3 +224,5 @@ def test_a_cage_gets_what_the_native_function_gives() -> None:
     assert report.largest_move == pytest.approx(told.largest_move, rel=1e-4)
     assert np.abs(scenes.positions(ob) - before)[:, 2].max() > report.largest_move
     assert last.residual.shape == (len(last.patch.F),) and last.residual.max() > 0
+    assert report.cage_move == pytest.approx(told.largest_control_move, rel=1e-4)
+    assert ", its cage " in report.headline()

@@ -223,6 +223,14 @@ def test_region_without_a_free_vertex_is_refused():
         made(positions, triangles[:1])
 
 
+def test_a_mesh_whose_faces_are_not_joined_is_refused_by_the_count_of_doubled_vertices():
+    positions, triangles = panel(8)
+    apart = positions[triangles].reshape(-1, 3)
+    doubled = len(apart) - len(positions)
+    with pytest.raises(reflines.InvalidInput, match=f"{doubled} vertices lie on others.*Merge by Distance"):
+        made(apart, np.arange(len(apart)).reshape(-1, 3))
+
+
 def test_threads_may_solve_at_once_and_get_the_bits_of_one():
     positions, triangles = ripples(60)
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 
@@ -183,6 +184,13 @@ std::vector<std::vector<int>> border_loops(const Triangles& F, const Triangles& 
     loops.push_back(std::move(loop));
   }
   return loops;
+}
+
+int count_doubled_vertices(const Positions& V) {
+  std::vector<std::array<double, 3>> points(V.rows());
+  for (Eigen::Index v = 0; v < V.rows(); ++v) points[v] = {V(v, 0), V(v, 1), V(v, 2)};
+  std::sort(points.begin(), points.end());
+  return static_cast<int>(points.end() - std::unique(points.begin(), points.end()));
 }
 
 }  // namespace reflines

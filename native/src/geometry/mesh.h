@@ -37,4 +37,7 @@ Incidence vertex_triangles(const Triangles& F, int vertex_count);
 // closed surface.
 std::vector<std::vector<int>> border_loops(const Triangles& F, const Triangles& neighbors);
 
+// Returns how many vertices of V (#V x 3) lie exactly on an earlier one, as in meshes whose faces were not joined.
+int count_doubled_vertices(const Positions& V);
+
 }  // namespace reflines

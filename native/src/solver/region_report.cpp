@@ -51,7 +51,12 @@ Region describe_region(const HeightField& field, bool creases_held) {
   return region;
 }
 
-std::string explain_no_free_vertex(const Region& region, const std::string& what) {
+std::string explain_no_free_vertex(const Region& region, const std::string& what, int doubled) {
+  if (doubled > 0) {
+    return "No vertex of the region is free to move: " + what + std::to_string(doubled) +
+           (doubled == 1 ? " vertex lies on another" : " vertices lie on others") +
+           ", so that faces that touch are not joined; use Merge by Distance first.";
+  }
   const std::string creases = std::to_string(region.creases) + (region.creases == 1 ? " edge" : " edges");
   return "No vertex of the region is free to move (" + what + "all vertices are held by " +
          (region.creases > 0 ? "creases (" + creases + "), " : "") +

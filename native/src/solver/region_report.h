@@ -15,8 +15,8 @@ Region describe_region(const HeightField& field, bool creases_held);
 // Adds the messages on unused pieces and hidden triangles, once those are counted.
 void add_piece_messages(Region& region);
 
-// Returns a sentence why no vertex is free, beginning with `what`.
-std::string explain_no_free_vertex(const Region& region, const std::string& what);
+// Returns a sentence why no vertex is free, beginning with `what`. `doubled`: vertices that lie on others.
+std::string explain_no_free_vertex(const Region& region, const std::string& what, int doubled);
 
 // Sets the count of features and replaces the message on the previous count.
 void set_feature_count(int count, Region& region);

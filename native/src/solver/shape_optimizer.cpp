@@ -68,7 +68,8 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   if (region_.free == 0) {
     // A region of a cage has fewer faces of the artist's than triangles.
     const bool is_mesh = options.B.rows() == 0;
-    throw InvalidInput(explain_no_free_vertex(region_, is_mesh ? format_face_count(triangle_count()) + ": " : ""));
+    throw InvalidInput(explain_no_free_vertex(region_, is_mesh ? format_face_count(triangle_count()) + ": " : "",
+                                              count_doubled_vertices(V)));
   }
   count_features(feature_length_, 0);
   add_piece_messages(region_);
