@@ -5,7 +5,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import Steps, comes_to, ended, executed, panel, press, settled, shown
+from dragging import Steps, comes_to, dragged_length, ended, executed, panel, press, settled, shown
 
 LEVELS = 3  # from here on a drag leaves samples out
 
@@ -35,10 +35,11 @@ def test_what_is_kept_is_the_whole_solve_and_what_was_shown_lay_beside_it(driver
     followed = shown(driver)
     driver.key('RET')
     yield from ended(driver)
-    kept, strength = shown(driver), bpy.context.window_manager.operators[-1].properties.strength
+    kept, length = shown(driver), dragged_length()
+    strength = bpy.context.window_manager.operators[-1].properties.strength
     assert abs(strength - 0.5) < 1e-6
     assert 0.0 < np.abs(followed - kept).max() < 0.03 * np.abs(kept - start).max()
-    assert np.array_equal(kept, executed(driver, levels=LEVELS, strength=strength))
+    assert np.array_equal(kept, executed(driver, levels=LEVELS, strength=strength, length=length))
 
 
 def test_one_undo_takes_the_drag_of_a_cage_back(driver: window.Window) -> Steps:
