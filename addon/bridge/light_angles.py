@@ -2,7 +2,8 @@
 from math import asin, atan2, cos, radians, sin
 
 import bpy
-from mathutils import Matrix, Vector
+from bpy_extras import view3d_utils
+from mathutils import Matrix, Vector, geometry
 
 # What an object's transform is stored in; a matrix written to it is taken apart, which loses bits.
 TRANSFORM = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
@@ -43,6 +44,21 @@ def point_light(camera: bpy.types.Object | None, light: bpy.types.Object, direct
     wanted = read_picture_axes(camera) @ direction
     rotation = (rotation @ Vector((0.0, 0.0, 1.0))).rotation_difference(wanted) @ rotation
     light.matrix_world = Matrix.LocRotScale(place, rotation, scale)
+
+
+def find_turn_at(camera: bpy.types.Object | None, region: bpy.types.Region, region_3d: bpy.types.RegionView3D,
+                 place: tuple[float, float], centre: Vector) -> float | None:
+    """Returns the turn, in radians, of the point of the picture plane through `centre` that a place of a 3D view shows
+    (pixels of its region); None where the view sees that plane edge-on.
+    """
+    axes = read_picture_axes(camera)
+    eye = view3d_utils.region_2d_to_origin_3d(region, region_3d, place)
+    ahead = eye + view3d_utils.region_2d_to_vector_3d(region, region_3d, place)
+    point = geometry.intersect_line_plane(eye, ahead, centre, axes.col[2])
+    if point is None:
+        return None
+    from_centre = axes.transposed() @ (point - centre)
+    return atan2(from_centre.y, from_centre.x)
 
 
 def read_transform(ob: bpy.types.Object) -> tuple[tuple[float, ...], ...]:

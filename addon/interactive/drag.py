@@ -20,13 +20,13 @@ from ..overlay import falloff_circle
 from ..solver import live_optimizer
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
+from . import drag_input
 from .background_thread import BackgroundThread
 from .drag_handles import DragValues, Handle
 from .solve_job import SolveJob, SolveOutcome, SolveRequest
 
 TICK_INTERVAL = 0.01  # seconds between two checks for the thread's results
 SAYS_BUSY = 0.3  # seconds of solving after which the status bar shows the stage
-KEYS_TEXT = "Click, Enter: keep   Esc: cancel   Shift: finer   0-9, =: type"
 
 
 class DraggedOperator(Protocol):
@@ -74,7 +74,7 @@ class Drag:
         handles = self.tool.build_handles()
         starts = [getattr(self.tool, handle.name) or self.tool.choose_automatic(handle.name, self.patches[0])
                   for handle in handles]
-        return DragValues(handles, starts, lambda handle, text: units.parse_number(text, handle.unit, scene))
+        return drag_input.read_values(handles, starts, scene)
 
     def begin_at(self, context: bpy.types.Context, x: int, y: int) -> None:
         """Takes the mouse's place (pixels of the window) as that of the present values. Where it is not over the view,
@@ -165,14 +165,11 @@ class Drag:
         self.write_positions([patch.round_start_positions() for patch in self.patches])
 
     def update_texts(self, context: bpy.types.Context) -> None:
-        values = "   ".join(self.format_handle(context, index) for index in range(len(self.values.handles)))
+        values = drag_input.describe_values(self.values, context.scene)
         header = f"{self.problem or self.describe_gain(context)}   {values}   ({self.tool.bl_label})"
         working = not self.thread.is_idle() and time.monotonic() - self.busy_since > SAYS_BUSY
-        more = "   Tab: next value" if len(self.values.handles) > 1 else ""
-        turned = self.values.find_wheel_handle()
-        wheel = f"   Wheel: {turned.label.lower()}" if turned else ""
-        keys = f"{KEYS_TEXT}{more}{wheel}   MMB: view"
-        status = f"{self.job.describe_stage()}   Esc: cancel" if working or self.keeping else keys
+        status = f"{self.job.describe_stage()}   Esc: cancel" if working or self.keeping \
+            else drag_input.describe_keys(self.values)
         if self.texts != (header, status):  # setting a text redraws its bar
             self.texts = header, status
             self.area.header_text_set(header)
@@ -182,14 +179,6 @@ class Drag:
         """Says what the drag has gained so far; the move alone while the gain is not measured."""
         moved = f"oved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
         return f"{self.gain.describe(smoothed=self.tool.smooths)}, m{moved}" if self.gain is not None else f"M{moved}"
-
-    def format_handle(self, context: bpy.types.Context, index: int) -> str:
-        handle, typed = self.values.handles[index], self.values.typed[index]
-        held = index == self.values.held and len(self.values.handles) > 1
-        shown = format_value(handle, self.values.value(index), context.scene)
-        if typed:  # as Blender's own tools show it, with the value that the limits leave
-            shown = f"[{typed}|] = {shown if self.values.numbers[index] is not None else '?'}"
-        return f"{'> ' if held else ''}{handle.label}: {shown}"
 
     def end(self, context: bpy.types.Context) -> None:
         """Restores header, status bar and timer; the thread ends after what it is doing now."""
@@ -207,15 +196,6 @@ class Drag:
         with suppress(Refusal):  # the mesh is gone, or was changed by something else
             self.restore()
         self.end(context)
-
-
-def format_value(handle: Handle, value: float, scene: bpy.types.Scene) -> str:
-    if handle.unit == 'ANGLE':
-        degrees = scene.unit_settings.system_rotation == 'DEGREES'
-        return f"{np.degrees(value):.2f}\u00b0" if degrees else f"{value:.4f}"
-    if handle.unit == 'LENGTH':
-        return units.format_length(value, scene)
-    return f"{value:.1f} %" if handle.unit == 'PERCENT' else f"{value:.3f}"
 
 
 _running: list[Drag] = []  # at most one

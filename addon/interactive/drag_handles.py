@@ -44,9 +44,9 @@ class DragValues:
         self.pixels = [0.0] * len(self.handles)
         self.typed = [""] * len(self.handles)
         self.numbers: list[float | None] = [None] * len(self.handles)  # what is typed, where that is a number
-        self.last: int | None = None
+        self.last: float | None = None
 
-    def move(self, x: int, *, precise: bool) -> None:
+    def move(self, x: float, *, precise: bool) -> None:
         if self.last is not None:
             self.pixels[self.held] += (x - self.last) * (PRECISE_FACTOR if precise else 1.0)
         self.last = x

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import BoolProperty
 
 from ..bridge.read_falloff import choose_radius
+from ..interactive import drag_input
 from ..interactive.drag import Drag
 from ..interactive.drag_handles import Handle
 from ..interactive.solve_job import SolveOutcome
@@ -14,20 +15,6 @@ from ..model.refusal import Refusal
 from ..solver import solve
 from ..targets.falloff import Falloff
 from .solve_tool import SolveTool
-
-DIGITS = {name: str(digit) for digit, word in enumerate(
-    ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"))
-    for name in (word, f"NUMPAD_{digit}")}
-CHARACTERS = DIGITS | {'PERIOD': '.', 'NUMPAD_PERIOD': '.', 'COMMA': '.', 'MINUS': '-', 'NUMPAD_MINUS': '-'}
-NOTCHES = {'WHEELUPMOUSE': 1, 'WHEELDOWNMOUSE': -1}
-KEEP_KEYS, CANCEL_KEYS = {'LEFTMOUSE', 'RET', 'NUMPAD_ENTER'}, {'ESC', 'RIGHTMOUSE'}
-NAVIGATION = {'MIDDLEMOUSE', 'TRACKPADPAN', 'TRACKPADZOOM', 'NDOF_MOTION'}
-
-
-def read_character(event: bpy.types.Event) -> str:
-    """Returns what a key types: by the layout of the keyboard, where Blender tells that, with a point for a comma."""
-    typed = event.unicode if event.unicode.isprintable() else ""
-    return (typed or CHARACTERS.get(event.type, "")).replace(',', '.')
 
 
 def build_radius_handle(centre: str) -> tuple[Handle, ...]:
@@ -45,9 +32,11 @@ class DraggedTool(SolveTool):
     """
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
 
-    smooths = False  # whether the gain is told by how smooth the lines are, not by the share of the wish
+    smooths = False  # whether the gain is told by how smooth the lines are, not by the share of the target
 
     follow_mouse: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Drag the tool's values in the 3D view")
+    release_confirm: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Keep the values when the mouse button "
+                                  "that began the drag is let go, as gizmos do")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
@@ -121,17 +110,18 @@ class DraggedTool(SolveTool):
         """Handles a key or mouse event. Others are swallowed: an undo or a change of mode would meet a half-written
         mesh.
         """
-        if event.type in CANCEL_KEYS and event.value == 'PRESS':
+        drag = self.drag
+        if drag_input.cancels(event):
             return self.cancel_drag(context)
-        if event.type in NAVIGATION or event.type in NOTCHES and self.drag.values.find_wheel_handle() is None:
+        if drag_input.navigates(event, drag.values):
             return {'PASS_THROUGH'}
-        if self.drag.keeping:
+        if drag.keeping:
             return {'RUNNING_MODAL'}
-        if event.type in KEEP_KEYS and event.value == 'PRESS':
-            self.drag.submit_request(context, final=True)
+        if drag_input.keeps(event, drag.values, held=self.release_confirm):
+            drag.submit_request(context, final=True)
         elif self.update_values(event):
-            self.drag.moved = True
-        self.drag.update_texts(context)
+            drag.moved = True
+        drag.update_texts(context)
         return {'RUNNING_MODAL'}
 
     def update_values(self, event: bpy.types.Event) -> bool:
@@ -140,24 +130,7 @@ class DraggedTool(SolveTool):
         if event.type == 'MOUSEMOVE':
             self.drag.move_mouse(event.mouse_x, event.mouse_y, precise=event.shift)
             return not values.typed[values.held]
-        if event.type in NOTCHES:
-            values.wheel(NOTCHES[event.type], precise=event.shift)
-            return True
-        if event.value == 'PRESS':
-            return self.type_key(event)
-        return False
-
-    def type_key(self, event: bpy.types.Event) -> bool:
-        """Takes a key of the typed text, or one that works on it; returns whether that may have changed a value."""
-        values = self.drag.values
-        if event.type == 'TAB':
-            values.hold_next()
-        elif event.type == 'BACK_SPACE':
-            values.erase()
-            return True
-        elif not (event.ctrl or event.alt or event.oskey):
-            return values.type(read_character(event))
-        return False
+        return drag_input.change_values(values, event)
 
     def finish_drag(self, context: bpy.types.Context, outcome: SolveOutcome) -> set[str]:
         self.drag.write_solutions(outcome.solutions)

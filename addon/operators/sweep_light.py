@@ -1,20 +1,19 @@
 """Sweep Light."""
-from math import degrees, radians
+from math import radians, remainder, tau
 
 import bpy
-from bpy.props import FloatProperty
+from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
+from mathutils import Vector
 
 from ..bridge import light_angles
-from ..interactive.drag_handles import DragValues, Handle
+from ..interactive import drag_input
+from ..interactive.drag_handles import Handle
 
 HANDLES = (
     Handle("turn", "Turn", per_pixel=radians(0.3), low=-1e9, high=1e9, unit='ANGLE'),
     Handle("tilt", "Tilt", per_pixel=radians(0.1), low=-light_angles.TILT_LIMIT, high=light_angles.TILT_LIMIT,
            unit='ANGLE', wheel=True),
 )
-NOTCHES = {'WHEELUPMOUSE': 1, 'WHEELDOWNMOUSE': -1}
-KEEP_KEYS, CANCEL_KEYS = {'LEFTMOUSE', 'RET', 'NUMPAD_ENTER'}, {'ESC', 'RIGHTMOUSE'}
-STATUS = "Mouse: turn   Wheel: tilt   Shift: finer   Click, Enter: keep   Right click, Esc: as it was"
 
 
 class REFLINES_OT_sweep_light(bpy.types.Operator):
@@ -28,6 +27,10 @@ picture, the wheel tilts it"""
                         description="Of the light in the view camera's picture, counter-clockwise from the horizontal")
     tilt: FloatProperty(name="Tilt", subtype='ANGLE', min=-light_angles.TILT_LIMIT, max=light_angles.TILT_LIMIT,
                         options={'SKIP_SAVE'}, description="Of the light out of the picture, towards the viewer")
+    around: FloatVectorProperty(subtype='XYZ', options={'HIDDEN', 'SKIP_SAVE'},
+                                description="Middle of the gizmo's ring, along which the mouse turns the light then")
+    release_confirm: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Keep the light when the mouse button "
+                                  "that began the drag is let go, as gizmos do")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -56,35 +59,50 @@ picture, the wheel tilts it"""
         settings = context.scene.reflection_lines
         self.start = light_angles.read_transform(settings.light)
         angles = light_angles.read_light_angles(settings.picture_camera(), settings.light)
-        self.values = DragValues(HANDLES, angles, lambda *_: None)
-        self.values.move(event.mouse_x, precise=False)
-        self.area = context.area
+        self.values = drag_input.read_values(HANDLES, angles, context.scene)
+        self.area, self.region, self.region_3d = context.area, context.region, context.region_data
+        self.angle = 0.0  # of the mouse around the ring, in radians, counted on over full turns
+        self.move_mouse(context, event)
         self.follow(context)
-        context.workspace.status_text_set(STATUS)
+        context.workspace.status_text_set(drag_input.describe_keys(self.values))
         context.window_manager.modal_handler_add(self)
         return {'RUNNING_MODAL'}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        settings = context.scene.reflection_lines
-        if event.type in CANCEL_KEYS and event.value == 'PRESS' or settings.explain_fixed_light():
+        if drag_input.cancels(event) or context.scene.reflection_lines.explain_fixed_light():
             return self.cancel_sweep(context)
-        if event.type in KEEP_KEYS and event.value == 'PRESS':
+        if drag_input.navigates(event, self.values):
+            return {'PASS_THROUGH'}
+        if drag_input.keeps(event, self.values, held=self.release_confirm):
             self.end(context)
             return {'FINISHED'}
         if event.type == 'MOUSEMOVE':
-            self.values.move(event.mouse_x, precise=event.shift)
-        elif event.type in NOTCHES:
-            self.values.wheel(NOTCHES[event.type], precise=event.shift)
+            self.move_mouse(context, event)
         else:
-            return {'PASS_THROUGH'} if event.type == 'MIDDLEMOUSE' else {'RUNNING_MODAL'}
+            drag_input.change_values(self.values, event)
         self.follow(context)
         return {'RUNNING_MODAL'}
+
+    def move_mouse(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
+        """Moves the held value with the mouse: from left to right, or with `around` along the gizmo's ring."""
+        x = event.mouse_x
+        if self.properties.is_property_set("around"):
+            x = self.read_angle(context, event) / HANDLES[0].per_pixel
+        self.values.move(x, precise=event.shift)
+
+    def read_angle(self, context: bpy.types.Context, event: bpy.types.Event) -> float:
+        """Returns the angle of the mouse around the gizmo's ring, in radians."""
+        place = event.mouse_x - self.region.x, event.mouse_y - self.region.y
+        camera = context.scene.reflection_lines.picture_camera()
+        angle = light_angles.find_turn_at(camera, self.region, self.region_3d, place, Vector(self.around))
+        self.angle += 0.0 if angle is None else remainder(angle - self.angle, tau)
+        return self.angle
 
     def follow(self, context: bpy.types.Context) -> None:
         self.turn, self.tilt = self.values.values()
         self.turn_light(context)
         self.area.tag_redraw()  # the numbers in the sidebar too
-        self.area.header_text_set(f"Turn {degrees(self.turn):.1f}\u00b0   Tilt {degrees(self.tilt):.1f}\u00b0")
+        self.area.header_text_set(f"{drag_input.describe_values(self.values, context.scene)}   ({self.bl_label})")
 
     def cancel_sweep(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reflection_lines

@@ -1,0 +1,107 @@
+"""Turning the light in a real window without leaving Edit Mode: by the sidebar, and by Sweep Light."""
+import os
+from collections.abc import Generator
+from math import radians
+
+import bpy
+import numpy as np
+
+import scenes
+import window
+from picture import captured, fresh_panel, prepare
+
+Steps = Generator[float, None, None]
+
+
+def settings() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines
+
+
+def edited_panel(driver: window.Window, name: str) -> bpy.types.Object:
+    """A panel with stripes, in Edit Mode; the light is at the turn 0 and the tilt 30 degrees."""
+    ob = fresh_panel(driver, name)
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit(ob)
+    return ob
+
+
+def angle_between(one: np.ndarray, other: np.ndarray) -> float:
+    return float(np.degrees(np.arccos(np.clip(one @ other, -1.0, 1.0))))
+
+
+def light_axis() -> np.ndarray:
+    axis = np.array(settings().light.matrix_world)[:3, 2]
+    return axis / np.linalg.norm(axis)
+
+
+def test_the_sidebar_turns_the_light_in_edit_mode(driver: window.Window) -> Steps:
+    ob = edited_panel(driver, "Turned")
+    before = yield from captured(driver)
+    settings().light_turn, settings().light_tilt = radians(30.0), radians(20.0)
+    after = yield from captured(driver)
+    c = np.cos(radians(20.0))
+    wanted = np.array([c * np.cos(radians(30.0)), c * np.sin(radians(30.0)), np.sin(radians(20.0))])
+    assert angle_between(light_axis(), wanted) < 1e-3  # the camera looks along -Z with X to the right
+    assert abs(settings().light_turn - radians(30.0)) < 1e-5 and abs(settings().light_tilt - radians(20.0)) < 1e-5
+    settings().light_dial = (0.0, 1.0, 0.0)
+    with driver.override():
+        bpy.context.view_layer.update()
+    assert angle_between(light_axis(), np.array([0.0, 1.0, 0.0])) < 1e-3
+    assert ob.mode == 'EDIT' and (np.abs(before - after) > 0.1).sum() > 5000
+
+
+def test_sweep_light_in_edit_mode(driver: window.Window) -> Steps:
+    ob = edited_panel(driver, "Swept")
+    start = np.array(settings().light.matrix_world)
+    for key in ('ESC', 'RET'):
+        driver.move(300, 300)
+        yield 0.1
+        with driver.override():
+            bpy.ops.reflines.sweep_light('INVOKE_DEFAULT')
+        before = yield from captured(driver)
+        driver.move(400, 300)
+        yield 0.2
+        driver.event('WHEELDOWNMOUSE', 'PRESS')
+        turned = yield from captured(driver)
+        assert (np.abs(before - turned) > 0.1).sum() > 5000
+        driver.key(key)
+        yield 0.3
+        with driver.override():
+            bpy.context.view_layer.update()
+        assert np.array_equal(np.array(settings().light.matrix_world), start) == (key == 'ESC')
+    assert ob.mode == 'EDIT'
+    print("turn and tilt, degrees", np.degrees([settings().light_turn, settings().light_tilt]))
+    assert abs(settings().light_turn - radians(30.0)) < 1e-4  # 0.3 degrees a pixel, from the horizontal
+    assert abs(settings().light_tilt - radians(30.0 - 2.0)) < 1e-4  # which stood at 60 degrees from the view
+    with driver.override():
+        assert bpy.ops.reflines.sweep_light(turn=0.5) == {'FINISHED'}  # by a script, the tilt as it is
+    assert abs(settings().light_turn - 0.5) < 1e-4 and abs(settings().light_tilt - radians(28.0)) < 1e-4
+
+
+def test_turn_and_tilt_can_be_typed_while_the_light_is_swept(driver: window.Window) -> Steps:
+    """With units and expressions, as in the drag of a tool; the tilt's limit of 85 degrees is applied."""
+    edited_panel(driver, "Typed")
+    driver.move(300, 300)
+    yield 0.1
+    with driver.override():
+        bpy.ops.reflines.sweep_light('INVOKE_DEFAULT')
+    yield 0.1
+    for key, text in (('TWO', "2"), ('EIGHT', "*"), ('TWO', "2"), ('FIVE', "5"), ('FOUR', "4"), ('BACK_SPACE', ""),
+                      ('D', "d"), ('TAB', ""), ('NINE', "9"), ('ZERO', "0")):
+        driver.event(key, 'PRESS', **({"unicode": text} if text else {}))
+        driver.event(key, 'RELEASE')
+        yield 0.05
+    driver.move(500, 300)  # what is typed stays
+    yield 0.1
+    if "REFLINES_PICTURES" in os.environ:
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "sweep_typed.png"))
+        yield 0.3
+    driver.key('NUMPAD_ENTER')
+    yield 0.3
+    assert abs(settings().light_turn - radians(50.0)) < 1e-4, np.degrees(settings().light_turn)
+    assert abs(settings().light_tilt - radians(85.0)) < 1e-4, np.degrees(settings().light_tilt)
+
+
+window.run(test_the_sidebar_turns_the_light_in_edit_mode, test_sweep_light_in_edit_mode,
+           test_turn_and_tilt_can_be_typed_while_the_light_is_swept)
