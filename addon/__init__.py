@@ -41,7 +41,7 @@ NAMES = (
     "overlay.fitted_normals", "overlay.limit_surface", "overlay.shader", "overlay.solve_maps",
     "overlay.stripe_scene", "overlay.draw_cage", "overlay.legend",
     "overlay.draw",
-    "operators.add_light_direction", "operators.add_view_camera",
+    "operators.add_light_direction", "operators.camera_aim", "operators.add_view_camera",
     "operators.camera_from_view",
     "operators.look_through", "operators.save_stripes_preset", "operators.solve_tool",
     "operators.add_warp_lattice", "operators.dragged_tool", "operators.direction", "operators.fit",

@@ -60,7 +60,7 @@ def shown(operation: Operation, folder: pathlib.Path) -> None:
         pictures.picture(parts[1], "Blender's Smooth Vertices")
         panel = opened(operation)
     operation.press()
-    print(f"gallery: {operation.name}: {panel.reflection_lines.report.summary()}")
+    print(f"gallery: {operation.name}: {panel.reflection_lines.report.headline()}")
     parts.append(folder / "after.png")
     pictures.picture(parts[-1], "after")
     whole = folder / f"{operation.name}.jpg"

@@ -17,4 +17,4 @@ class Gain:
             times, word = (ratio, "smoother") if ratio >= 1.0 else (1.0 / ratio, "rougher")
             return f"Lines {times:.{1 if times < 10.0 else 0}f} x {word}"
         share = 1.0 - self.residual_after / self.residual_before if self.residual_before else 1.0
-        return f"{max(share, 0.0):.0%} of the wish reached"
+        return f"{max(share, 0.0):.0%} of the target reached"

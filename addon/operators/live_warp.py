@@ -130,7 +130,7 @@ class REFLINES_OT_apply_live_warp(LiveWarpEnd, bpy.types.Operator):
         stored.run.note("REFLINES_OT_warp", live_baseline.read_operator_settings(scene), ob.data, patch.key)
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")
-        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}")  # the status bar shows the last report
+        self.report({'INFO'}, f"{ob.name}: {stored.report.headline()}")  # the status bar shows the last report
 
     def find_solution(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> Solution:
         """Returns the live warp's own solution where it is final, else solves from the start."""

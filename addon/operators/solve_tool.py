@@ -136,4 +136,4 @@ class SolveTool:
             self.report({'WARNING'}, f"{ob.name}: {note}")
         faces = f" ({solution.patch.faces.sum()} faces kept as the region; in Edit Mode the selected ones are taken)"
         # The status bar shows the last report.
-        self.report({'INFO'}, f"{ob.name}: {stored.report.summary()}{faces if self.region_stored else ''}")
+        self.report({'INFO'}, f"{ob.name}: {stored.report.headline()}{faces if self.region_stored else ''}")

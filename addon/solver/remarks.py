@@ -25,7 +25,7 @@ def describe_small_share(reached: float, border: str) -> tuple[str, ...]:
     """Describes why only a part of the target was reached: a held border keeps the mean of the gradient across it."""
     why = ("no smooth surface has such lines here: ask for less, or over a larger radius" if border == "free" else
            f"the border {border.capitalize()} keeps the lines' mean")
-    return (f"Only {max(reached, 0.0):.0%} of the wish was reached: {why}",)
+    return (f"Only {max(reached, 0.0):.0%} of the target was reached: {why}",)
 
 
 def describe_far_move(patch: Patch, move: float, border: str) -> tuple[str, ...]:

@@ -287,6 +287,7 @@ class VIEW3D_PT_reflines_numbers(ReflinesPanel, bpy.types.Panel):
         column.label(text=report.termination.replace('_', ' ').capitalize())
         column.label(text=f"{report.iterations} iterations, {report.seconds:.2f} s")
         column.label(text=f"Wobble {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
+        column.label(text=f"at length {report.measured_length()}")
         column.label(text=f"Residual {report.residual_before:.3g} \u2192 {report.residual_after:.3g}")
         column.label(text=f"Largest move {report.moved()}")
 

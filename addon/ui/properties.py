@@ -67,7 +67,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
     residual_before: FloatProperty(name="Residual Before", description="What the lines' gradient lacked of the "
                                    "wanted one: root mean square, radians per unit of length")
     residual_after: FloatProperty(name="Residual After", description="What it still lacks")
-    remedy: StringProperty(name="Remedy", description="The border that would let a larger share of the wish be reached")
+    remedy: StringProperty(name="Remedy", description="The border with which more of the target can be reached")
 
     def fill(self, solution: Solution, notes: tuple[str, ...]) -> None:
         """Copies the numbers of a finished solve."""
@@ -92,18 +92,14 @@ class ReflinesReport(bpy.types.PropertyGroup):
         return f", its cage {units.format_length(self.cage_move, bpy.context.scene, 2)}"
 
     def gain(self) -> str:
-        """Says how much smoother the lines became, or how much of the wish was reached."""
+        """Says how much smoother the lines became, or how much of the target was reached."""
         smoothed = self.id_data.reflection_lines.run.operator == "REFLINES_OT_smooth"
         return Gain(self.score_before, self.score_after, self.residual_before,
                     self.residual_after).describe(smoothed=smoothed)
 
-    def summary(self) -> str:
-        """Returns the headline, and after it the numbers of the solver: a status bar shows the beginning."""
-        return (f"{self.headline()}; {self.termination.replace('_', ' ')} after {self.iterations} iterations "
-                f"in {self.seconds:.2f} s, "
-                f"wobble {self.score_before:.4g} -> {self.score_after:.4g} degrees "
-                f"at length {units.format_length(self.length, bpy.context.scene)}, "
-                f"residual {self.residual_before:.4g} -> {self.residual_after:.4g}, largest move {self.moved()}")
+    def measured_length(self) -> str:
+        """Says the length at which the wobble was measured."""
+        return units.format_length(self.length, bpy.context.scene, 3)
 
     def moved(self, precision: int = 5) -> str:
         return units.format_length(self.largest_move, bpy.context.scene, precision)

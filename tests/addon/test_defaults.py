@@ -15,7 +15,7 @@ PRESSES = {
 
 @pytest.fixture
 def panel() -> bpy.types.Object:
-    """A clean one, a region in its middle: no wish but the tool's."""
+    """A clean one, a region in its middle: no target but the tool's."""
     ob = scenes.panel(height=scenes.crown, cells=CELLS)
     scenes.look_from_above()
     scenes.edit_inner(ob, CELLS, margin=8)
@@ -24,7 +24,7 @@ def panel() -> bpy.types.Object:
 
 
 def reached(ob: bpy.types.Object) -> float:
-    """The share of the wish."""
+    """The share of the target."""
     report = ob.reflection_lines.report
     return 1.0 - report.residual_after / report.residual_before
 
@@ -34,7 +34,7 @@ def test_a_press_with_the_defaults_does_more_than_half_of_what_it_is_asked_for(p
     press()
     report = panel.reflection_lines.report
     assert reached(panel) > 0.5
-    assert "of the wish" not in report.notes and report.remedy == ""
+    assert "of the target" not in report.notes and report.remedy == ""
 
 
 def test_the_automatic_fall_off_ends_inside_a_long_region(panel) -> None:
@@ -59,7 +59,7 @@ def test_a_border_in_the_way_is_named_and_the_remedy_does_it(panel, border) -> N
     first = report.notes.splitlines()[0]
     assert first.startswith("Only ") and f"the border {border.capitalize()} keeps the lines' mean" in first
     assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border=report.remedy) == {'FINISHED'}
-    assert reached(panel) > 0.8 and report.remedy == "" and "of the wish" not in report.notes
+    assert reached(panel) > 0.8 and report.remedy == "" and "of the target" not in report.notes
     remedied = scenes.positions(panel)
     bpy.ops.ed.undo()
     bpy.ops.ed.undo()
@@ -74,4 +74,4 @@ def test_what_is_as_wanted_already_is_no_failure() -> None:
     scenes.edit_inner(panel, CELLS)
     for _ in range(3):
         scenes.smooth()
-        assert "of the wish" not in panel.reflection_lines.report.notes
+        assert "of the target" not in panel.reflection_lines.report.notes

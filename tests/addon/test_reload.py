@@ -50,9 +50,9 @@ def test_maps_of_the_last_solve(panel, mode, tmp_path) -> None:
 
 
 def test_report_and_settings(panel, tmp_path) -> None:
-    summary = panel.reflection_lines.report.summary()
+    headline = panel.reflection_lines.report.headline()
     again = reloaded(tmp_path)
-    assert again.reflection_lines.report.summary() == summary
+    assert again.reflection_lines.report.headline() == headline
     assert bpy.context.scene.reflection_lines.length == 0.5
 
 

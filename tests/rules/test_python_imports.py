@@ -49,7 +49,7 @@ MAY_IMPORT = {
 INDEXES = {"__init__"} | {f"{package}.__init__" for package in (
     "model", "targets", "bridge", "solver", "state", "interactive", "operators", "overlay", "ui")}
 # What the operators that solve are made of; no operator imports another one.
-OPERATOR_BASES = {"operators.solve_tool", "operators.dragged_tool"}
+OPERATOR_BASES = {"operators.solve_tool", "operators.dragged_tool", "operators.camera_aim"}
 
 # Module from elsewhere -> the only modules of addon/ that may import it.
 WALLS = {"reflines": ("native",), "bmesh": ("bridge",), "gpu": ("overlay",), "gpu_extras": ("overlay",)}

@@ -56,14 +56,14 @@ def test_the_header_tells_the_gain_first_as_the_result_will(driver: window.Windo
         assert header.startswith(told[:len("Lines 1.2 x smoother")]) and "smoother, moved at most" in told
 
 
-def test_the_header_of_another_tool_tells_how_much_of_the_wish_was_reached(driver: window.Window) -> Steps:
+def test_the_header_of_another_tool_tells_how_much_of_the_target_was_reached(driver: window.Window) -> Steps:
     panel(driver)
     yield from press(driver, "untwist")
     header = running_drag().texts[0]
     driver.key('RET')
     yield from ended(driver)
     report = bpy.context.view_layer.objects.active.reflection_lines.report
-    assert header.startswith(report.headline().split(",")[0]) and "% of the wish reached" in header
+    assert header.startswith(report.headline().split(",")[0]) and "% of the target reached" in header
 
 
 def test_what_is_kept_is_what_the_operator_makes_without_a_mouse(driver: window.Window) -> Steps:
@@ -235,7 +235,7 @@ def test_disabling_the_add_on_takes_a_drag_back(driver: window.Window) -> Steps:
 
 window.run(test_a_drag_follows_and_escape_leaves_no_bit_changed,
            test_the_header_tells_the_gain_first_as_the_result_will,
-           test_the_header_of_another_tool_tells_how_much_of_the_wish_was_reached,
+           test_the_header_of_another_tool_tells_how_much_of_the_target_was_reached,
            test_what_is_kept_is_what_the_operator_makes_without_a_mouse, test_typed_numbers,
            test_a_typed_expression_with_a_unit_is_shown_with_its_value,
            test_one_undo_takes_a_drag_back_and_redo_brings_it,
