@@ -12,6 +12,7 @@ void bind_subdivision(pybind11::module_& module);
 void bind_turn(pybind11::module_& module);
 void bind_target(pybind11::module_& module);
 void bind_builders(pybind11::module_& module);
+void bind_line_handles(pybind11::module_& module);
 void bind_report(pybind11::module_& module);
 void bind_smooth_panel(pybind11::module_& module);
 void bind_optimizer(pybind11::module_& module);

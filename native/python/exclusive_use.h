@@ -9,6 +9,7 @@
 #include "geometry/normal_fit.h"
 #include "python/gil_handover.h"
 #include "reflines/cage_optimizer.h"
+#include "reflines/line_handles.h"
 #include "reflines/shape_optimizer.h"
 
 namespace reflines {
@@ -21,6 +22,7 @@ class ExclusiveUse {
   ExclusiveUse(const ShapeOptimizer& optimizer, Use use) : ExclusiveUse(&optimizer, use, "optimizer") {}
   ExclusiveUse(const CageOptimizer& optimizer, Use use) : ExclusiveUse(optimizer.surface(), use) {}
   ExclusiveUse(const NormalFit& fit, Use use) : ExclusiveUse(&fit, use, "normal fit") {}
+  ExclusiveUse(const LineHandles& handles, Use use) : ExclusiveUse(&handles, use, "set of handles") {}
   ~ExclusiveUse();
   ExclusiveUse(const ExclusiveUse&) = delete;
   ExclusiveUse& operator=(const ExclusiveUse&) = delete;

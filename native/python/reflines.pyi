@@ -271,6 +271,42 @@ def pattern(optimizer: ShapeOptimizer, *, image: np.ndarray, strength: float = 1
     to `keep` times the current lines; by value the target is theta itself (eq. 3), not only its gradient; see
     native/include/reflines/pattern_target.h."""
 
+class Handle:
+    """A place where a line is wanted. With a `value` (theta, radians) it pulls that line to a point or along a polyline; without
+    one it is a pin: the lines at the point, along the polyline or in the triangles stay."""
+    def __init__(self, points: np.ndarray = ...,            # #P x 2, in the image plane: a point or the corners of a polyline
+                 *, value: float | None = None,
+                 radius: float = 0.0,                       # of a pull: lines farther from `centre` stay
+                 centre: np.ndarray | None = None,          # #C x 2, a point or polyline; default `points`
+                 triangles: np.ndarray = ...,               # of a pin: triangles of the region
+                 name: str = "") -> None: ...               # for messages
+
+class HandleReach:
+    """The distance between a handle and its line at the farthest of its points; of a pin, the move of its lines."""
+    theta: float     # radians
+    distance: float  # along the surface, scene units
+    share: float     # of the spacing of the lines
+
+class LineHandles:
+    """The builder of targets by handles, for a region as its lines are when this is made; see
+    native/include/reflines/line_handles.h. Points that move within the same `centre` and `radius` take one back substitution."""
+    def __init__(self, optimizer: ShapeOptimizer, *, family: int = 0) -> None: ...
+    def build(self, handles: Sequence[Handle]) -> list[Target]:
+        """Builds the two targets to solve for together: the gradient's, and that of the values at the handles and beyond the
+        radii. Handles that change nothing give the lines at the start, bit for bit."""
+    def find_conflicts(self, handles: Sequence[Handle]) -> list[str]:
+        """Returns a sentence for each pair of pulls that forces lines to cross."""
+    def read_theta(self, points: np.ndarray) -> np.ndarray:
+        """Returns theta of the line through each point (#P x 2): #P, at the start."""
+    def measure(self, handles: Sequence[Handle], optimizer: ShapeOptimizer, *, line_step: float) -> list[HandleReach]:
+        """Measures at the optimizer's present heights; `line_step` is the step of theta from line to line, radians."""
+
+def handles(optimizer: ShapeOptimizer, handles: Sequence[Handle], *, family: int = 0) -> list[Target]:
+    """Builds the targets of handles on the present lines: LineHandles(optimizer).build(handles)."""
+
+def vertex_theta(optimizer: ShapeOptimizer, *, family: int = 0) -> np.ndarray:
+    """Returns theta at the vertices (#V), radians in (-pi, pi]; 0 where no active triangle is."""
+
 def match_dense(optimizer: ShapeOptimizer, dense: ShapeOptimizer, *, family: int = 0
                 ) -> tuple[Target, np.ndarray, np.ndarray, np.ndarray]:
     """Builds the target of another mesh's lines, with weight 0 where the view meets none of it. Also returns theta there

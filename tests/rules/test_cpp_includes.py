@@ -12,7 +12,7 @@ PUBLIC = {
     "image_plane": "geometry", "cage": "geometry", "subdivision": "geometry",
     "mirror_pairs": "geometry",
     "target": "reflection", "region_field": "reflection", "smooth_target": "reflection",
-    "uniform_target": "targets", "warp_target": "targets", "pattern_target": "targets",
+    "uniform_target": "targets", "warp_target": "targets", "pattern_target": "targets", "line_handles": "targets",
     "minimizer_options": "optimization", "report": "optimization",
     "shape_optimizer": "solver", "cage_optimizer": "solver",
     "smooth_panel": "restoration",

@@ -18,6 +18,7 @@
 #include "reflines/region_field.h"
 #include "reflines/report.h"
 #include "reflines/smooth_target.h"
+#include "reflines/spd_factorize.h"
 #include "reflines/stencil_kind.h"
 #include "reflines/target.h"
 #include "reflines/types.h"
@@ -80,6 +81,9 @@ class ShapeOptimizer {
   // another family.
   const RegionField& region_field(int family);
 
+  // Returns the factorization by this optimizer's linear solver, for LineHandles.
+  SpdFactorize factorizer() const;
+
   // Return the energy, and |grad theta - target| (#F), at the current heights.
   double energy(const std::vector<Target>& targets);
   Vector residual(const Target& target) const;
@@ -136,6 +140,7 @@ class ShapeOptimizer {
   Region region_;
   std::unique_ptr<RegionPieces> pieces_;
   int family_count_;
+  LinearSolverKind linear_solver_;
   double feature_length_ = 0.0;  // see RegionField::feature
   std::shared_ptr<Progress> progress_;
   std::vector<int> free_unknowns_;

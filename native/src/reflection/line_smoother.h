@@ -7,17 +7,12 @@
 // harmonic border wave).
 #pragma once
 
-#include <functional>
-
 #include "geometry/stencil.h"
 #include "reflines/smooth_target.h"
+#include "reflines/spd_factorize.h"
 #include "reflines/types.h"
 
 namespace reflines {
-
-// A function that factors a symmetric positive definite matrix (lower triangle) and returns the solve x <- A^-1 x.
-using SpdSolve = std::function<void(Vector&)>;
-using SpdFactorize = std::function<SpdSolve(const SparseMatrix&)>;
 
 class LineSmoother {
  public:

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geometry/mesh.h"
+#include "optimization/linear/linear_solver.h"
 #include "optimization/report_sums.h"
 #include "reflines/errors.h"
 #include "solver/coupling.h"
@@ -42,6 +43,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
                                const std::vector<Vector3>& line_directions, const ShapeOptions& options)
     : pieces_(std::make_unique<RegionPieces>(V, F, ImagePlane(view_direction, take_first(line_directions)))),
       family_count_(static_cast<int>(line_directions.size())),
+      linear_solver_(options.linear_solver),
       progress_(options.progress) {
   enter(0.0, "checking the mesh");
   check_surface(V, F);
@@ -137,6 +139,15 @@ FieldSmoother ShapeOptimizer::smoother(int family) {
   return [this, family](const SmoothOptions& options) {
     count_features(options.length, family);
     return pieces_->smooth_field(options, family);
+  };
+}
+
+SpdFactorize ShapeOptimizer::factorizer() const {
+  return [kind = linear_solver_](const SparseMatrix& matrix) -> SpdSolve {
+    auto solver = std::make_shared<LinearSolver>(kind);
+    solver->analyze(matrix);
+    solver->factorize(matrix);
+    return [solver](Vector& x) { solver->solve(x); };
   };
 }
 

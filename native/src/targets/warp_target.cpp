@@ -8,6 +8,7 @@
 #include "reflection/reflection_function.h"
 #include "reflection/scalar_gradient.h"
 #include "reflines/errors.h"
+#include "targets/line_reader.h"
 
 namespace reflines {
 namespace {
@@ -74,19 +75,6 @@ PlanePositions invert_grid(const RegionField& field, const WarpGrid& grid) {
     for (int i = 0; i < 3; ++i) result.row(v) += at.barycentric(i) * shift.row(F(at.triangle, i));
   }
   return result;
-}
-
-// Returns theta at `point` of the triangle that contains it, relative to `reference` and within pi of it.
-double evaluate_theta_near(const RegionField& field, const Location& at, const Vector2& point, double reference) {
-  double sum = 0;
-  const int first = field.F(at.triangle, 0);
-  const double base = wrap_angle(field.vertex_theta(first) - reference);
-  for (int i = 0; i < 3; ++i) {
-    const int v = field.F(at.triangle, i);
-    const double step = 0.5 * field.vertex_gradient.row(v).dot(point.transpose() - field.xy.row(v));
-    sum += at.barycentric(i) * (wrap_angle(field.vertex_theta(v) - field.vertex_theta(first)) + step);
-  }
-  return wrap_angle(base + sum);
 }
 
 // Adds the gradient of `delta` (#V) to the field; triangles with an `unknown` vertex keep theirs, with little weight.

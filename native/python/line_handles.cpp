@@ -1,0 +1,66 @@
+#include "reflines/line_handles.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+
+#include "python/bind.h"
+#include "python/exclusive_use.h"
+#include "reflines/shape_optimizer.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+Handle make_handle(const PlanePositions& points, const std::optional<double>& value, double radius,
+                   const std::optional<PlanePositions>& centre, const IndexVector& triangles, const std::string& name) {
+  const HandleKind kind = value ? HandleKind::kPull : HandleKind::kPin;
+  return {kind, points, value.value_or(0.0), centre.value_or(PlanePositions()), radius, triangles, name};
+}
+
+std::unique_ptr<LineHandles> make_line_handles(ShapeOptimizer& optimizer, int family) {
+  const NativeCall call(optimizer);
+  return std::make_unique<LineHandles>(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer());
+}
+
+std::vector<HandleReach> measure(const LineHandles& line_handles, const std::vector<Handle>& handles,
+                                 ShapeOptimizer& optimizer, double line_step) {
+  const NativeCall call(optimizer);
+  return line_handles.measure(handles, optimizer.region_field(line_handles.family()), line_step);
+}
+
+std::vector<Target> handles(ShapeOptimizer& optimizer, const std::vector<Handle>& handles, int family) {
+  const NativeCall call(optimizer);
+  return LineHandles(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer()).build(handles);
+}
+
+Vector read_vertex_theta(ShapeOptimizer& optimizer, int family) {
+  const NativeCall call(optimizer);
+  return optimizer.region_field(family).vertex_theta;
+}
+
+}  // namespace
+
+void bind_line_handles(py::module_& module) {
+  py::class_<Handle>(module, "Handle", py::module_local())
+      .def(py::init(&make_handle), py::arg("points") = PlanePositions(0, 2), py::kw_only(),
+           py::arg("value") = py::none(), py::arg("radius") = Handle().radius, py::arg("centre") = py::none(),
+           py::arg("triangles") = IndexVector(), py::arg("name") = "");
+  py::class_<HandleReach>(module, "HandleReach", py::module_local())
+      .def_readonly("theta", &HandleReach::theta)
+      .def_readonly("distance", &HandleReach::distance)
+      .def_readonly("share", &HandleReach::share);
+  py::class_<LineHandles>(module, "LineHandles", py::module_local())
+      .def(py::init(&make_line_handles), py::arg("optimizer"), py::kw_only(), py::arg("family") = 0)
+      .def("build", release_gil(&LineHandles::build), py::arg("handles"))
+      .def("find_conflicts", release_gil(&LineHandles::find_conflicts), py::arg("handles"))
+      .def("read_theta", release_gil(&LineHandles::read_theta), py::arg("points"))
+      .def("measure", &measure, py::arg("handles"), py::arg("optimizer"), py::kw_only(), py::arg("line_step"));
+  module.def("handles", &handles, py::arg("optimizer"), py::arg("handles"), py::kw_only(), py::arg("family") = 0);
+  module.def("vertex_theta", &read_vertex_theta, py::arg("optimizer"), py::kw_only(), py::arg("family") = 0);
+}
+
+}  // namespace reflines
