@@ -10,7 +10,7 @@ from typing import Protocol
 import bpy
 import numpy as np
 
-from ..bridge import facing, read_mesh, region_faces, scene_objects, units, view_region, write_mesh
+from ..bridge import facing, read_mesh, region_faces, units, view_region, write_mesh
 from ..bridge.write_mesh import EditVertices
 from ..model.gain import Gain
 from ..model.patch import Patch
@@ -35,6 +35,7 @@ class DraggedOperator(Protocol):
     border: str
     smooths: bool  # whether the tool's gain is told by how smooth the lines are
 
+    def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]: ...
     def build_handles(self) -> tuple[Handle, ...]: ...
     def choose_automatic(self, name: str, patch: Patch) -> float: ...
     def gather_patch(self, ob: bpy.types.Object) -> Patch: ...
@@ -49,11 +50,12 @@ class Drag:
     def __init__(self, tool: DraggedOperator, context: bpy.types.Context) -> None:
         scene = context.scene
         self.tool, self.area = tool, context.area
-        subjects = scene_objects.find_subjects(context)
+        subjects = tool.find_subjects(context)
         self.patches = [tool.gather_patch(ob) for ob in subjects]
         self.counts = [read_mesh.count_elements(ob) for ob in subjects]
         views = [facing.read_patch_view(scene, patch) for patch in self.patches]
-        self.shown = [patch.round_start_positions() for patch in self.patches]
+        self.before = [self.read_shown(ob, patch) for ob, patch in zip(subjects, self.patches, strict=True)]
+        self.shown = self.before
         self.vertices = [EditVertices(patch.index) for patch in self.patches]
         self.values = self.read_values(scene)
         self.frame = live_optimizer.compute_image_frame(self.patches[0], views[0])
@@ -75,6 +77,10 @@ class Drag:
         starts = [getattr(self.tool, handle.name) or self.tool.choose_automatic(handle.name, self.patches[0])
                   for handle in handles]
         return drag_input.read_values(handles, starts, scene)
+
+    def read_shown(self, _ob: bpy.types.Object, patch: Patch) -> np.ndarray:
+        """Returns the positions that the mesh has before the drag: #V x 3 float32, object space."""
+        return patch.round_start_positions()
 
     def begin_at(self, context: bpy.types.Context, x: int, y: int) -> None:
         """Takes the mouse's place (pixels of the window) as that of the present values. Where it is not over the view,
@@ -162,14 +168,17 @@ class Drag:
         self.shown = [solution.patch.to_object_space(solution.positions) for solution in solutions]
 
     def restore(self) -> None:
-        self.write_positions([patch.round_start_positions() for patch in self.patches])
+        self.write_positions(self.before)
 
     def update_texts(self, context: bpy.types.Context) -> None:
         values = drag_input.describe_values(self.values, context.scene)
         header = f"{self.problem or self.describe_gain(context)}   {values}   ({self.tool.bl_label})"
+        self.show_texts(context, header, drag_input.describe_keys(self.values))
+
+    def show_texts(self, context: bpy.types.Context, header: str, keys: str) -> None:
+        """Shows the header, and in the status bar the keys, or the stage of what takes long."""
         working = not self.thread.is_idle() and time.monotonic() - self.busy_since > SAYS_BUSY
-        status = f"{self.job.describe_stage()}   Esc: cancel" if working or self.keeping \
-            else drag_input.describe_keys(self.values)
+        status = f"{self.job.describe_stage()}   Esc: cancel" if working or self.keeping else keys
         if self.texts != (header, status):  # setting a text redraws its bar
             self.texts = header, status
             self.area.header_text_set(header)

@@ -12,6 +12,7 @@ import numpy as np
 
 from .. import native
 from ..model.gain import Gain
+from ..model.line_surface import LineState
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -33,7 +34,8 @@ class SolveRequest:
     builds: tuple[BuildTarget, ...]
     settings: SolveSettings
     final: bool = False    # whether the result is kept, so solved from the start
-    measure: bool = False  # only the gain of the last solution is asked for
+    measure: bool = False  # only the gain of the last solution is wanted
+    lines: bool = False    # whether the outcome has the lines, too
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,7 @@ class SolveOutcome:
     solutions: tuple[Solution, ...] = ()    # results of a final request
     refusal: str = ""                       # why there are none, as a sentence
     gain: Gain | None = None                # of all panels together, where it was measured
+    lines: tuple[LineState, ...] = ()       # of each panel, where they are wanted
 
 
 class SolveJob:
@@ -58,6 +61,7 @@ class SolveJob:
         self.stage = "Preparing"
         self.cancelled = False
         self.measure_seconds = 0.0  # of the last measurement
+        self.start_lines: tuple[LineState, ...] = ()  # once a request has wanted lines
 
     @property
     def ready(self) -> bool:
@@ -104,17 +108,27 @@ class SolveJob:
                 self.followers.append(follower.optimizer)
 
     def follow(self, request: SolveRequest) -> SolveOutcome:
-        """Solves warm-started from the last solution, to FOLLOW_TOLERANCE."""
+        """Solves warm-started from the last solution, to the targets' tolerance."""
         self.stage = "Following"
         positions = []
         every = zip(self.patches, self.starts, self.followers, request.builds, strict=True)
         for patch, start, follower, build in every:
             with live_optimizer.convert_native_errors(patch):
-                target = live_optimizer.build_target(start, build)
-                follower.solve(target, gradient_tolerance=FOLLOW_TOLERANCE, progress=self.progress)
+                wanted = live_optimizer.build_targets(start, build)
+                follower.solve(wanted.targets, gradient_tolerance=wanted.follow_tolerance, progress=self.progress)
                 positions.append(choose_formulation(patch, start.view).read_positions(follower))
         gain = self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
-        return SolveOutcome(request, tuple(positions), gain=gain)
+        return SolveOutcome(request, tuple(positions), gain=gain, lines=self.read_lines(request))
+
+    def read_lines(self, request: SolveRequest) -> tuple[LineState, ...]:
+        """Reads the lines that are followed, where they are wanted, and once those of the start."""
+        if not request.lines:
+            return ()
+        if not self.start_lines:
+            self.start_lines = tuple(choose_formulation(start.patch, start.view).read_lines(start.optimizer)
+                                     for start in self.starts)
+        return tuple(choose_formulation(start.patch, start.view).read_lines(follower)
+                     for start, follower in zip(self.starts, self.followers, strict=True))
 
     def measure(self, request: SolveRequest) -> Gain:
         """Measures the present heights against those of the start, by the numbers that the result will be told by."""
@@ -123,11 +137,10 @@ class SolveJob:
         every = zip(self.patches, self.starts, self.followers, request.builds, strict=True)
         for patch, start, follower, build in every:
             with live_optimizer.convert_native_errors(patch):
-                target = live_optimizer.build_target(start, build)
+                wanted = live_optimizer.build_targets(start, build)
                 length = solve.choose_length(patch, request.settings.length)
                 numbers.append((start.optimizer.score(length), follower.score(length),
-                                solve.compute_rms_residual(start.optimizer, target),
-                                solve.compute_rms_residual(follower, target)))
+                                wanted.measure(start.optimizer), wanted.measure(follower)))
         self.measure_seconds = time.perf_counter() - begin
         return Gain(*np.sqrt(np.mean(np.square(numbers), axis=0)).tolist())
 

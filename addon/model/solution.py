@@ -1,4 +1,5 @@
 """Requests and results of a solve."""
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,17 @@ class SolveSettings:
     """The parameters that every solve needs beside its target."""
     border: str
     length: float  # detail finer than this counts as wobble, world units; 0: a fraction of the patch's diagonal
+
+
+@dataclass(frozen=True)
+class JointTargets:
+    """Targets that are solved for together, and the measure of what is not reached of them at an optimizer's heights.
+    """
+    targets: "list[native.Target]"
+    measure: Callable[["native.ShapeOptimizer"], float]
+    # The tolerance of a drag's solves, relative to the gradient after a move of the mouse; 1e-2 would leave 4e-5 of the
+    # size after a closed path.
+    follow_tolerance: float = 1e-4
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,7 @@ class DraggedTool(SolveTool):
         context.view_layer.update()
         self.copy_settings(context.scene)
         try:
-            self.drag = Drag(self, context)
+            self.drag = self.begin_drag(context)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
@@ -69,6 +69,10 @@ class DraggedTool(SolveTool):
         self.drag.update_texts(context)
         context.window_manager.modal_handler_add(self)
         return {'RUNNING_MODAL'}
+
+    def begin_drag(self, context: bpy.types.Context) -> Drag:
+        """Begins the drag; refuses what cannot be dragged."""
+        return Drag(self, context)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         try:

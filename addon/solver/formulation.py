@@ -11,6 +11,7 @@ import numpy as np
 from .. import native
 from ..model import mirror
 from ..model.cage import CagePatch
+from ..model.line_surface import LineState
 from ..model.patch import Patch
 from ..model.view import View
 from ..targets import mirror_target
@@ -39,6 +40,13 @@ class Formulation:
         """True where the solve keeps the symmetry of the patch."""
         return False
 
+    @property
+    def image_sign(self) -> np.ndarray | None:
+        """The signs of an object-space vector's components after mirroring (3), where targets must have both halves;
+        None where there is one half, or `complete_target` adds the other.
+        """
+        return None
+
     def choose_directions(self) -> dict[str, np.ndarray]:
         """Returns the directions as arguments of the native constructors."""
         return {"view_direction": self.view.view_direction, "line_direction": self.view.line_direction}
@@ -59,6 +67,14 @@ class Formulation:
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         """Reads the solved positions of the patch's vertices: #V x 3, world space."""
         return optimizer.positions
+
+    def read_lines(self, optimizer: "native.ShapeOptimizer") -> LineState:
+        """Reads the lines at the vertices of the optimizer's triangles, see read_triangles."""
+        return LineState(optimizer.positions, native.reflines.vertex_theta(optimizer))
+
+    def read_triangles(self, _optimizer: "native.ShapeOptimizer") -> np.ndarray:
+        """Reads the triangles that lines are read on: #F x 3; of a patch joined with its image its own half."""
+        return self.patch.F
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         """Returns the target for all that is solved, from one that was built for it."""
@@ -91,6 +107,10 @@ class SymmetricFormulation(Formulation):
     @property
     def is_symmetric(self) -> bool:
         return True
+
+    @property
+    def image_sign(self) -> np.ndarray | None:
+        return self.patch.mirror.sign
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         move = optimizer.positions - self.patch.V
@@ -145,10 +165,17 @@ class CageFormulation(Formulation):
     def is_symmetric(self) -> bool:
         return self.patch.is_symmetric_for(self.view.view_direction)
 
+    @property
+    def image_sign(self) -> np.ndarray | None:
+        return np.where(np.arange(3) == self.patch.mirror_axis, -1.0, 1.0) if self.is_symmetric else None
+
     def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.CageOptimizer":
         return native.reflines.CageOptimizer(**self.patch.cage.build_arguments(self.is_symmetric),
                                              **self.choose_directions(), progress=progress, border=border,
                                              sparse=sparse, **self.patch.creases.build_cage_arguments())
+
+    def read_triangles(self, optimizer: "native.CageOptimizer") -> np.ndarray:
+        return optimizer.triangles
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         return self.patch.V + (optimizer.cage_positions - self.patch.cage.V)[self.patch.index]

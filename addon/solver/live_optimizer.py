@@ -1,17 +1,19 @@
 """The native optimizer of one patch, with what it was built from."""
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from .. import native
 from ..model.patch import Patch
 from ..model.refusal import Refusal
+from ..model.solution import JointTargets
 from ..model.view import View
 from .formulation import choose_formulation
 
-BuildTarget = Callable[["native.ShapeOptimizer"], "native.Target"]
+BuildTarget = Callable[["native.ShapeOptimizer"], "native.Target | JointTargets"]
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,27 @@ def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Pro
     return LiveOptimizer(patch, seen, border, optimizer)
 
 
-def build_target(live: LiveOptimizer, build: BuildTarget) -> "native.Target":
-    """Builds the target at the optimizer's present heights."""
-    return choose_formulation(live.patch, live.view).complete_target(build(live.optimizer))
+def build_targets(live: LiveOptimizer, build: BuildTarget) -> JointTargets:
+    """Builds the targets at the optimizer's present heights. One target alone is measured by its residual."""
+    built, complete = build(live.optimizer), choose_formulation(live.patch, live.view).complete_target
+    if isinstance(built, JointTargets):
+        return replace(built, targets=[complete(each) for each in built.targets])
+    target = complete(built)
+    return JointTargets([target], partial(compute_rms_residual, target=target))
+
+
+def compute_rms_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:
+    """Returns the root mean square of the residual over the triangles that can change, by area and the target's weight.
+    """
+    return compute_rms(optimizer, target, optimizer.residual(target))
+
+
+def compute_rms(optimizer: "native.ShapeOptimizer", target: "native.Target", values: np.ndarray) -> float:
+    """Returns the root mean square of values (#F), weighted as the residual is."""
+    weight = optimizer.area * optimizer.changeable
+    if len(target.weight):
+        weight = weight * target.weight
+    return float(np.sqrt(weight @ values**2 / max(weight.sum(), 1e-300)))
 
 
 @contextmanager

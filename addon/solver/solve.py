@@ -40,12 +40,12 @@ def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveS
     """
     optimizer, length = live.optimizer, choose_length(live.patch, settings.length)
     score = optimizer.score(length)
-    target = live_optimizer.build_target(live, build_target)  # that of a fit moves the optimizer first
-    lacking = compute_rms_residual(optimizer, target)
-    report = optimizer.solve(target, progress=progress)
+    wanted = live_optimizer.build_targets(live, build_target)  # that of a fit moves the optimizer first
+    target, lacking = wanted.targets[0], wanted.measure(optimizer)
+    report = optimizer.solve(wanted.targets, progress=progress)
     formulation = choose_formulation(live.patch, live.view)
-    positions, left = formulation.read_positions(optimizer), compute_rms_residual(optimizer, target)
-    short = falls_short(optimizer, target, lacking, left)
+    positions, left = formulation.read_positions(optimizer), wanted.measure(optimizer)
+    short = len(wanted.targets) == 1 and falls_short(optimizer, target, lacking, left)
     return Solution(live.patch, positions, report, target, formulation.read_residual(optimizer, target), lacking, left,
                     length, score, optimizer.score(length),
                     (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
@@ -61,18 +61,4 @@ def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lac
     """
     if left <= (1.0 - SMALL_SHARE) * lacking:
         return False
-    return lacking > SMALL_CHANGE * compute_rms(optimizer, target, np.linalg.norm(optimizer.field(), axis=1))
-
-
-def compute_rms_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:
-    """Returns the root mean square of the residual over the triangles that can change, by area and the target's weight.
-    """
-    return compute_rms(optimizer, target, optimizer.residual(target))
-
-
-def compute_rms(optimizer: "native.ShapeOptimizer", target: "native.Target", values: np.ndarray) -> float:
-    """Returns the root mean square of values (#F), weighted as the residual is."""
-    weight = optimizer.area * optimizer.changeable
-    if len(target.weight):
-        weight = weight * target.weight
-    return float(np.sqrt(weight @ values**2 / max(weight.sum(), 1e-300)))
+    return lacking > SMALL_CHANGE * live_optimizer.compute_rms(optimizer, target, np.linalg.norm(optimizer.field(), axis=1))

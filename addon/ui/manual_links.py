@@ -19,6 +19,8 @@ SETTINGS = (
     ("bpy.types.reflinesscene.light*", "#view-and-light"),
     *((f"bpy.types.reflinesscene.{name}", "#region") for name in ("border", "solve_for", "result")),
     ("bpy.types.reflinesobject.crease*", "#region"),
+    ("bpy.types.reflinespull.*", "#reflines.pull_line"),
+    ("bpy.types.reflineshandles.*", "#reflines.pull_line"),
     ("bpy.types.reflinesscene.*", "#reflines.smooth"),
     ("bpy.types.reflinesstripes.*", "#stripes"),
     ("bpy.types.reflinessetups.*", "#stripes"),

@@ -6,7 +6,7 @@ DRAGGED = (
     ("reflines.smooth", 'MOD_SMOOTH'), ("reflines.direction", 'ALIGN_JUSTIFY'), ("reflines.untwist", 'LOOP_BACK'),
     ("reflines.warp", 'MOD_LATTICE'), ("reflines.pattern", 'IMAGE_DATA'),
 )
-TOOLS = (*DRAGGED, ("reflines.fit", 'MOD_SHRINKWRAP'))
+TOOLS = (*DRAGGED, ("reflines.pull_line", 'VIEW_PAN'), ("reflines.fit", 'MOD_SHRINKWRAP'))
 SETUP = (
     ("reflines.camera_from_view", 'VIEW_CAMERA'), ("reflines.add_view_camera", 'CAMERA_DATA'),
     ("reflines.look_through", 'HIDE_OFF'), ("reflines.add_light_direction", 'EMPTY_SINGLE_ARROW'),

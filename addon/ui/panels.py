@@ -156,6 +156,25 @@ class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
         self.draw_buttons(layout, settings, "reflines.smooth", 'MOD_SMOOTH')
 
 
+class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
+    bl_label = "Pull Line"
+    manual = "reflines.pull_line"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
+                  settings: bpy.types.PropertyGroup) -> None:
+        own = settings.pull
+        layout.prop(own, "radius")
+        rows.draw_zero(layout, own, "radius", "0: automatic")
+        border = layout.row(align=True)
+        border.use_property_split = False
+        border.prop(own, "border", expand=True)
+        layout.operator("reflines.pull_line", icon='VIEW_PAN')
+        ob = context.view_layer.objects.active
+        if ob is not None and ob.reflection_lines.handles.text:
+            layout.operator("reflines.delete_handles", icon='X')
+
+
 class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
     bl_label = "Direction and Density"
     manual = "reflines.direction"
@@ -293,6 +312,7 @@ class VIEW3D_PT_reflines_numbers(ReflinesPanel, bpy.types.Panel):
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_direction,
+    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_pull,
+    VIEW3D_PT_reflines_direction,
     VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
     VIEW3D_PT_reflines_numbers])

@@ -9,8 +9,9 @@ from ..bridge import light_angles, modifiers, scene_objects, units
 from ..model.gain import Gain
 from ..model.solution import Solution
 from .automatic_values import shown_property, switch_property
+from .handle_properties import ReflinesHandles
 from .stripe_properties import ReflinesSetups, ReflinesStripes
-from .tool_properties import ReflinesDirection, ReflinesPattern, ReflinesUntwist, ReflinesWarp, SmoothSettings
+from .tool_properties import ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesUntwist, ReflinesWarp, SmoothSettings
 
 KINDS = (
     ('CAGE', "Cage", "Below a Subdivision Surface: move the cage so that the subdivided surface reflects well"),
@@ -150,6 +151,7 @@ class ReflinesObject(bpy.types.PropertyGroup):
                            description="The mesh that this lattice warps")
     center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
     run: PointerProperty(type=ReflinesRun)
+    handles: PointerProperty(type=ReflinesHandles)
     camera: PointerProperty(name="View Camera", type=bpy.types.Object,
                             description="That the panel was last worked on with")
     light: PointerProperty(name="Light Direction", type=bpy.types.Object,
@@ -221,6 +223,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     result: result_property()
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
+    pull: PointerProperty(type=ReflinesPull)
     warp: PointerProperty(type=ReflinesWarp)
     live: PointerProperty(type=ReflinesLive)
     pattern: PointerProperty(type=ReflinesPattern)

@@ -165,12 +165,23 @@ class PatternSettings(FitSettings):
                                 description="Of the picture's middle from the region's, right and up for the camera")
 
 
+class PullSettings:
+    border: border_property()
+    radius: FloatProperty(name="Radius", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
+                          description="How far from a new handle lines may move; 0: a third of the region's diagonal, "
+                          "at most half its width")
+
+
 class ReflinesDirection(DirectionSettings, bpy.types.PropertyGroup):
     """The scene's settings of Direction and Density."""
 
 
 class ReflinesUntwist(UntwistSettings, bpy.types.PropertyGroup):
     """The scene's settings of Untwist."""
+
+
+class ReflinesPull(PullSettings, bpy.types.PropertyGroup):
+    """The scene's settings of Pull Line."""
 
 
 def is_lattice(_: object, ob: bpy.types.Object) -> bool:
@@ -189,4 +200,4 @@ class ReflinesPattern(PatternSettings, bpy.types.PropertyGroup):
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    ReflinesDirection, ReflinesUntwist, ReflinesWarp, ReflinesPattern])
+    ReflinesDirection, ReflinesUntwist, ReflinesPull, ReflinesWarp, ReflinesPattern])

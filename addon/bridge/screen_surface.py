@@ -1,0 +1,60 @@
+"""Finds the place of a surface under the mouse, and the pixels of points."""
+import bpy
+import numpy as np
+
+from ..model.line_surface import LineSurface, Place, PlaneTriangles
+from . import view_region
+
+
+class ScreenSurface:
+    """A surface at the start of a session as a 3D view shows it; projected anew when the view is turned."""
+
+    def __init__(self, surface: LineSurface, area: bpy.types.Area) -> None:
+        self.surface, self.area = surface, area
+        self.matrix = np.zeros((4, 4))  # of the last projection, to pixels of the region
+        self.triangles: PlaneTriangles | None = None
+        self.depth = np.empty(0)  # #V x 2: homogeneous w, and depth
+
+    def find_place(self, x: float, y: float) -> Place | None:
+        """Returns the foremost place at a pixel of the window; None beside the surface, and over a sidebar."""
+        if not view_region.is_over_view(self.area, int(x), int(y)):
+            return None
+        self.project()
+        region = view_region.find_view_region(self.area)
+        found, weights = self.triangles.find(np.array([x - region.x, y - region.y]))
+        if not len(found):
+            return None
+        corners = self.surface.F[found]
+        weights = weights / self.depth[corners, 0]  # perspective
+        weights /= weights.sum(axis=1, keepdims=True)
+        front = int((weights * self.depth[corners, 1]).sum(axis=1).argmin())
+        return Place(int(found[front]), weights[front])
+
+    def project(self) -> None:
+        """Projects the surface, where the view has changed."""
+        matrix = compute_pixel_matrix(self.area)
+        if self.triangles is not None and np.array_equal(matrix, self.matrix):
+            return
+        self.matrix = matrix
+        pixels, self.depth = project_points(matrix, self.surface.start.V)
+        self.triangles = PlaneTriangles(pixels, self.surface.F)
+
+    def find_pixels(self, points: np.ndarray) -> np.ndarray:
+        """Returns where points (#P x 3) are seen, in pixels of the window: #P x 2, NaN behind the viewer."""
+        region = view_region.find_view_region(self.area)
+        return project_points(compute_pixel_matrix(self.area), points)[0] + [region.x, region.y]
+
+
+def compute_pixel_matrix(area: bpy.types.Area) -> np.ndarray:
+    """Returns the matrix (4 x 4) from world space to homogeneous pixels of the view's region."""
+    region = view_region.find_view_region(area)
+    to_pixels = np.diag([0.5 * region.width, 0.5 * region.height, 1.0, 1.0])
+    to_pixels[:2, 3] = 0.5 * region.width, 0.5 * region.height
+    return to_pixels @ np.array(area.spaces.active.region_3d.perspective_matrix)
+
+
+def project_points(matrix: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the pixels of points, and for each its homogeneous w and its depth; NaN behind the viewer."""
+    clip = points @ matrix[:, :3].T + matrix[:, 3]
+    w = np.where(clip[:, 3] > 0.0, clip[:, 3], np.nan)
+    return clip[:, :2] / w[:, None], np.column_stack([w, clip[:, 2] / w])

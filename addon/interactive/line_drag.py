@@ -1,0 +1,293 @@
+"""A session with handles on lines: places under the mouse, handles and their history, and what is drawn.
+
+Solves, mesh and thread are those of drag.py; events are handled by operators/pull_line.py.
+"""
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from ..bridge import read_mesh, screen_surface, units
+from ..model import line_handle, line_surface
+from ..model.line_handle import Handles, LineHandle
+from ..model.line_surface import LineState, LineSurface, Place
+from ..model.patch import Patch
+from ..overlay import handle_marks
+from ..overlay.handle_marks import Curve, Dot, Marks
+from ..solver.formulation import choose_formulation
+from .drag import Drag, DraggedOperator
+from .drag_handles import PRECISE_FACTOR
+from .solve_job import SolveOutcome
+
+GRASP = 12.0  # pixels from a dot within which the mouse takes it, times the interface's scale
+RADIUS_STEP, RADIUS_PIXELS = 1.1, 150.0  # factor of a notch of the wheel; pixels that double it
+KEYS_TEXT = ("Drag: pull a line   Alt click, P: pin it   X: delete   Wheel, F: radius   Shift: finer   Ctrl: back   "
+             "Ctrl Z: undo   Enter: apply   Esc: cancel")
+
+
+class LineDrag(Drag):
+    """One session, from the press of the button until Enter or Esc."""
+
+    def __init__(self, tool: DraggedOperator, context: bpy.types.Context, handles: Handles) -> None:
+        self.handles = handles
+        self.undone: list[Handles] = []   # what Ctrl Shift Z brings back, the nearest last
+        self.history: list[Handles] = []  # what Ctrl Z brings back, likewise
+        self.surface: LineSurface | None = None  # once the first lines are there
+        self.state: LineState | None = None      # what is shown
+        self.held: int | None = None   # handle that the mouse drags
+        self.near: int | None = None   # handle under the mouse
+        self.hover: Place | None = None  # place under the mouse
+        self.sizing: tuple[float, float] | None = None  # where F was pressed, and the radius then
+        self.pressed: tuple[float, float, bool] | None = None  # a press before the lines are there
+        self.mouse = self.last = (0.0, 0.0)  # pixels of the window: of the pull, and of the mouse itself
+        self.looked = False  # whether the place under the mouse is known
+        super().__init__(tool, context)
+        self.marks = Marks()
+        self.marks_drawn = handle_marks.add_marks(self.area, lambda: self.marks)
+
+    def read_shown(self, ob: bpy.types.Object, patch: Patch) -> np.ndarray:
+        """Reads the positions that the mesh has, which are not those of the start where handles were applied before."""
+        if ob.mode == 'EDIT':
+            ob.update_from_editmode()
+        return read_mesh.read_patch_positions(ob, patch)
+
+    def begin_at(self, _context: bpy.types.Context, x: int, y: int) -> None:
+        self.mouse = self.last = (float(x), float(y))
+
+    def update_request(self, context: bpy.types.Context, *, final: bool = False) -> None:
+        self.tool.handles = line_handle.encode_handles(self.handles)
+        super().update_request(context, final=final)
+        self.request = replace(self.request, lines=not final)
+
+    def take_gain(self, outcome: SolveOutcome) -> None:
+        """Takes the lines with the gain."""
+        super().take_gain(outcome)
+        if not outcome.lines:
+            return
+        self.state = outcome.lines[0]
+        if self.surface is None:
+            start = self.job.starts[0]
+            triangles = choose_formulation(start.patch, start.view).read_triangles(start.optimizer)
+            self.surface = LineSurface(self.job.start_lines[0], triangles, self.frame)
+            self.screen = screen_surface.ScreenSurface(self.surface, self.area)
+            if self.pressed is not None:
+                x, y, pins = self.pressed
+                self.press(x, y, pins=pins)
+        self.looked = False
+
+    # Places and handles
+
+    def to_local(self, point: np.ndarray) -> tuple[float, float, float]:
+        return tuple(np.linalg.solve(self.patches[0].matrix, np.append(point, 1.0))[:3].tolist())
+
+    def find_place(self, point: tuple[float, float, float]) -> Place | None:
+        """Returns the place of a point in object space."""
+        return self.surface.find_place(self.patches[0].to_world(np.array(point)))
+
+    def move_to(self, x: float, y: float, *, precise: bool, back: bool) -> None:
+        """Moves the mouse: the handle that is held follows it, `back` to the old line where that is wanted."""
+        factor = PRECISE_FACTOR if precise and self.held is not None else 1.0
+        way = factor * (x - self.last[0]), factor * (y - self.last[1])
+        self.last = x, y
+        self.mouse = (self.mouse[0] + way[0], self.mouse[1] + way[1]) if self.held is not None else (x, y)
+        self.looked = False
+        if self.sizing is not None:
+            self.change_radius(self.sizing[1] * 2.0**((x - self.sizing[0]) / RADIUS_PIXELS))
+        elif self.held is not None:
+            self.pull_held(back=back)
+
+    def pull_held(self, *, back: bool) -> None:
+        """Moves the end of the held handle under the mouse."""
+        own = self.handles[self.held]
+        place = None if back else self.screen.find_place(*self.mouse)
+        if place is None and not back:
+            return  # beside the panel
+        end = own.start if back else self.to_local(self.surface.read_point(place, self.surface.start))
+        if not own.is_pin:
+            self.replace_handle(self.held, replace(own, end=end))
+
+    def press(self, x: float, y: float, *, pins: bool) -> None:
+        """Takes the handle under the mouse, or puts one on the line there; with `pins` holds that line."""
+        self.mouse = self.last = (x, y)
+        if self.surface is None:
+            self.pressed = x, y, pins
+            return
+        self.pressed = None
+        self.look()
+        if self.near is None and self.hover is None:
+            return
+        self.keep_history()
+        if self.near is not None:
+            self.held = self.near
+            return
+        made = self.make_pin(self.hover) if pins else self.make_pull(self.hover)
+        if made is None or len(self.handles) >= line_handle.MOST_HANDLES:
+            self.history.pop()
+            return
+        self.set_handles((*self.handles, made))
+        self.held = None if pins else len(self.handles) - 1
+
+    def make_pull(self, place: Place) -> LineHandle:
+        """Returns a handle at rest: the line of the start that is seen at a place now, pulled to where it is."""
+        source = self.surface.find_source(place, self.state)
+        start, end = (self.to_local(self.surface.read_point(each, self.surface.start)) for each in (source, place))
+        return LineHandle(start, end, self.choose_radius())
+
+    def make_pin(self, place: Place) -> LineHandle | None:
+        """Returns a pin of the line through a place, where that has moved the place's line at the start."""
+        source = self.surface.find_source(place, self.surface.start)
+        value = self.surface.read_theta(source, self.surface.start)
+        line = self.surface.trace(source, self.surface.start, value)
+        if len(line) < 2:
+            return None
+        inner = line_surface.thin_out(line[1:-1] if len(line) > 3 else line, line_handle.MOST_POINTS)
+        start = self.to_local(self.surface.read_point(source, self.surface.start))
+        return LineHandle(start, start, self.choose_radius(), tuple(self.to_local(point) for point in inner))
+
+    def choose_radius(self) -> float:
+        return self.tool.radius or self.tool.choose_automatic("radius", self.patches[0])
+
+    def release(self) -> None:
+        """Lets the held handle go; a press that changed nothing leaves no step of history."""
+        if self.held is not None and self.history and self.history[-1] == self.handles:
+            self.history.pop()
+        self.held = None
+        self.looked = False
+
+    def find_active(self) -> int | None:
+        """Returns the handle that keys work on: the one held or under the mouse, else the last."""
+        for index in (self.held, self.near):
+            if index is not None:
+                return index
+        return len(self.handles) - 1 if self.handles else None
+
+    def delete_active(self) -> None:
+        index = self.find_active()
+        if index is not None:
+            self.keep_history()
+            self.held = self.near = None
+            self.set_handles(self.handles[:index] + self.handles[index + 1:])
+
+    def turn_wheel(self, notches: int) -> None:
+        index = self.find_active()
+        if index is not None:
+            self.keep_history()
+            self.change_radius(self.handles[index].radius * RADIUS_STEP**notches)
+
+    def change_radius(self, radius: float) -> None:
+        index = self.find_active()
+        if index is not None:
+            self.replace_handle(index, replace(self.handles[index], radius=radius))
+
+    def begin_sizing(self) -> None:
+        index = self.find_active()
+        if index is not None:
+            self.keep_history()
+            self.sizing = self.last[0], self.handles[index].radius
+
+    def replace_handle(self, index: int, handle: LineHandle) -> None:
+        self.set_handles((*self.handles[:index], handle, *self.handles[index + 1:]))
+
+    def set_handles(self, handles: Handles) -> None:
+        self.moved = self.moved or handles != self.handles
+        self.handles = handles
+
+    def keep_history(self) -> None:
+        self.history.append(self.handles)
+        self.undone.clear()
+
+    def step_back(self) -> None:
+        """Takes the last change of a handle back."""
+        if self.history:
+            self.undone.append(self.handles)
+            self.go_to(self.history.pop())
+
+    def step_forward(self) -> None:
+        if self.undone:
+            self.history.append(self.handles)
+            self.go_to(self.undone.pop())
+
+    def go_to(self, handles: Handles) -> None:
+        self.held = self.near = self.sizing = None
+        self.looked = False
+        self.set_handles(handles)
+
+    # Drawing and texts
+
+    def look(self) -> None:
+        """Finds what is under the mouse."""
+        self.looked = True
+        if self.surface is None:
+            return
+        self.hover, self.near = self.screen.find_place(*self.mouse), None
+        ends = [self.find_dot(each) for each in self.handles]
+        if ends and self.hover is not None:
+            apart = np.linalg.norm(self.screen.find_pixels(np.array(ends)) - self.mouse, axis=1)
+            nearest = int(np.nanargmin(np.append(apart, np.inf)))
+            grasp = GRASP * bpy.context.preferences.system.ui_scale
+            self.near = nearest if nearest < len(ends) and apart[nearest] < grasp else None
+
+    def find_dot(self, handle: LineHandle) -> np.ndarray:
+        place = self.find_place(handle.end)
+        return (self.surface.read_point(place, self.state) if place is not None
+                else self.patches[0].to_world(np.array(handle.end)))
+
+    def refresh_marks(self) -> None:
+        """Finds what is under the mouse where it has moved, and draws it."""
+        if self.looked or self.surface is None:
+            return
+        self.look()
+        curves = [curve for index in range(len(self.handles)) for curve in self.trace_handle(index)]
+        if self.held is None and self.near is None and self.hover is not None:
+            value = self.surface.read_theta(self.hover, self.state)
+            curves.append(Curve(self.surface.trace(self.hover, self.state, value), handle_marks.HOVER_COLOR))
+        dots = tuple(Dot(self.find_dot(each), handle_marks.PIN_COLOR if each.is_pin else handle_marks.LINE_COLOR,
+                         index in (self.near, self.held)) for index, each in enumerate(self.handles))
+        self.marks = Marks(tuple(curves), dots)
+        self.area.tag_redraw()
+
+    def trace_handle(self, index: int) -> tuple[Curve, ...]:
+        """Traces the line of a handle as it is now, and of the one that is taken its ghost at the start."""
+        own = self.handles[index]
+        start, end = self.find_place(own.start), self.find_place(own.end)
+        if start is None or end is None:
+            return ()
+        value = self.surface.read_theta(start, self.surface.start)
+        color = handle_marks.PIN_COLOR if own.is_pin else handle_marks.LINE_COLOR
+        now = self.surface.find_level(end, value, self.state)
+        line = Curve(self.surface.trace(now, self.state, self.surface.read_theta(now, self.state)), color)
+        if index != self.find_active() or own.is_pin:
+            return (line,)
+        ghost = self.surface.trace(start, self.surface.start, value)
+        return Curve(ghost, handle_marks.GHOST_COLOR, handle_marks.GHOST_WIDTH), line
+
+    def update_texts(self, context: bpy.types.Context) -> None:
+        self.refresh_marks()
+        index = self.find_active()
+        conflicts = self.tool.builder.conflicts
+        first = self.problem or (conflicts[0] if conflicts else self.describe_gain(context))
+        about = f"   {self.describe_handle(context, index)}" if index is not None and self.surface is not None else ""
+        count = f"{len(self.handles)} handle{'s' if len(self.handles) != 1 else ''}"
+        self.show_texts(context, f"{first}   {count}{about}   ({self.tool.bl_label})", KEYS_TEXT)
+
+    def describe_gain(self, context: bpy.types.Context) -> str:
+        """Says the move alone: what is reached is told of each handle."""
+        return f"Moved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
+
+    def describe_handle(self, context: bpy.types.Context, index: int) -> str:
+        """Says how far the line of a handle is from it, and its radius."""
+        own, number = self.handles[index], index + 1
+        if own.is_pin:
+            return f"Pin {number}"
+        radius = f"Radius: {units.format_length(own.radius, context.scene)}"
+        place = sum(not each.muted for each in self.handles[:index])
+        if place >= len(self.tool.builder.reached):
+            return radius
+        reached = self.tool.builder.reached[place]
+        length = units.format_length(reached.distance, context.scene, precision=2)
+        return f"Line {reached.share:.1%} of the spacing beside handle {number} ({length})   {radius}"
+
+    def end(self, context: bpy.types.Context) -> None:
+        handle_marks.remove_marks(self.marks_drawn)
+        super().end(context)
+        self.area.tag_redraw()

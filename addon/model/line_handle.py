@@ -1,0 +1,82 @@
+"""Handles on lines, as the artist places them on one object, and as text that is kept with it."""
+import json
+from dataclasses import dataclass
+
+import numpy as np
+
+from .refusal import Refusal
+
+LARGEST = 1e15  # coordinate or radius: products of them stay finite
+MOST_HANDLES = 100
+MOST_POINTS = 64  # of a pinned line
+
+
+@dataclass(frozen=True)
+class LineHandle:
+    """A pull: the line through `start` is to pass through `end`. With `pinned` points it is a pin of the line along
+    them instead, and `start` is where that was taken.
+    """
+    start: tuple[float, float, float]  # object space; heights along the view do not matter
+    end: tuple[float, float, float]    # likewise
+    radius: float                      # world units
+    pinned: tuple[tuple[float, float, float], ...] = ()
+    muted: bool = False
+
+    @property
+    def is_pin(self) -> bool:
+        return bool(self.pinned)
+
+
+Handles = tuple[LineHandle, ...]
+
+
+def encode_handles(handles: Handles) -> str:
+    """Encodes handles as JSON; the numbers keep their bits."""
+    return json.dumps([{"start": each.start, "end": each.end, "radius": each.radius, "pinned": each.pinned,
+                        "muted": each.muted} for each in handles]) if handles else ""
+
+
+def decode_handles(text: str) -> Handles:
+    """Decodes handles; refuses a text of another origin, which a file may hold."""
+    try:
+        stored = json.loads(text) if text else []
+        if not isinstance(stored, list) or len(stored) > MOST_HANDLES:
+            raise ValueError("no list of handles")
+        return tuple(decode_handle(each) for each in stored)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError) as error:
+        raise Refusal("The stored handles cannot be used: delete them in the sidebar, and pull the lines again"
+                      ) from error
+
+
+def decode_handle(stored: dict) -> LineHandle:
+    pinned = stored["pinned"]
+    if not isinstance(pinned, list) or len(pinned) > MOST_POINTS:
+        raise ValueError("no pinned points")
+    return LineHandle(decode_point(stored["start"]), decode_point(stored["end"]), decode_number(stored["radius"]),
+                      tuple(decode_point(point) for point in pinned), stored["muted"] is True)
+
+
+def decode_point(stored: list) -> tuple[float, float, float]:
+    x, y, z = stored
+    return decode_number(x), decode_number(y), decode_number(z)
+
+
+def decode_number(stored: float) -> float:
+    """Returns a finite number."""
+    if isinstance(stored, bool) or not isinstance(stored, int | float) or not abs(stored) < LARGEST:
+        raise ValueError("no number")
+    return float(stored)
+
+
+def mirror_handles(handles: Handles, sign: np.ndarray) -> Handles:
+    """Returns the handles followed by their mirror images, for a region that moves symmetrically. A pull whose image
+    lies within a twentieth of its radius has none: both would pull one line.
+    """
+    images = (LineHandle(mirror_point(each.start, sign), mirror_point(each.end, sign), each.radius,
+                         tuple(mirror_point(point, sign) for point in each.pinned), each.muted) for each in handles)
+    return handles + tuple(image for own, image in zip(handles, images, strict=True)
+                           if own.is_pin or np.linalg.norm(np.subtract(own.end, image.end)) > 0.05 * own.radius)
+
+
+def mirror_point(point: tuple[float, float, float], sign: np.ndarray) -> tuple[float, float, float]:
+    return tuple((np.array(point) * sign).tolist())

@@ -1,0 +1,204 @@
+"""Pull Line."""
+from dataclasses import replace
+from functools import partial
+
+import bpy
+import numpy as np
+from bpy.props import StringProperty
+
+from ..bridge import facing, scene_objects
+from ..interactive import drag_input
+from ..interactive.drag_handles import Handle
+from ..interactive.line_drag import LineDrag
+from ..model import line_handle
+from ..model.line_handle import Handles
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..model.solution import Solution
+from ..solver.formulation import choose_formulation
+from ..solver.live_optimizer import BuildTarget
+from ..targets.falloff import Falloff
+from ..targets.line_handles import HandleTargets
+from ..ui.tool_properties import PullSettings
+from .dragged_tool import DraggedTool
+
+APPLY_KEYS, DELETE_KEYS = {'RET', 'NUMPAD_ENTER'}, {'X', 'DEL'}
+
+
+class REFLINES_OT_pull_line(DraggedTool, PullSettings, bpy.types.Operator):
+    """Take a reflection line with the mouse and pull it: the panel follows, with the lines around it. Handles stay where
+lines were pulled to, and Enter applies them"""
+    bl_idname = "reflines.pull_line"
+    bl_label = "Pull Line"
+    bl_options = {'REGISTER', 'UNDO', 'BLOCKING'}
+
+    handles: StringProperty(options={'SKIP_SAVE'}, description="As JSON, see model/line_handle.py")
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, _properties: bpy.types.OperatorProperties) -> str:
+        """Returns the empty text, for the docstring."""
+        return ""
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        self.layout.prop(self, "border")
+
+    def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
+        return scene.reflection_lines.pull
+
+    def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Returns the active object alone: handles belong to one."""
+        scene_objects.find_subjects(context)  # refuses where no face is selected
+        return [scene_objects.find_active_object(context)]
+
+    def build_handles(self) -> tuple[Handle, ...]:
+        return ()
+
+    def read_falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> Falloff | None:
+        """Returns the circle around the handle that the mouse works on, in a drag."""
+        drag = getattr(self, "drag", None)
+        index = drag.find_active() if drag is not None else None
+        if index is None or drag.handles[index].is_pin:
+            return None
+        own = drag.handles[index]
+        return Falloff(patch.to_world(np.array(own.start)), own.radius, np.zeros(2))
+
+    def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
+        handles = line_handle.decode_handles(self.handles)
+        if not handles and not self.in_session:
+            raise Refusal(f"{patch.name}: no line is pulled; press Pull Line in a 3D view and drag a line")
+        sign = choose_formulation(patch, facing.read_patch_view(context.scene, patch)).image_sign
+        if sign is not None:
+            handles = line_handle.mirror_handles(handles, sign)
+        return partial(self.builder.build, handles=handles, matrix=patch.matrix)
+
+    def make_builder(self, context: bpy.types.Context) -> HandleTargets:
+        return HandleTargets(2.0 * np.pi / context.scene.reflection_lines.stripes.count)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        self.builder, self.in_session = self.make_builder(context), False
+        try:
+            return super().execute(context)
+        finally:
+            self.builder = None
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        self.follow_mouse = True
+        self.builder, self.in_session = self.make_builder(context), True
+        result = super().invoke(context, event)
+        if 'RUNNING_MODAL' in result and event.type == 'LEFTMOUSE' and event.value == 'PRESS':
+            self.drag.press(event.mouse_x, event.mouse_y, pins=event.alt)
+        return result
+
+    def begin_drag(self, context: bpy.types.Context) -> LineDrag:
+        ob = self.find_subjects(context)[0]
+        return LineDrag(self, context, self.find_stored_handles(ob))
+
+    def find_stored_handles(self, ob: bpy.types.Object) -> Handles:
+        """Returns the handles that are kept with the object. Where the mesh is as they left it, the session begins with
+        the shape before them; else they are at rest and hold the lines where they are.
+        """
+        if ob.mode == 'EDIT':
+            ob.update_from_editmode()
+        stored = ob.reflection_lines
+        handles = stored.handles.read(ob.data)
+        self.anew = (bool(handles) and stored.run.operator == self.bl_idname
+                     and self.find_original_shape(ob) is not None)
+        return handles if self.anew else tuple(replace(each, start=each.end) for each in handles)
+
+    def handle_event(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        drag = self.drag
+        if event.type in drag_input.CANCEL_KEYS and event.value == 'PRESS':
+            return self.take_back(context, event)
+        if event.type in drag_input.NAVIGATION:
+            drag.looked = False
+            return {'PASS_THROUGH'}
+        if drag.keeping:
+            return {'RUNNING_MODAL'}
+        if event.type in APPLY_KEYS and event.value == 'PRESS':
+            return self.apply(context)
+        self.change_handles(event)
+        drag.update_texts(context)
+        return {'RUNNING_MODAL'}
+
+    def take_back(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Takes back the pull or the radius that the mouse changes now, at the right button; else the whole session."""
+        drag = self.drag
+        if event.type != 'ESC' and (drag.held is not None or drag.sizing is not None) and drag.history:
+            drag.go_to(drag.history.pop())
+            return {'RUNNING_MODAL'}
+        return self.cancel_drag(context)
+
+    def apply(self, context: bpy.types.Context) -> set[str]:
+        """Solves for what is kept; where nothing was pulled the session ends."""
+        if not self.drag.handles and not self.anew:
+            return self.cancel_drag(context)
+        self.drag.submit_request(context, final=True)
+        self.drag.update_texts(context)
+        return {'RUNNING_MODAL'}
+
+    def change_handles(self, event: bpy.types.Event) -> None:
+        """Changes handles by the mouse, the wheel or a key."""
+        drag = self.drag
+        if event.type == 'MOUSEMOVE':
+            drag.move_to(event.mouse_x, event.mouse_y, precise=event.shift, back=event.ctrl)
+        elif event.type == 'LEFTMOUSE':
+            self.click(event)
+        elif event.type in drag_input.NOTCHES:
+            drag.turn_wheel(drag_input.NOTCHES[event.type])
+        elif event.value == 'PRESS':
+            self.press_key(event)
+
+    def click(self, event: bpy.types.Event) -> None:
+        drag = self.drag
+        if drag.sizing is not None:
+            drag.sizing = None
+        elif event.value == 'PRESS':
+            drag.press(event.mouse_x, event.mouse_y, pins=event.alt)
+        elif event.value == 'RELEASE':
+            drag.pressed = None if drag.surface is None else drag.pressed
+            drag.release()
+
+    def press_key(self, event: bpy.types.Event) -> None:
+        drag = self.drag
+        if event.type in DELETE_KEYS:
+            drag.delete_active()
+        elif event.type == 'P':
+            drag.press(*drag.last, pins=True)
+            drag.release()
+        elif event.type == 'F' and drag.sizing is None:
+            drag.begin_sizing()
+        elif event.type == 'Z' and (event.ctrl or event.oskey):
+            (drag.step_forward if event.shift else drag.step_back)()
+
+    def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
+        return self.builder.conflicts + self.builder.missed
+
+    def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
+        super().record_solution(ob, solution)
+        ob.reflection_lines.handles.keep(self.handles, ob.data)
+
+    def end_drag(self, context: bpy.types.Context) -> None:
+        super().end_drag(context)
+        self.builder = None
+
+
+class REFLINES_OT_delete_handles(bpy.types.Operator):
+    """Delete the handles that are kept with the active object; its shape stays as it is"""
+    bl_idname = "reflines.delete_handles"
+    bl_label = "Delete Handles"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = scene_objects.find_active_object(context)
+        cls.poll_message_set("Make a panel active that has handles")
+        return ob is not None and bool(ob.reflection_lines.handles.text)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob = scene_objects.find_active_object(context)
+        ob.reflection_lines.handles.keep("", ob.data)
+        return {'FINISHED'}
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_pull_line, REFLINES_OT_delete_handles])

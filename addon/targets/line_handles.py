@@ -1,0 +1,66 @@
+"""The targets of handles on lines."""
+from functools import partial
+
+import numpy as np
+
+from .. import native
+from ..model.line_handle import Handles, LineHandle
+from ..model.solution import JointTargets
+
+# Radius relative to the way of a pull below which the radius grows with the way: nearer to its edge lines would bunch.
+ROOM = 1.5
+# The tolerance of a drag's solves: the values at a handle weigh so much that 1e-4 would leave 1e-5 of the size after a
+# closed path.
+FOLLOW_TOLERANCE = 1e-7
+MISSED = 0.02  # share of the lines' spacing beside a handle from which that is told
+
+
+class HandleTargets:
+    """Builds the targets of handles for one region again and again, from its lines at the start."""
+
+    def __init__(self, line_step: float) -> None:
+        """Takes the step of theta from one line to the next, radians."""
+        self.line_step = line_step
+        self.optimizer: "native.ShapeOptimizer | None" = None
+        self.lines: "native.LineHandles | None" = None
+        self.conflicts: tuple[str, ...] = ()  # sentences about the last handles that were built
+        self.reached: "list[native.HandleReach]" = []  # of those that were last measured
+        self.missed: tuple[str, ...] = ()     # sentences about those that were not reached when last measured
+
+    def build(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray
+              ) -> "native.Target | JointTargets":
+        """Builds the targets for an optimizer, which has the heights of the start whenever this is called. `matrix` (4
+        x 4) takes the handles to world space.
+        """
+        if self.optimizer is not optimizer:
+            self.optimizer, self.lines = optimizer, native.reflines.LineHandles(optimizer)
+        used = [each for each in handles if not each.muted]
+        self.conflicts, self.missed, self.reached = (), (), []
+        if all(each.is_pin for each in used):  # no line is pulled
+            return native.reflines.Target(optimizer.field())
+        wanted = [self.convert(each, str(number + 1), matrix) for number, each in enumerate(used)]
+        self.conflicts = tuple(self.lines.find_conflicts(wanted))
+        return JointTargets(self.lines.build(wanted), partial(self.measure, handles=wanted), FOLLOW_TOLERANCE)
+
+    def measure(self, optimizer: "native.ShapeOptimizer", handles: "list[native.Handle]") -> float:
+        """Returns the root mean square of the distances between handles and their lines, radians of theta."""
+        self.reached = reached = self.lines.measure(handles, optimizer, line_step=self.line_step)
+        self.missed = tuple(f"The line of handle {number + 1} passes {each.share:.0%} of the lines' spacing beside it: "
+                            "pull less far, or give it a larger radius" for number, each in enumerate(reached)
+                            if each.share > MISSED)
+        return float(np.sqrt(np.mean([each.theta**2 for each in reached])))
+
+    def convert(self, handle: LineHandle, name: str, matrix: np.ndarray) -> "native.Handle":
+        """Converts a handle to the native module's, in the image plane."""
+        plane = self.optimizer.frame[:2] @ matrix[:3]  # 2 x 4
+        if handle.is_pin:
+            return native.reflines.Handle(project(plane, np.array(handle.pinned)), name=name)
+        start, end = project(plane, np.array([handle.start])), project(plane, np.array([handle.end]))
+        radius = max(handle.radius, ROOM * float(np.linalg.norm(end - start)))
+        return native.reflines.Handle(end, value=float(self.lines.read_theta(start)[0]), radius=radius, centre=start,
+                                      name=name)
+
+
+def project(plane: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Returns image-plane coordinates of points: #P x 2."""
+    return points @ plane[:, :3].T + plane[:, 3]

@@ -1,0 +1,237 @@
+"""Pull Line in a real window: lines are pulled and pinned with the mouse, taken back, applied, saved and pulled again."""
+import os
+import sys
+from collections.abc import Generator
+
+import bpy
+import numpy as np
+
+import scenes
+import window
+from dragging import ended, panel, settled, shown, undone_and_redone
+
+Steps = Generator[float, None, None]
+MIDDLE, UP = (330, 290), (330, 312)  # pixels; the lines run from left to right
+
+
+def session() -> object:
+    return sys.modules["reflection_lines"].interactive.drag._running[0]
+
+
+def begin(driver: window.Window) -> Steps:
+    driver.move(10, 20)
+    yield 0.1
+    with driver.override():
+        assert bpy.ops.reflines.pull_line('INVOKE_DEFAULT', True) == {'RUNNING_MODAL'}
+    yield 0.2
+    yield from settled(driver)
+
+
+def start(driver: window.Window, cells: int = 24, levels: int = 0) -> Generator[float, None, np.ndarray]:
+    """A session on a fresh panel; returns its positions. One that a failed test left is ended."""
+    if sys.modules["reflection_lines"].interactive.drag._running:
+        driver.key('ESC')
+        yield 0.5
+    panel(driver, cells=cells, levels=levels)
+    before = shown(driver)
+    yield from begin(driver)
+    return before
+
+
+def move(driver: window.Window, x: float, y: float, **modifiers: bool) -> Steps:
+    driver.x, driver.y = driver.region().x + int(x), driver.region().y + int(y)
+    driver.event('MOUSEMOVE', **modifiers)
+    yield 0.1
+
+
+def pull(driver: window.Window, first: tuple[int, int], last: tuple[int, int], *, hold: bool = False,
+         **modifiers: bool) -> Steps:
+    yield from move(driver, *first)
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield 0.1
+    for share in (0.3, 0.7, 1.0):
+        yield from move(driver, *(a + share * (b - a) for a, b in zip(first, last, strict=True)), **modifiers)
+    if not hold:
+        driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.1
+    yield from settled(driver)
+
+
+def picture(name: str) -> Steps:
+    if "REFLINES_PICTURES" in os.environ:
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{name}.png"))
+        yield 0.3
+
+
+def missed() -> float:
+    """How far the line of the handle in hand passes beside it, as a share of the spacing of the lines."""
+    return float(session().texts[0].split("Line ")[1].split("%")[0]) / 100.0
+
+
+def test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed(driver: window.Window) -> Steps:
+    yield from start(driver)
+    before = scenes.fingerprint(bpy.data.objects["Panel"])
+    yield from pull(driver, MIDDLE, UP)
+    assert len(session().handles) == 1 and missed() < 0.02, session().texts
+    assert 1e-4 < session().largest_move < 0.05
+    yield from picture("pull_line")
+    driver.key('ESC')
+    yield 0.3
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
+
+
+def test_the_line_under_the_mouse_is_shown(driver: window.Window) -> Steps:
+    yield from start(driver)
+    yield from move(driver, *MIDDLE)
+    yield 0.2
+    curve, = session().marks.curves
+    at = session().screen.find_pixels(curve.points)
+    mouse = np.array([driver.x, driver.y])
+    assert len(at) > 20 and np.linalg.norm(at - mouse, axis=1).min() < 10.0
+    assert np.ptp(at[:, 0]) > 150.0 > np.ptp(at[:, 1])  # from side to side
+    yield from picture("hover_line")
+    yield from move(driver, 10, 20)
+    yield 0.2
+    assert not session().marks.curves
+    driver.key('ESC')
+    yield 0.3
+
+
+def test_enter_applies_in_one_undo_step_what_the_operator_makes(driver: window.Window) -> Steps:
+    before = yield from start(driver)
+    yield from pull(driver, MIDDLE, UP)
+    yield from pull(driver, (280, 330), (280, 318))
+    driver.key('RET')
+    yield from ended(driver)
+    kept, done = shown(driver), bpy.context.window_manager.operators[-1]
+    assert done.bl_idname == "REFLINES_OT_pull_line" and np.abs(kept - before).max() > 1e-4
+    handles = done.properties.handles
+    yield from undone_and_redone(driver, before, kept)
+    panel(driver, cells=24)
+    with driver.override():
+        assert bpy.ops.reflines.pull_line('EXEC_DEFAULT', True, handles=handles) == {'FINISHED'}
+    assert np.array_equal(shown(driver), kept)
+
+
+def test_undo_steps_from_handle_to_handle(driver: window.Window) -> Steps:
+    before = yield from start(driver)
+    shapes = [before]
+    for first, last in ((MIDDLE, UP), ((280, 330), (280, 318))):
+        yield from pull(driver, first, last)
+        shapes.append(shown(driver))
+    for shift, expected in ((False, 1), (False, 0), (False, 0), (True, 1), (True, 2)):
+        driver.key('Z', ctrl=True, shift=shift)
+        yield 0.1
+        yield from settled(driver)
+        assert len(session().handles) == expected
+        assert np.abs(shown(driver) - shapes[expected]).max() < 3e-6
+    driver.key('ESC')
+    yield 0.3
+    assert np.array_equal(shown(driver), before)
+
+
+def test_control_goes_back_to_the_old_line_and_shift_is_finer(driver: window.Window) -> Steps:
+    before = yield from start(driver)
+    yield from pull(driver, MIDDLE, UP, hold=True)
+    own = session().handles[0]
+    coarse = np.subtract(own.end, own.start)
+    yield from move(driver, UP[0], UP[1] + 1, ctrl=True)
+    yield from settled(driver)
+    assert session().handles[0].end == own.start
+    assert np.abs(shown(driver) - before).max() < 3e-6
+    driver.event('RIGHTMOUSE', 'PRESS')
+    yield from settled(driver)
+    assert not session().handles
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield from pull(driver, MIDDLE, UP, shift=True)
+    own = session().handles[0]
+    assert 0.05 < np.linalg.norm(np.subtract(own.end, own.start)) / np.linalg.norm(coarse) < 0.15
+    driver.key('ESC')
+    yield 0.3
+
+
+def test_handles_are_taken_again_and_deleted_and_the_wheel_changes_their_radius(driver: window.Window) -> Steps:
+    before = yield from start(driver)
+    yield from pull(driver, MIDDLE, UP)
+    first = session().handles[0]
+    yield from pull(driver, UP, (330, 302))
+    assert len(session().handles) == 1 and session().handles[0].start == first.start != session().handles[0].end
+    driver.event('WHEELUPMOUSE', 'PRESS')
+    yield 0.1
+    print("radius", session().handles[0].radius, first.radius, session().near, session().held)
+    assert abs(session().handles[0].radius / first.radius - 1.1) < 1e-9
+    driver.key('F')
+    yield 0.1
+    yield from move(driver, 330 - 150, 302)
+    driver.event('LEFTMOUSE', 'PRESS')
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.1
+    assert abs(session().handles[0].radius / first.radius - 0.55) < 1e-6
+    driver.key('X')
+    yield 0.1
+    yield from settled(driver)
+    assert not session().handles and np.abs(shown(driver) - before).max() < 3e-6
+    driver.key('RET')
+    yield 0.3
+    assert np.array_equal(shown(driver), before)
+
+
+def test_a_pinned_line_stays_beside_a_pull(driver: window.Window) -> Steps:
+    changes = []
+    for pinned in (False, True):
+        yield from start(driver, cells=48)
+        if pinned:
+            yield from move(driver, 330, 335)
+            driver.event('LEFTMOUSE', 'PRESS', alt=True)
+            driver.event('LEFTMOUSE', 'RELEASE', alt=True)
+            yield 0.2
+            yield from settled(driver)
+            assert [each.is_pin for each in session().handles] == [True]
+        line = session()
+        place = line.screen.find_place(driver.region().x + 330, driver.region().y + 335)
+        yield from pull(driver, MIDDLE, (330, 300))
+        theta = [line.surface.read_theta(place, state) for state in (line.surface.start, line.state)]
+        changes.append(abs(theta[1] - theta[0]) / (2.0 * np.pi / bpy.context.scene.reflection_lines.stripes.count))
+        yield from picture("pin_line")
+        driver.key('ESC')
+        yield 0.3
+    assert changes[1] < 0.02 and changes[1] < 0.2 * changes[0], changes
+
+
+def test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before(driver: window.Window) -> Steps:
+    before = yield from start(driver)
+    yield from pull(driver, MIDDLE, UP)
+    driver.key('RET')
+    yield from ended(driver)
+    kept = shown(driver)
+    yield from begin(driver)
+    assert len(session().handles) == 1 and np.abs(shown(driver) - kept).max() < 3e-6
+    yield from pull(driver, UP, (330, 304))
+    assert len(session().handles) == 1 and np.abs(shown(driver) - kept).max() > 1e-4
+    driver.key('ESC')
+    yield 0.3
+    assert np.array_equal(shown(driver), kept)
+    yield from begin(driver)
+    yield from move(driver, *UP)
+    driver.key('X')
+    yield from settled(driver)
+    driver.key('RET')
+    yield from ended(driver)
+    assert np.abs(shown(driver) - before).max() < 1e-7
+
+
+def test_a_cage_follows(driver: window.Window) -> Steps:
+    before = yield from start(driver, cells=16, levels=2)
+    yield from pull(driver, MIDDLE, UP)
+    assert missed() < 0.05, session().texts
+    driver.key('RET')
+    yield from ended(driver)
+    assert np.abs(shown(driver) - before).max() > 1e-4
+
+
+window.run(test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed, test_the_line_under_the_mouse_is_shown,
+           test_enter_applies_in_one_undo_step_what_the_operator_makes, test_undo_steps_from_handle_to_handle,
+           test_control_goes_back_to_the_old_line_and_shift_is_finer,
+           test_handles_are_taken_again_and_deleted_and_the_wheel_changes_their_radius,
+           test_a_pinned_line_stays_beside_a_pull,
+           test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before, test_a_cage_follows)
