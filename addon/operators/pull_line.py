@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from bpy.props import StringProperty
 
-from ..bridge import facing, scene_objects
+from ..bridge import facing, pinned_faces, scene_objects
 from ..interactive import drag_input
 from ..interactive.drag_handles import Handle
 from ..interactive.line_drag import LineDrag
@@ -26,8 +26,8 @@ APPLY_KEYS, DELETE_KEYS = {'RET', 'NUMPAD_ENTER'}, {'X', 'DEL'}
 
 
 class REFLINES_OT_pull_line(DraggedTool, PullSettings, bpy.types.Operator):
-    """Take a reflection line with the mouse and pull it: the panel follows, with the lines around it. Handles stay where
-lines were pulled to, and Enter applies them"""
+    """Take a reflection line with the mouse and pull it: the panel follows, with the lines around it. A handle stays
+where a line was pulled to; Enter applies them all"""
     bl_idname = "reflines.pull_line"
     bl_label = "Pull Line"
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING'}
@@ -63,20 +63,27 @@ lines were pulled to, and Enter applies them"""
         own = drag.handles[index]
         return Falloff(patch.to_world(np.array(own.start)), own.radius, np.zeros(2))
 
-    def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
+    def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         handles = line_handle.decode_handles(self.handles)
         if not handles and not self.in_session:
             raise Refusal(f"{patch.name}: no line is pulled; press Pull Line in a 3D view and drag a line")
-        sign = choose_formulation(patch, facing.read_patch_view(context.scene, patch)).image_sign
-        if sign is not None:
-            handles = line_handle.mirror_handles(handles, sign)
-        return partial(self.builder.build, handles=handles, matrix=patch.matrix)
+        formulation = choose_formulation(patch, facing.read_patch_view(context.scene, patch))
+        if formulation.image_sign is not None:
+            handles = line_handle.mirror_handles(handles, formulation.image_sign)
+        if self.pinned is None:
+            self.pinned = pinned_faces.read_pinned_faces(ob), pinned_faces.find_face_of_triangles(ob, patch)
+        faces, face_of_triangle = self.pinned
+        choose_pinned = partial(formulation.choose_triangles, chosen=faces, face_of_triangle=face_of_triangle)
+        return partial(self.builder.build, handles=handles, matrix=patch.matrix, choose_pinned=choose_pinned)
 
-    def make_builder(self, context: bpy.types.Context) -> HandleTargets:
-        return HandleTargets(2.0 * np.pi / context.scene.reflection_lines.stripes.count)
+    def begin(self, context: bpy.types.Context, *, in_session: bool) -> None:
+        """Begins a run: what it keeps for itself, beside the properties."""
+        self.builder = HandleTargets(2.0 * np.pi / context.scene.reflection_lines.stripes.count)
+        self.in_session = in_session
+        self.pinned: tuple[np.ndarray, np.ndarray] | None = None  # faces, and the face of each triangle
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        self.builder, self.in_session = self.make_builder(context), False
+        self.begin(context, in_session=False)
         try:
             return super().execute(context)
         finally:
@@ -84,7 +91,7 @@ lines were pulled to, and Enter applies them"""
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         self.follow_mouse = True
-        self.builder, self.in_session = self.make_builder(context), True
+        self.begin(context, in_session=True)
         result = super().invoke(context, event)
         if 'RUNNING_MODAL' in result and event.type == 'LEFTMOUSE' and event.value == 'PRESS':
             self.drag.press(event.mouse_x, event.mouse_y, pins=event.alt)

@@ -76,6 +76,13 @@ class Formulation:
         """Reads the triangles that lines are read on: #F x 3; of a patch joined with its image its own half."""
         return self.patch.F
 
+    def choose_triangles(self, _optimizer: "native.ShapeOptimizer", chosen: np.ndarray,
+                         face_of_triangle: np.ndarray) -> np.ndarray:
+        """Returns the numbers of the optimizer's triangles that lie in chosen faces (#mesh faces, bool);
+        `face_of_triangle` (#F) is that of the patch's triangles.
+        """
+        return np.flatnonzero(chosen[face_of_triangle])
+
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         """Returns the target for all that is solved, from one that was built for it."""
         return wanted
@@ -176,6 +183,12 @@ class CageFormulation(Formulation):
 
     def read_triangles(self, optimizer: "native.CageOptimizer") -> np.ndarray:
         return optimizer.triangles
+
+    def choose_triangles(self, optimizer: "native.CageOptimizer", chosen: np.ndarray,
+                         face_of_triangle: np.ndarray) -> np.ndarray:
+        del face_of_triangle  # a cage's optimizer knows the faces of its triangles
+        own = self.patch.cage.own_faces  # the images of the mesh's faces come after them, in their order
+        return np.flatnonzero(chosen[optimizer.parent % own])
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         return self.patch.V + (optimizer.cage_positions - self.patch.cage.V)[self.patch.index]

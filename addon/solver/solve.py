@@ -61,4 +61,5 @@ def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lac
     """
     if left <= (1.0 - SMALL_SHARE) * lacking:
         return False
-    return lacking > SMALL_CHANGE * live_optimizer.compute_rms(optimizer, target, np.linalg.norm(optimizer.field(), axis=1))
+    steepness = live_optimizer.compute_rms(optimizer, target, np.linalg.norm(optimizer.field(), axis=1))
+    return lacking > SMALL_CHANGE * steepness

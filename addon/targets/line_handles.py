@@ -1,4 +1,5 @@
 """The targets of handles on lines."""
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -15,22 +16,25 @@ FOLLOW_TOLERANCE = 1e-7
 MISSED = 0.02  # share of the lines' spacing beside a handle from which that is told
 
 
+ChooseTriangles = Callable[["native.ShapeOptimizer"], np.ndarray]
+
+
 class HandleTargets:
     """Builds the targets of handles for one region again and again, from its lines at the start."""
 
     def __init__(self, line_step: float) -> None:
         """Takes the step of theta from one line to the next, radians."""
         self.line_step = line_step
-        self.optimizer: "native.ShapeOptimizer | None" = None
-        self.lines: "native.LineHandles | None" = None
+        self.optimizer: native.ShapeOptimizer | None = None
+        self.lines: native.LineHandles | None = None
         self.conflicts: tuple[str, ...] = ()  # sentences about the last handles that were built
-        self.reached: "list[native.HandleReach]" = []  # of those that were last measured
+        self.reached: list[native.HandleReach] = []  # of those that were last measured
         self.missed: tuple[str, ...] = ()     # sentences about those that were not reached when last measured
 
-    def build(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray
-              ) -> "native.Target | JointTargets":
+    def build(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray,
+              choose_pinned: ChooseTriangles) -> "native.Target | JointTargets":
         """Builds the targets for an optimizer, which has the heights of the start whenever this is called. `matrix` (4
-        x 4) takes the handles to world space.
+        x 4) takes the handles to world space; `choose_pinned` returns the numbers of triangles whose lines stay.
         """
         if self.optimizer is not optimizer:
             self.optimizer, self.lines = optimizer, native.reflines.LineHandles(optimizer)
@@ -39,6 +43,8 @@ class HandleTargets:
         if all(each.is_pin for each in used):  # no line is pulled
             return native.reflines.Target(optimizer.field())
         wanted = [self.convert(each, str(number + 1), matrix) for number, each in enumerate(used)]
+        pinned = choose_pinned(optimizer)
+        wanted += [native.reflines.Handle(triangles=pinned, name="Pin Lines")] if len(pinned) else []
         self.conflicts = tuple(self.lines.find_conflicts(wanted))
         return JointTargets(self.lines.build(wanted), partial(self.measure, handles=wanted), FOLLOW_TOLERANCE)
 

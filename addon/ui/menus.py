@@ -40,10 +40,11 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
 
 
 def draw_drags(layout: bpy.types.UILayout) -> None:
-    """Draws an entry for each tool that starts its drag."""
+    """Draws an entry for each tool that starts its drag, and Pull Line, which is always dragged."""
     for name, icon in DRAGGED:
         label = getattr(bpy.ops.reflines, name.partition(".")[2]).get_rna_type().name
         layout.operator(name, text=f"Drag {label}", icon=icon).follow_mouse = True
+    layout.operator("reflines.pull_line", icon='VIEW_PAN')
 
 
 class VIEW3D_MT_reflines_drag(bpy.types.Menu):

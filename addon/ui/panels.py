@@ -170,6 +170,9 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
         border.use_property_split = False
         border.prop(own, "border", expand=True)
         layout.operator("reflines.pull_line", icon='VIEW_PAN')
+        pins = layout.row(align=True)
+        pins.operator("reflines.pin_lines", icon='PINNED')
+        pins.operator("reflines.pin_lines", text="", icon='UNPINNED').unpin = True
         ob = context.view_layer.objects.active
         if ob is not None and ob.reflection_lines.handles.text:
             layout.operator("reflines.delete_handles", icon='X')

@@ -11,7 +11,8 @@ from ..model.solution import Solution
 from .automatic_values import shown_property, switch_property
 from .handle_properties import ReflinesHandles
 from .stripe_properties import ReflinesSetups, ReflinesStripes
-from .tool_properties import ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesUntwist, ReflinesWarp, SmoothSettings
+from .tool_properties import (ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesUntwist, ReflinesWarp,
+                              SmoothSettings)
 
 KINDS = (
     ('CAGE', "Cage", "Below a Subdivision Surface: move the cage so that the subdivided surface reflects well"),

@@ -1,4 +1,4 @@
-"""Pull Line in a real window: lines are pulled and pinned with the mouse, taken back, applied, saved and pulled again."""
+"""Pull Line in a real window: lines are pulled and pinned with the mouse, taken back, applied, and pulled again."""
 import os
 import sys
 from collections.abc import Generator

@@ -1,0 +1,175 @@
+"""Pull Line as an operator: handles from scripts and files, on cages, under mirrors, in shape keys, solved again."""
+import json
+import sys
+from math import radians
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+
+UP = {"start": (0.1, 0.0, 0.0), "end": (0.1, 0.1, 0.0), "radius": 0.5, "pinned": [], "muted": False}
+
+
+def text(*handles: dict) -> str:
+    return json.dumps(handles)
+
+
+@pytest.fixture
+def panel() -> bpy.types.Object:
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    ob = scenes.panel(cells=32, height=scenes.crown)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, 32)
+    return ob
+
+
+def pull(*handles: dict, **settings: object) -> set[str]:
+    return bpy.ops.reflines.pull_line('EXEC_DEFAULT', True, handles=text(*handles), **settings)
+
+
+def moved(ob: bpy.types.Object, before: np.ndarray) -> np.ndarray:
+    return np.abs(scenes.positions(ob) - before).max(axis=1)
+
+
+def test_what_lies_beyond_the_radius_keeps_its_place(panel) -> None:
+    before = scenes.positions(panel)
+    assert pull(UP) == {'FINISHED'}
+    far = np.linalg.norm(before[:, :2] - UP["start"][:2], axis=1) > 0.6
+    move = moved(panel, before)
+    assert move.max() > 1e-3 and move[far].max() < 0.1 * move.max()
+    assert "of the target reached" in panel.reflection_lines.report.headline()
+    assert int(panel.reflection_lines.report.headline().split("%")[0]) > 97
+
+
+def test_handles_at_rest_and_muted_ones_change_no_bit(panel) -> None:
+    before = scenes.positions(panel)
+    for handle in ({**UP, "end": UP["start"]}, {**UP, "muted": True}):
+        assert pull(handle) == {'FINISHED'}
+        assert scenes.positions(panel).tobytes() == before.tobytes()
+
+
+def test_handles_are_kept_and_solved_again_after_saving(panel, tmp_path: Path) -> None:
+    before = scenes.positions(panel)
+    assert pull(UP) == {'FINISHED'}
+    once, name = scenes.positions(panel), panel.name
+    scenes.object_mode()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "pulled.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "pulled.blend"))
+    ob = bpy.data.objects[name]
+    kept, = ob.reflection_lines.handles.read(ob.data)
+    assert kept.end == UP["end"]
+    assert bpy.ops.reflines.resolve() == {'FINISHED'}
+    assert np.abs(scenes.positions(ob) - once).max() < 1e-6 < np.abs(once - before).max()
+    assert bpy.ops.reflines.delete_handles() == {'FINISHED'}
+    assert not ob.reflection_lines.handles.text and not bpy.ops.reflines.delete_handles.poll()
+
+
+def test_handles_of_another_topology_are_refused_in_words(panel) -> None:
+    assert pull(UP) == {'FINISHED'}
+    scenes.object_mode()
+    panel.data.vertices.add(1)
+    with pytest.raises(Exception, match="Delete Handles"):
+        panel.reflection_lines.handles.read(panel.data)
+
+
+BAD = ("[", "{}", "[1]", "[{}]", text({**UP, "radius": "x"}), text({**UP, "start": [0.0, 0.0]}),
+       text({**UP, "end": [0.0, 0.0, 1e300]}), text({**UP, "end": [0.0, 0.0, float("nan")]}),
+       text({**UP, "pinned": [UP["start"]] * 65}), text(*[UP] * 101), "[" * 100000)
+
+
+@pytest.mark.parametrize("bad", BAD, ids=range(len(BAD)))
+def test_texts_of_another_origin_are_refused(panel, bad: str) -> None:
+    before = scenes.fingerprint(panel)
+    with pytest.raises(RuntimeError, match="stored handles cannot be used"):
+        bpy.ops.reflines.pull_line('EXEC_DEFAULT', handles=bad)
+    assert scenes.fingerprint(panel) == before
+    panel.reflection_lines.handles.keep(bad, panel.data)
+    with pytest.raises(Exception, match="stored handles cannot be used"):
+        panel.reflection_lines.handles.read(panel.data)
+
+
+@pytest.mark.parametrize(("handle", "words"), ((dict(UP, radius=1e-3), "covers 0 vertices"),
+                                               (dict(UP, radius=-1.0), "covers 0|no radius"),
+                                               (dict(UP, start=(5.0, 0.0, 0.0)), "off the region")))
+def test_handles_that_cannot_be_met_are_refused(panel, handle: dict, words: str) -> None:
+    before = scenes.fingerprint(panel)
+    with pytest.raises(RuntimeError, match=words):
+        pull(dict(handle, end=handle["start"]))
+    assert scenes.fingerprint(panel) == before
+
+
+def test_without_a_handle_the_tool_says_what_to_do(panel) -> None:
+    with pytest.raises(RuntimeError, match="no line is pulled"):
+        bpy.ops.reflines.pull_line('EXEC_DEFAULT')
+
+
+def test_handles_that_force_lines_to_cross_are_named(panel) -> None:
+    below = {**UP, "start": (0.1, -0.1, 0.0), "end": (0.1, 0.12, 0.0)}
+    assert pull({**UP, "end": (0.1, -0.05, 0.0)}, below) == {'FINISHED'}
+    assert "Handle 1 and Handle 2 force lines to cross" in panel.reflection_lines.report.notes
+
+
+def read_theta(ob: bpy.types.Object) -> np.ndarray:
+    """Theta of every face: #faces, the mean of its triangles."""
+    scenes.positions(ob)
+    ob.data.calc_loop_triangles()
+    F = np.array([triangle.vertices for triangle in ob.data.loop_triangles])
+    light = (np.sin(radians(70.0)), 0.0, np.cos(radians(70.0)))
+    optimizer = sys.modules["reflection_lines.native"].reflines.ShapeOptimizer(
+        scenes.world(ob), F, view_direction=(0.0, 0.0, 1.0), line_direction=light)
+    return optimizer.theta().reshape(-1, 2).mean(axis=1)
+
+
+def test_lines_on_pinned_faces_stay(panel) -> None:
+    """Those between the handle and the rim, pinned and let go again; neighbours of the pull go on."""
+    near = np.array([row * 32 + column for row in range(20, 23) for column in range(12, 22)])
+    before, changes = read_theta(panel), []
+    pins = sys.modules["reflection_lines.bridge.pinned_faces"]
+    for pinned in (False, True, False):
+        scenes.select_faces(panel, lambda face: face in near)
+        assert bpy.ops.reflines.pin_lines(unpin=not pinned) == {'FINISHED'}
+        assert np.flatnonzero(pins.read_pinned_faces(panel)).tolist() == (near.tolist() if pinned else [])
+        scenes.select_faces(panel, scenes.inner(32))
+        shape = scenes.positions(panel)
+        assert pull(UP) == {'FINISHED'}
+        changes.append(np.abs(read_theta(panel) - before)[near].max())
+        restore(panel, shape)
+    assert changes[1] < 0.1 * changes[0] and changes[2] == changes[0], changes
+
+
+def restore(ob: bpy.types.Object, shape: np.ndarray) -> None:
+    scenes.object_mode()
+    ob.data.vertices.foreach_set("co", shape.ravel())
+    ob.data.update()
+    bpy.ops.object.mode_set(mode='EDIT')
+
+
+def test_mirror_x_pulls_both_halves_alike(panel) -> None:
+    panel.data.use_mirror_x = True
+    before = scenes.positions(panel)
+    bpy.context.scene.reflection_lines.light.rotation_euler = (np.pi / 2.0, 0.0, 0.0)
+    bpy.context.view_layer.update()
+    assert pull({**UP, "start": (0.3, 0.1, 0.0), "end": (0.36, 0.1, 0.0)}) == {'FINISHED'}
+    after = scenes.positions(panel).reshape(33, 33, 3)
+    assert moved(panel, before).max() > 1e-4
+    assert np.array_equal(after[:, :, 2], after[:, ::-1, 2])
+    assert not panel.reflection_lines.report.notes, panel.reflection_lines.report.notes
+
+
+def test_a_result_goes_into_a_shape_key(panel) -> None:
+    before = scenes.positions(panel)
+    assert pull(UP, result='SHAPE_KEY') == {'FINISHED'}
+    keys = panel.data.shape_keys.key_blocks
+    basis, result = (np.array([point.co for point in keys[name].data]) for name in ("Basis", "Reflection Lines"))
+    assert np.array_equal(basis.astype(np.float32), before) and np.abs(result - basis).max() > 1e-3
+
+
+def test_a_cage_is_pulled(panel) -> None:
+    panel.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+    before = scenes.positions(panel)
+    assert pull(UP) == {'FINISHED'}
+    assert moved(panel, before).max() > 1e-3
+    assert int(panel.reflection_lines.report.headline().split("%")[0]) > 90
