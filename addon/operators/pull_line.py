@@ -32,7 +32,8 @@ where a line was pulled to; Enter applies them all"""
     bl_label = "Pull Line"
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING'}
 
-    handles: StringProperty(options={'SKIP_SAVE'}, description="As JSON, see model/line_handle.py")
+    handles: StringProperty(name="Handles", options={'HIDDEN', 'SKIP_SAVE'},
+                            description="As JSON, see model/line_handle.py; empty, in Re-solve, for those of the object")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, _properties: bpy.types.OperatorProperties) -> str:
@@ -64,6 +65,8 @@ where a line was pulled to; Enter applies them all"""
         return Falloff(patch.to_world(np.array(own.start)), own.radius, np.zeros(2))
 
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
+        if self.anew and not self.handles and not self.in_session:
+            self.handles = line_handle.encode_handles(ob.reflection_lines.handles.read(ob.data))
         handles = line_handle.decode_handles(self.handles)
         if not handles and not self.in_session:
             raise Refusal(f"{patch.name}: no line is pulled; press Pull Line in a 3D view and drag a line")
