@@ -12,6 +12,7 @@
 #include "python/line_directions.h"
 #include "python/option_names.h"
 #include "reflines/mirror_pairs.h"
+#include "threads/abandonable_work.h"
 
 namespace reflines {
 
@@ -65,7 +66,10 @@ std::unique_ptr<CageOptimizer> build_optimizer(
   options.shape.progress = std::move(progress);
   const std::vector<Vector3> lines = read_line_directions(line_direction);
   const ReleaseGil release;
-  return std::make_unique<CageOptimizer>(cage, V, view_direction, lines, options);
+  const auto made = std::make_shared<std::unique_ptr<CageOptimizer>>();
+  run_abandonable(options.shape.progress.get(),
+                  [=] { *made = std::make_unique<CageOptimizer>(cage, V, view_direction, lines, options); });
+  return std::move(*made);
 }
 
 }  // namespace

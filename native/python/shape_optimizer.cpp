@@ -15,6 +15,7 @@
 #include "python/option_names.h"
 #include "reflines/errors.h"
 #include "reflines/progress.h"
+#include "threads/abandonable_work.h"
 
 namespace py = pybind11;
 
@@ -52,7 +53,10 @@ std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indice
   const std::vector<Vector3> lines = read_line_directions(line_direction);
   const Triangles triangles = triangles_of(F);
   const ReleaseGil release;
-  return std::make_unique<ShapeOptimizer>(V, triangles, view_direction, lines, options);
+  const auto made = std::make_shared<std::unique_ptr<ShapeOptimizer>>();
+  run_abandonable(options.progress.get(),
+                  [=] { *made = std::make_unique<ShapeOptimizer>(V, triangles, view_direction, lines, options); });
+  return std::move(*made);
 }
 
 MoveLimit move_limit(const std::optional<Limit>& limit, const ShapeOptimizer& optimizer) {

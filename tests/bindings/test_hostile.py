@@ -157,39 +157,3 @@ def test_settings_of_uniform_lines_that_are_no_numbers_are_refused(solver, setti
 def test_a_cage_of_two_milliards_of_vertices_is_refused() -> None:
     with pytest.raises(reflines.InvalidInput, match="2147483647 vertices, more than 8 million"):
         reflines.Subdivision([0, 4], [0, 1, 2, 3], vertices=2**31 - 1)
-
-
-def cancelled_after(seconds: float, progress: reflines.Progress, work: object) -> float:
-    """Seconds from the request to the end of the work."""
-    asked = []
-
-    def cancel() -> None:
-        asked.append(time.monotonic())
-        progress.cancel()
-
-    timer = threading.Timer(seconds, cancel)
-    timer.start()
-    with pytest.raises(reflines.Cancelled):
-        work()
-    return time.monotonic() - asked[0]
-
-
-def test_a_fine_cage_hears_cancel_while_it_is_subdivided() -> None:
-    """Between the steps of the subdivision, the longest of which take OpenSubdiv a third of all."""
-    cells = 60
-    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
-    quads = np.stack([corner, corner + 1, corner + cells + 2, corner + cells + 1], 1)
-    x, y = np.meshgrid(np.linspace(-1, 1, cells + 1), np.linspace(-1, 1, cells + 1))
-    V = np.stack([x.ravel(), y.ravel(), -0.1 * (x * x).ravel()], 1)
-
-    def make(progress: reflines.Progress | None = None) -> reflines.CageOptimizer:
-        return reflines.CageOptimizer(V=V, face_offsets=np.arange(0, quads.size + 1, 4), face_vertices=quads.ravel(),
-                                      level=3, view_direction=[0.0, 0.0, 1.0], line_direction=LINE, progress=progress)
-
-    start = time.monotonic()
-    make()
-    whole = time.monotonic() - start
-    progress = reflines.Progress()
-    waited = cancelled_after(0.05 * whole, progress, lambda: make(progress))
-    print(f"cancel was heard after {waited:.2f} s of {whole:.2f} s")
-    assert waited < 0.6 * whole

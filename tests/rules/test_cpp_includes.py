@@ -21,13 +21,14 @@ PUBLIC = {
 # Room -> the rooms it may include besides itself. `geometry` and `optimization` meet only in `solver`.
 BASE = {"base"}
 LINES = BASE | {"geometry", "reflection"}
-SOLVER = LINES | {"optimization", "optimization/linear"}
+SOLVER = LINES | {"threads", "optimization", "optimization/linear"}
 MAY_INCLUDE = {
     "base": set(),
+    "threads": BASE,
     "geometry": BASE,
     "reflection": BASE | {"geometry"},
     "targets": LINES,
-    "optimization/linear": BASE,
+    "optimization/linear": BASE | {"threads"},
     "optimization": BASE | {"optimization/linear"},
     "solver/coarse": SOLVER,
     "solver": SOLVER | {"solver/coarse"},

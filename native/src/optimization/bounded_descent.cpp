@@ -33,7 +33,7 @@ BoundedDescent::BoundedDescent(Problem& problem, const Bounds& bounds, const Min
       options_(options),
       progress_(progress),
       work_(workspace),
-      factor_(workspace.solver) {
+      factor_(workspace.solver, progress) {
   report_.strategy = options.strategy;
   report_.linear_solver = workspace.solver.kind();
   report_.unknowns = problem.size();
@@ -41,7 +41,11 @@ BoundedDescent::BoundedDescent(Problem& problem, const Bounds& bounds, const Min
 
 Report BoundedDescent::run(Vector& x) {
   evaluate_start(x);
-  if (may_move() && (has_factor() || start_near_free_minimum())) descend();
+  try {
+    if (may_move() && (has_factor() || start_near_free_minimum())) descend();
+  } catch (const Cancelled&) {
+    is_cancelled();
+  }
   finish(x);
   return report_;
 }
@@ -154,7 +158,7 @@ bool BoundedDescent::renew_model() {
   work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
   ++report_.assemblies;
   measure_rounding();
-  report_.analyses += work_.analyze(work_.matrix, problem_);
+  report_.analyses += work_.analyze(work_.matrix, problem_, progress_);
   work_.factored_model = choose_model(options_.strategy);
   assembled_at_ = report_.iterations;
   model_failed_ = false;

@@ -26,8 +26,12 @@ Descent::Descent(Problem& problem, const MinimizerOptions& options, Progress* pr
 
 Report Descent::run(Vector& x) {
   evaluate_start(x);
-  approach();
-  descend();
+  try {
+    approach();
+    descend();
+  } catch (const Cancelled&) {
+    is_cancelled();
+  }
   finish(x);
   return report_;
 }
@@ -100,7 +104,7 @@ bool Descent::renew_factor() {
   analyze(hessian);
   if (is_cancelled()) return false;
   tell("factorizing");
-  work_.solver.factorize(hessian);
+  work_.solver.factorize(hessian, progress_);
   ++report_.factorizations;
   work_.factored_model = choose_model(options_.strategy);
   work_.held.clear();
@@ -111,7 +115,7 @@ bool Descent::renew_factor() {
   return !is_cancelled();
 }
 
-void Descent::analyze(const SparseMatrix& matrix) { report_.analyses += work_.analyze(matrix, problem_); }
+void Descent::analyze(const SparseMatrix& matrix) { report_.analyses += work_.analyze(matrix, problem_, progress_); }
 
 void Descent::choose_direction() {
   tell("iterating");

@@ -14,7 +14,7 @@ void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Vecto
       }
     }
   }
-  solver_.factorize(matrix_);
+  solver_.factorize(matrix_, progress_);
 }
 
 void HeldFactor::solve(const Sides& held, Vector& x) const {

@@ -11,15 +11,18 @@ namespace reflines {
 // it the symbolic analysis, stays that of the whole matrix.
 class HeldFactor {
  public:
-  explicit HeldFactor(LinearSolver& solver) : solver_(solver) {}
+  // Keeps references to both; `progress` may be null.
+  HeldFactor(LinearSolver& solver, const Progress* progress) : solver_(solver), progress_(progress) {}
 
   // Factors H (lower triangle, analysed by the solver before), with `added` (n, or empty) on its diagonal.
+  // Throws Cancelled.
   void factorize(const SparseMatrix& H, const Sides& held, const Vector& added = {});
   // Solves for x; held unknowns become 0, whatever their right-hand side.
   void solve(const Sides& held, Vector& x) const;
 
  private:
   LinearSolver& solver_;
+  const Progress* progress_;
   SparseMatrix matrix_;
 };
 

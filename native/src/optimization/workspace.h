@@ -33,11 +33,12 @@ struct Workspace {
   }
 
   // Analyses the pattern of the matrix, whose values are not read. Returns the number of analyses made, 0 where the
-  // pattern is known.
-  int analyze(const SparseMatrix& matrix, Problem& problem) {
+  // pattern is known. Throws Cancelled.
+  int analyze(const SparseMatrix& matrix, Problem& problem, const Progress* progress) {
     if (solver.has_pattern_of(matrix)) return 0;
     const PlanePositions places = problem.places();
-    solver.analyze(matrix, places.rows() > 0 ? dissection_order(matrix, places) : std::vector<int>());
+    const auto order = places.rows() > 0 ? dissection_order(matrix, places, progress) : std::vector<int>();
+    solver.analyze(matrix, order, progress);
     return 1;
   }
 

@@ -2,10 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
 
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/restoration.h"
+#include "threads/abandonable_work.h"
 
 namespace reflines {
 namespace {
@@ -35,28 +39,40 @@ void check(const SmoothPanelOptions& options, Eigen::Index vertex_count) {
   }
 }
 
+// Runs a press, which owns its arguments, so that nobody waits for one that is cancelled.
+SmoothPanelResult run_press(const std::shared_ptr<Progress>& progress,
+                            const std::function<SmoothPanelResult()>& press) {
+  const auto result = std::make_shared<SmoothPanelResult>();
+  run_abandonable(progress.get(), [result, press] { *result = press(); });
+  return std::move(*result);
+}
+
 }  // namespace
 
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options) {
   check(options, V.rows());
-  ShapeOptions shape;
-  shape.border = options.border;
-  shape.held = options.held;
-  set_restoration_rules(options, kMeshProximity, shape);
-  MeshSurface surface(V, F, view_direction, make_families(view_direction, line_direction, options.lights), shape);
-  return Restoration(surface, options).run();
+  return run_press(options.progress, [=] {
+    ShapeOptions shape;
+    shape.border = options.border;
+    shape.held = options.held;
+    set_restoration_rules(options, kMeshProximity, shape);
+    MeshSurface surface(V, F, view_direction, make_families(view_direction, line_direction, options.lights), shape);
+    return Restoration(surface, options).run();
+  });
 }
 
 SmoothPanelResult smooth_cage_panel(const Cage& cage, const Positions& V, const Vector3& view_direction,
                                     const Vector3& line_direction, const CageOptions& cage_options,
                                     const SmoothPanelOptions& options) {
   check(options, V.rows());
-  CageOptions own = cage_options;
-  set_restoration_rules(options, kCageProximity, own.shape);
-  CageControlledSurface surface(cage, V, view_direction, make_families(view_direction, line_direction, options.lights),
-                                own);
-  return Restoration(surface, options).run();
+  return run_press(options.progress, [=] {
+    CageOptions own = cage_options;
+    set_restoration_rules(options, kCageProximity, own.shape);
+    CageControlledSurface surface(cage, V, view_direction,
+                                  make_families(view_direction, line_direction, options.lights), own);
+    return Restoration(surface, options).run();
+  });
 }
 
 }  // namespace reflines

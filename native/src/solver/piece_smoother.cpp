@@ -64,9 +64,9 @@ PieceSmoother::Cache& PieceSmoother::update(Cache& cache, const SmoothOptions& o
 SpdSolve PieceSmoother::factorize(const SparseMatrix& matrix) const {
   auto solver = std::make_shared<LinearSolver>(solver_);
   enter(0.3, "ordering the smoothing");
-  solver->analyze(matrix, dissection_order(matrix, field_.xy));
+  solver->analyze(matrix, dissection_order(matrix, field_.xy, progress_), progress_);
   enter(0.6, "factorizing the smoothing");
-  solver->factorize(matrix);
+  solver->factorize(matrix, progress_);
   enter(0.9, "smoothing");
   return [solver](Vector& x) { solver->solve(x); };
 }

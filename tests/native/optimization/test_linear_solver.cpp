@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "optimization/linear/linear_solver.h"
 #include "reflines/errors.h"
@@ -139,6 +141,39 @@ TEST_P(LinearSolverTest, IndefiniteOrZeroIsAFailureInWords) {
     EXPECT_THROW(solver.factorize(lower), SolverFailure);
     EXPECT_FALSE(solver.has_factor());
   }
+}
+
+// A system large enough to be abandoned: some tenths of a second.
+SparseMatrix thick_chain(int n, int reach) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < n; ++column) {
+    for (int row = column; row < std::min(n, column + reach); ++row)
+      entries.emplace_back(row, column, row == column ? 2.0 * reach : -1.0 / (1 + row - column));
+  }
+  SparseMatrix lower(n, n);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+Vector solve_ones(LinearSolver& solver, const SparseMatrix& matrix, const Progress* progress) {
+  if (!solver.has_pattern_of(matrix)) solver.analyze(matrix, {}, progress);
+  solver.factorize(matrix, progress);
+  Vector x = Vector::Ones(matrix.rows());
+  solver.solve(x);
+  return x;
+}
+
+TEST_P(LinearSolverTest, ACancelledFactorizationIsLeftBehindAndTheNextHasTheSameBits) {
+  const SparseMatrix matrix = thick_chain(30000, 40);
+  LinearSolver solver(GetParam()), other(GetParam());
+  const Vector expected = solve_ones(other, matrix, nullptr);
+  Progress cancelled, watched;
+  solver.analyze(matrix);
+  cancelled.cancel();
+  EXPECT_THROW(solver.factorize(matrix, &cancelled), Cancelled);
+  EXPECT_FALSE(solver.has_factor());
+  EXPECT_FALSE(solver.has_pattern_of(matrix));
+  EXPECT_EQ(solve_ones(solver, matrix, &watched), expected);
 }
 
 }  // namespace

@@ -27,9 +27,10 @@ class Dissection {
     std::iota(order_.begin(), order_.end(), 0);
   }
 
-  std::vector<int> run() {
+  std::vector<int> run(const Progress* progress) {
     std::vector<Part> parts = {{0, static_cast<int>(order_.size())}};
     while (!parts.empty()) {
+      if (progress != nullptr && progress->cancelled()) throw Cancelled();
       const Part part = parts.back();
       parts.pop_back();
       if (part.end - part.begin > kSmallestPart) cut(part, parts);
@@ -125,8 +126,8 @@ class Dissection {
 
 }  // namespace
 
-std::vector<int> dissection_order(const SparseMatrix& matrix, const PlanePositions& places) {
-  return Dissection(matrix, places).run();
+std::vector<int> dissection_order(const SparseMatrix& matrix, const PlanePositions& places, const Progress* progress) {
+  return Dissection(matrix, places).run(progress);
 }
 
 }  // namespace reflines

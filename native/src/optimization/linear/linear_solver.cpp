@@ -14,6 +14,7 @@
 
 #include "optimization/linear/page_prefault.h"
 #include "reflines/errors.h"
+#include "threads/abandonable_work.h"
 
 namespace reflines {
 
@@ -40,6 +41,10 @@ constexpr double kSmallestPivotShare = 1e-15;
 // unknowns lie in a plane, straight cuts (see dissection_order) need neither: 0.10 / 0.29 / 0.030, 13 M, 4 G and 1.5 /
 // 10 / 0.4, 182 M, 151 G.
 constexpr Eigen::Index kNestedDissection = 300000;
+
+// The number of unknowns from which a factorization, of 50 ms and more, may be abandoned: below it a thread and a copy
+// of the matrix are not worth their time.
+constexpr Eigen::Index kWorthAbandoning = 20000;
 
 // Limits OpenBLAS to one thread: it splits its sums by the number of its threads, so that factors made with one and two
 // threads differ in their last bits (measured at 10k and 100k unknowns). The fronts of a surface mesh are small: a
@@ -98,6 +103,23 @@ class LinearSolver::Backend {
   virtual void allocate() {}  // allocates the memory of a factor, on all cores
   virtual bool factorize(const SparseMatrix& matrix, const double* values) = 0;
   virtual void solve(Vector& x) = 0;
+
+  // Factors with the first shift that succeeds and returns that.
+  double factorize_shifted(const SparseMatrix& matrix) {
+    allocate();
+    const SerialLoops serial_loops;
+    Vector shifted;
+    for (const double shift : kDiagonalShifts) {
+      if (shift > 0.0) shifted = shift_diagonal(matrix, shift);
+      if (factorize(matrix, shift > 0.0 ? shifted.data() : matrix.valuePtr())) return shift;
+    }
+    throw SolverFailure(
+        "The system of " + std::to_string(matrix.rows()) +
+        " unknowns is singular or not positive definite, also with 1e-3 of its diagonal added; hold more of "
+        "the border (Fixed or Clamped).");
+  }
+
+  static std::shared_ptr<Backend> make(LinearSolverKind kind);
 };
 
 // CHOLMOD's supernodal L L^T, with 32-bit indices: they suffice for 2^31 entries of L, about eight million unknowns,
@@ -306,10 +328,13 @@ struct LinearSolver::Pattern {
   std::vector<int> starts, rows;
 };
 
-LinearSolver::LinearSolver(LinearSolverKind kind) : kind_(kind), pattern_(std::make_unique<Pattern>()) {
-  if (kind == LinearSolverKind::kCholmod) backend_ = std::make_unique<Cholmod>();
-  if (kind == LinearSolverKind::kUmfpack) backend_ = std::make_unique<Umfpack>();
+std::shared_ptr<LinearSolver::Backend> LinearSolver::Backend::make(LinearSolverKind kind) {
+  if (kind == LinearSolverKind::kCholmod) return std::make_shared<Cholmod>();
+  return std::make_shared<Umfpack>();
 }
+
+LinearSolver::LinearSolver(LinearSolverKind kind)
+    : kind_(kind), pattern_(std::make_unique<Pattern>()), backend_(Backend::make(kind)) {}
 
 LinearSolver::~LinearSolver() = default;
 
@@ -324,32 +349,37 @@ bool LinearSolver::has_pattern_of(const SparseMatrix& matrix) const {
          std::equal(pattern_->rows.begin(), pattern_->rows.end(), rows, rows + matrix.nonZeros());
 }
 
-void LinearSolver::analyze(const SparseMatrix& matrix, const std::vector<int>& order) {
+// Gives work to the back end, with a matrix of its own where it may be abandoned; it is replaced then.
+void LinearSolver::work(const SparseMatrix& matrix, const Progress* progress,
+                        const std::function<void(Backend&, const SparseMatrix&)>& task) {
   keep_blas_to_one_thread();
-  const SerialLoops serial_loops;
   has_factor_ = false;
+  if (matrix.rows() < kWorthAbandoning || !may_abandon(progress)) return task(*backend_, matrix);
+  try {
+    run_abandonable(progress, [backend = backend_, matrix, task] { task(*backend, matrix); });
+  } catch (const Cancelled&) {
+    backend_ = Backend::make(kind_);
+    pattern_->starts.clear();
+    throw;
+  }
+}
+
+void LinearSolver::analyze(const SparseMatrix& matrix, const std::vector<int>& order, const Progress* progress) {
   pattern_->starts.clear();
-  backend_->analyze(matrix, order);
+  work(matrix, progress, [order](Backend& backend, const SparseMatrix& own) {
+    const SerialLoops serial_loops;
+    backend.analyze(own, order);
+  });
   pattern_->starts.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
   pattern_->rows.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
 }
 
-void LinearSolver::factorize(const SparseMatrix& matrix) {
-  keep_blas_to_one_thread();
-  has_factor_ = false;
-  backend_->allocate();
-  const SerialLoops serial_loops;
-  Vector shifted;
-  for (const double shift : kDiagonalShifts) {
-    if (shift > 0.0) shifted = shift_diagonal(matrix, shift);
-    diagonal_shift_ = shift;
-    has_factor_ = backend_->factorize(matrix, shift > 0.0 ? shifted.data() : matrix.valuePtr());
-    if (has_factor_) return;
-  }
-  throw SolverFailure(
-      "The system of " + std::to_string(matrix.rows()) +
-      " unknowns is singular or not positive definite, also with 1e-3 of its diagonal added; hold more of "
-      "the border (Fixed or Clamped).");
+void LinearSolver::factorize(const SparseMatrix& matrix, const Progress* progress) {
+  const auto shift = std::make_shared<double>();
+  work(matrix, progress,
+       [shift](Backend& backend, const SparseMatrix& own) { *shift = backend.factorize_shifted(own); });
+  diagonal_shift_ = *shift;
+  has_factor_ = true;
 }
 
 void LinearSolver::solve(Vector& x) {

@@ -1,16 +1,20 @@
 // Solves sparse symmetric positive definite systems A x = b by a direct factorization of SuiteSparse.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "reflines/linear_solver_kind.h"
+#include "reflines/progress.h"
 #include "reflines/types.h"
 
 namespace reflines {
 
 // A factorization with its symbolic analysis. Matrices are lower triangles: n x n, compressed, sorted columns, every
-// diagonal entry present. The same input gives the same bits, whatever the number of threads.
+// diagonal entry present. The same input gives the same bits, whatever the number of threads. The libraries cannot be
+// interrupted: with a `progress` (it may be null) `analyze` and `factorize` of large systems throw Cancelled soon after
+// its cancellation, and go on in a thread that nobody waits for (see run_abandonable). There is no factor then.
 class LinearSolver {
  public:
   explicit LinearSolver(LinearSolverKind kind);
@@ -25,12 +29,12 @@ class LinearSolver {
 
   // Chooses the elimination order for a pattern (the values do not matter), or takes the given one (n, first to last;
   // CHOLMOD only). Deletes the present factor.
-  void analyze(const SparseMatrix& matrix, const std::vector<int>& order = {});
+  void analyze(const SparseMatrix& matrix, const std::vector<int>& order = {}, const Progress* progress = nullptr);
 
   // Factors a matrix whose pattern is the one analysed. A positive semi-definite matrix whose factorization fails is
   // tried again with a small multiple of its diagonal added (see diagonal_shift). Throws SolverFailure where that does
   // not help.
-  void factorize(const SparseMatrix& matrix);
+  void factorize(const SparseMatrix& matrix, const Progress* progress = nullptr);
   bool has_factor() const;
   double diagonal_shift() const;  // shift of the factored A + shift * diag(A); 0 for a sound matrix
 
@@ -42,9 +46,12 @@ class LinearSolver {
   class Cholmod;
   class Umfpack;
   struct Pattern;
+  void work(const SparseMatrix& matrix, const Progress* progress,
+            const std::function<void(Backend&, const SparseMatrix&)>& task);
+
   LinearSolverKind kind_;
   std::unique_ptr<Pattern> pattern_;
-  std::unique_ptr<Backend> backend_;
+  std::shared_ptr<Backend> backend_;
   bool has_factor_ = false;
   double diagonal_shift_ = 0.0;
 };

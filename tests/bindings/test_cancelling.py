@@ -1,0 +1,105 @@
+"""A cancelled call raises within 0.3 s, in whatever stage it is; what was begun goes on in a thread that nobody awaits.
+
+Each stage here takes half a second and more in one piece, so that a caller who waited for its end would be too late.
+"""
+import threading
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import reflines
+from sample_panels import LINE, VIEW, panel, rippled
+
+SOONEST = 0.3  # seconds
+ATTEMPTS = 3   # on a machine with other work
+
+Work = Callable[[reflines.Progress], object]
+
+
+def waited(stage: str, work: Work) -> float:
+    """Seconds from a request that comes in the middle of a stage to its exception."""
+    progress, asked = reflines.Progress(), []
+
+    def ask() -> None:
+        while progress.stage != stage:
+            time.sleep(0.002)
+        time.sleep(0.03)
+        asked.append(time.monotonic())
+        progress.cancel()
+
+    thread = threading.Thread(target=ask)
+    thread.start()
+    with pytest.raises(reflines.Cancelled):
+        work(progress)
+    end = time.monotonic()
+    thread.join()
+    return end - asked[0]
+
+
+def flawed_panel(cells: int) -> tuple[np.ndarray, np.ndarray]:
+    V, F = panel(cells)
+    return rippled(V, amplitude=2e-4, wavelength=0.15), F
+
+
+def sheet(cells: int) -> dict[str, np.ndarray]:
+    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+    quads = np.stack([corner, corner + 1, corner + cells + 2, corner + cells + 1], 1)
+    x, y = (axis.ravel() for axis in np.meshgrid(np.linspace(-1, 1, cells + 1), np.linspace(-1, 1, cells + 1)))
+    return {"V": np.stack([x, y, -0.1 * x * x], 1), "face_offsets": np.arange(0, quads.size + 1, 4),
+            "face_vertices": quads.ravel()}
+
+
+def press_of_a_mesh() -> Work:
+    V, F = flawed_panel(400)
+    return lambda progress: reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LINE, progress=progress)
+
+
+def press_of_a_cage() -> Work:
+    return lambda progress: reflines.smooth_cage_panel(**sheet(16), view_direction=VIEW, line_direction=LINE, level=5,
+                                                       progress=progress)
+
+
+def cage() -> Work:
+    return lambda progress: reflines.CageOptimizer(**sheet(22), view_direction=VIEW, line_direction=LINE, level=5,
+                                                   progress=progress)
+
+
+def smoothing_of_lines() -> Work:
+    V, F = flawed_panel(400)
+
+    def smooth(progress: reflines.Progress) -> object:
+        solver = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LINE, progress=progress)
+        return reflines.smooth(solver, length=0.2)
+
+    return smooth
+
+
+@pytest.mark.parametrize(("stage", "work"), [
+    ("smoothing the lines", press_of_a_cage), ("smoothing the lines", press_of_a_mesh), ("making stencils", cage),
+    ("factorizing the smoothing", smoothing_of_lines),
+], ids=["press of a cage", "press of a mesh", "fine cage", "factorization"])
+def test_a_cancelled_call_raises_at_once(stage, work) -> None:
+    run = work()
+    waits: list[float] = []
+    while len(waits) < ATTEMPTS and (not waits or waits[-1] > SOONEST):
+        waits.append(waited(stage, run))
+    print(stage, waits)
+    assert waits[-1] <= SOONEST
+
+
+def test_a_cancelled_solve_of_a_large_mesh_leaves_every_bit() -> None:
+    """Its factorization is abandoned; the optimizer goes on with another."""
+    V, F = flawed_panel(200)
+    solver = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LINE)
+    target = reflines.smooth(solver, length=0.2)
+    before = solver.positions
+    progress = reflines.Progress()
+    timer = threading.Timer(0.1, progress.cancel)
+    timer.start()
+    assert solver.solve(target, progress=progress).termination == "cancelled"
+    assert np.array_equal(solver.positions, before)
+    assert solver.solve(target, progress=reflines.Progress()).converged
+    other = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LINE)
+    assert other.solve(reflines.smooth(other, length=0.2)).converged
+    assert np.array_equal(solver.positions, other.positions)
