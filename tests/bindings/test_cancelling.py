@@ -2,9 +2,13 @@
 
 Each stage here takes half a second and more in one piece, so that a caller who waited for its end would be too late.
 """
+import os
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -103,3 +107,24 @@ def test_a_cancelled_solve_of_a_large_mesh_leaves_every_bit() -> None:
     other = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LINE)
     assert other.solve(reflines.smooth(other, length=0.2)).converged
     assert np.array_equal(solver.positions, other.positions)
+
+
+LEAVES = """
+import threading
+import reflines
+from test_cancelling import press_of_a_mesh
+progress = reflines.Progress()
+threading.Timer(1.0, progress.cancel).start()
+try:
+    press_of_a_mesh()(progress)
+except reflines.Cancelled:
+    print("cancelled", flush=True)
+"""
+
+
+def test_a_process_ends_well_whose_work_was_abandoned() -> None:
+    here = Path(__file__).resolve().parent
+    search = os.pathsep.join([str(here), str(here.parent), str(Path(reflines.__file__).parent)])
+    result = subprocess.run([sys.executable, "-c", LEAVES], env=os.environ | {"PYTHONPATH": search}, text=True,
+                            capture_output=True)
+    assert (result.returncode, result.stdout) == (0, "cancelled\n"), result.stderr
