@@ -51,8 +51,8 @@ NAMES = (
     "operators.pin_lines", "operators.pull_line",
     "operators.resolve", "operators.smooth", "operators.store_result", "operators.stripes", "operators.sweep_light",
     "operators.untwist", "operators.use_look", "operators.warp",
-    "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels", "ui.preferences", "ui.stripe_presets",
-    "ui.stripes_panel",
+    "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels", "ui.preferences", "ui.pull_line_tool",
+    "ui.stripe_presets", "ui.stripes_panel",
 )
 MODULES = [importlib.import_module(f"{__name__}.{name}") for name in NAMES]
 

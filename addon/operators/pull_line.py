@@ -33,7 +33,7 @@ where a line was pulled to; Enter applies them all"""
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING'}
 
     handles: StringProperty(name="Handles", options={'HIDDEN', 'SKIP_SAVE'},
-                            description="As JSON, see model/line_handle.py; empty, in Re-solve, for those of the object")
+                            description="As JSON, see model/line_handle.py; empty in Re-solve: those of the object")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, _properties: bpy.types.OperatorProperties) -> str:

@@ -45,6 +45,7 @@ MAY_IMPORT = {
     "ui.stripe_presets": set(),
     "ui.stripes_panel": {"ui.panels", "ui.rows", "ui.stripe_presets"},
     "ui.menus": set(),
+    "ui.pull_line_tool": set(),
     "ui.keymaps": set(),
     "ui.manual_links": set(),
     "ui.preferences": {"native", "ui.keymaps", "ui.manual_links"},

@@ -158,7 +158,6 @@ def test_handles_are_taken_again_and_deleted_and_the_wheel_changes_their_radius(
     assert len(session().handles) == 1 and session().handles[0].start == first.start != session().handles[0].end
     driver.event('WHEELUPMOUSE', 'PRESS')
     yield 0.1
-    print("radius", session().handles[0].radius, first.radius, session().near, session().held)
     assert abs(session().handles[0].radius / first.radius - 1.1) < 1e-9
     driver.key('F')
     yield 0.1
@@ -229,9 +228,27 @@ def test_a_cage_follows(driver: window.Window) -> Steps:
     assert np.abs(shown(driver) - before).max() > 1e-4
 
 
+def test_a_press_with_the_tool_of_the_toolbar_pulls_at_once(driver: window.Window) -> Steps:
+    panel(driver, cells=24)
+    before = shown(driver)
+    driver.move(*MIDDLE)
+    with driver.override():
+        assert bpy.ops.wm.tool_set_by_id(name="reflection_lines.pull_line") == {'FINISHED'}
+    yield 0.3
+    yield from pull(driver, MIDDLE, UP)
+    assert len(session().handles) == 1 and np.abs(shown(driver) - before).max() > 1e-4
+    yield from picture("tool")
+    driver.key('ESC')
+    yield 0.3
+    assert np.array_equal(shown(driver), before)
+    with driver.override():
+        bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+
+
 window.run(test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed, test_the_line_under_the_mouse_is_shown,
            test_enter_applies_in_one_undo_step_what_the_operator_makes, test_undo_steps_from_handle_to_handle,
            test_control_goes_back_to_the_old_line_and_shift_is_finer,
            test_handles_are_taken_again_and_deleted_and_the_wheel_changes_their_radius,
            test_a_pinned_line_stays_beside_a_pull,
-           test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before, test_a_cage_follows)
+           test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before, test_a_cage_follows,
+           test_a_press_with_the_tool_of_the_toolbar_pulls_at_once)
