@@ -27,8 +27,8 @@ NAMES = (
     "bridge.write_mesh",
     "bridge.light_angles",
     "bridge.live_warp_start", "bridge.matcap", "bridge.read_falloff", "bridge.scene_objects", "bridge.solve_record",
-    "bridge.units", "bridge.vertex_attributes", "bridge.view_and_light", "bridge.view_region", "bridge.screen_surface",
-    "bridge.pinned_faces", "bridge.viewport_cage",
+    "bridge.units", "bridge.vertex_attributes", "bridge.view_and_light", "bridge.view_region", "bridge.places_beside",
+    "bridge.screen_surface", "bridge.pinned_faces", "bridge.viewport_cage",
     "bridge.warp_lattice", "bridge.view_camera", "bridge.facing",
     "solver.formulation", "solver.live_optimizer", "solver.remarks", "solver.solve",
     "solver.automatic_smooth",
@@ -51,8 +51,8 @@ NAMES = (
     "operators.pin_lines", "operators.pull_line",
     "operators.resolve", "operators.smooth", "operators.store_result", "operators.stripes", "operators.sweep_light",
     "operators.untwist", "operators.use_look", "operators.warp",
-    "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels", "ui.preferences", "ui.pull_line_tool",
-    "ui.stripe_presets", "ui.stripes_panel",
+    "ui.gizmos", "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels", "ui.preferences", "ui.toolbar",
+    "ui.pull_line_tool", "ui.stripe_presets", "ui.stripes_panel",
 )
 MODULES = [importlib.import_module(f"{__name__}.{name}") for name in NAMES]
 

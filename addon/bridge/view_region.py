@@ -26,13 +26,14 @@ def find_view_left(area: bpy.types.Area) -> int:
     return max([find_view_region(area).x, *(region.x + region.width for region in tools)])
 
 
+def find_free_width(area: bpy.types.Area) -> tuple[int, int]:
+    """Returns where the view begins and ends between toolbar and sidebar, in pixels of the window."""
+    view = find_view_region(area)
+    sidebars = [region for region in area.regions if region.type == 'UI' and region.width > 1]
+    return find_view_left(area), min([view.x + view.width, *(region.x for region in sidebars)])
+
+
 def find_view_middle(area: bpy.types.Area) -> tuple[int, int]:
     """Returns the middle of the view between toolbar and sidebar, in pixels of the window."""
     view = find_view_region(area)
-    low, high = view.x, view.x + view.width
-    for region in area.regions:
-        if region.type == 'TOOLS' and region.width > 1:
-            low = max(low, region.x + region.width)
-        elif region.type == 'UI' and region.width > 1:
-            high = min(high, region.x)
-    return (low + high) // 2, view.y + view.height // 2
+    return sum(find_free_width(area)) // 2, view.y + view.height // 2

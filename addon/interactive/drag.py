@@ -210,6 +210,11 @@ class Drag:
 _running: list[Drag] = []  # at most one
 
 
+def is_running() -> bool:
+    """Returns whether a tool is dragged."""
+    return bool(_running)
+
+
 def has_work() -> bool:
     """Returns whether a running drag has something left to submit, solve or show."""
     return any(drag.moved or drag.keeping or drag.unmeasured or not drag.thread.is_idle()

@@ -62,18 +62,17 @@ class DragValues:
     def hold_next(self) -> None:
         self.held = (self.held + 1) % len(self.handles)
 
-    def type(self, character: str) -> bool:
-        """Appends a character to the typed text; returns whether it was taken. '=' begins an expression; outside of one
-        '-' toggles the sign.
+    def type(self, character: str) -> None:
+        """Appends a character to the typed text, where it can stand there. '=' begins an expression; outside of one '-'
+        toggles the sign.
         """
         text, allowed = self.typed[self.held], CHARACTERS if self.typed[self.held] else FIRST
         if character not in allowed or character == '=' and text or character == '.' and text.endswith('.'):
-            return False
+            return
         if character == '-' and not is_expression(text):
             self.set_text(text[1:] if text.startswith('-') else '-' + text)
         else:
             self.set_text(text + character)
-        return True
 
     def erase(self) -> None:
         self.set_text(self.typed[self.held][:-1])

@@ -42,24 +42,22 @@ def navigates(event: bpy.types.Event, values: DragValues) -> bool:
     return event.type in NAVIGATION or event.type in NOTCHES and values.find_wheel_handle() is None
 
 
-def change_values(values: DragValues, event: bpy.types.Event) -> bool:
-    """Changes the values by a notch of the wheel or a key; returns whether that may have changed one."""
+def change_values(values: DragValues, event: bpy.types.Event) -> None:
+    """Changes the values by a notch of the wheel or a key."""
     if event.type in NOTCHES:
         values.wheel(NOTCHES[event.type], precise=event.shift)
-        return True
-    return event.value == 'PRESS' and type_key(values, event)
+    elif event.value == 'PRESS':
+        type_key(values, event)
 
 
-def type_key(values: DragValues, event: bpy.types.Event) -> bool:
-    """Takes a key of the typed text, or one that works on it; returns whether that may have changed a value."""
+def type_key(values: DragValues, event: bpy.types.Event) -> None:
+    """Takes a key of the typed text, or one that works on it."""
     if event.type == 'TAB':
         values.hold_next()
     elif event.type == 'BACK_SPACE':
         values.erase()
-        return True
     elif not (event.ctrl or event.alt or event.oskey):
-        return values.type(read_character(event))
-    return False
+        values.type(read_character(event))
 
 
 def read_character(event: bpy.types.Event) -> str:

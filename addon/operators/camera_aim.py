@@ -6,14 +6,6 @@ from ..bridge import scene_objects, view_camera
 from ..state import last_panels
 
 
-def find_panel(context: bpy.types.Context) -> bpy.types.Object | None:
-    """Returns the active mesh, else the last panel; None where there is neither."""
-    ob = scene_objects.find_active_object(context)
-    if ob is not None and ob.type == 'MESH':
-        return ob
-    return next(iter(last_panels.find_last_panels(context.scene, context.view_layer.objects)), None)
-
-
 class CameraAim:
     """The part that Add View Camera and Camera from This View have in common; they differ in which camera is aimed."""
     bl_options = {'REGISTER', 'UNDO'}
@@ -26,12 +18,12 @@ class CameraAim:
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         cls.poll_message_set("Make the panel's mesh the active object")
-        return find_panel(context) is not None
+        return last_panels.find_panel(context) is not None
 
     def aim(self, context: bpy.types.Context, camera: bpy.types.Object | None) -> None:
         """Aims a camera at the panel, a new one where it is None, and makes it the view camera of scene and panel."""
         context.view_layer.update()
-        ob = find_panel(context)
+        ob = last_panels.find_panel(context)
         frame = view_camera.choose_frame(context, ob, self.direction)
         camera = camera or view_camera.add_camera(scene_objects.find_editable_collection(context))
         view_camera.aim_camera(context, camera, frame, view_camera.read_framed_points(ob))

@@ -129,12 +129,16 @@ class DraggedTool(SolveTool):
         return {'RUNNING_MODAL'}
 
     def update_values(self, event: bpy.types.Event) -> bool:
-        """Changes the values by an event; returns whether that may have changed one."""
+        """Changes the values by an event; returns whether one has changed. Blender sends moves of a mouse that rests,
+        after each redraw of a gizmo: solving again at each would never end.
+        """
         values = self.drag.values
+        before = values.values()
         if event.type == 'MOUSEMOVE':
             self.drag.move_mouse(event.mouse_x, event.mouse_y, precise=event.shift)
-            return not values.typed[values.held]
-        return drag_input.change_values(values, event)
+        else:
+            drag_input.change_values(values, event)
+        return values.values() != before
 
     def finish_drag(self, context: bpy.types.Context, outcome: SolveOutcome) -> set[str]:
         self.drag.write_solutions(outcome.solutions)

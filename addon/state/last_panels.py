@@ -3,6 +3,8 @@ from collections.abc import Iterable
 
 import bpy
 
+from ..bridge import scene_objects
+
 _names: dict[str, tuple[str, ...]] = {}  # of the meshes, by the name of the scene
 
 
@@ -18,6 +20,14 @@ def find_last_panels(scene: bpy.types.Scene, objects: bpy.types.bpy_prop_collect
     known = [objects[name] for name in _names.get(scene.name, ()) if name in objects]
     meshes = [ob for ob in known or objects if ob.type == 'MESH']
     return meshes if known else [ob for ob in meshes if ob.reflection_lines.report.termination]
+
+
+def find_panel(context: bpy.types.Context) -> bpy.types.Object | None:
+    """Returns the active mesh, else the last panel; None where there is neither."""
+    ob = scene_objects.find_active_object(context)
+    if ob is not None and ob.type == 'MESH':
+        return ob
+    return next(iter(find_last_panels(context.scene, context.view_layer.objects)), None)
 
 
 @bpy.app.handlers.persistent

@@ -1,6 +1,8 @@
 """Pull Line in the toolbar of the 3D view: a press on the panel begins a session by pulling the line there."""
 import bpy
 
+from . import toolbar
+
 IDNAME = "reflection_lines.pull_line"
 PRESS = {"type": 'LEFTMOUSE', "value": 'PRESS'}
 PINNING = {**PRESS, "alt": True}
@@ -14,7 +16,8 @@ class PullLineTool:
     bl_description = ("Drag a reflection line: the panel follows. Further presses take other lines.\n"
                       "Alt click pins a line, Enter applies, Esc takes all back")
     bl_icon = "ops.transform.push_pull"
-    bl_keymap = (("reflines.pull_line", PRESS, None), ("reflines.pull_line", PINNING, None))
+    bl_keymap = (("reflines.pull_line", PRESS, None), ("reflines.pull_line", PINNING, None),
+                 toolbar.LOOK_THROUGH)
 
     @staticmethod
     def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, _tool: object) -> None:
@@ -37,7 +40,7 @@ TOOLS = (EditModePullLineTool, ObjectModePullLineTool)
 
 def register() -> None:
     for tool in TOOLS:
-        bpy.utils.register_tool(tool, after={"builtin.measure"}, separator=True)
+        bpy.utils.register_tool(tool, after={toolbar.IDNAME})
 
 
 def unregister() -> None:

@@ -44,10 +44,12 @@ MAY_IMPORT = {
     "ui.panels": {"ui.automatic_values", "ui.manual_links", "ui.rows"},
     "ui.stripe_presets": set(),
     "ui.stripes_panel": {"ui.panels", "ui.rows", "ui.stripe_presets"},
+    "ui.gizmos": {"bridge", "interactive.drag", "state.last_panels"},
     "ui.menus": set(),
-    "ui.pull_line_tool": set(),
+    "ui.pull_line_tool": {"ui.toolbar"},
     "ui.keymaps": set(),
     "ui.manual_links": set(),
+    "ui.toolbar": {"ui.gizmos"},
     "ui.preferences": {"native", "ui.keymaps", "ui.manual_links"},
 }
 # Registration sees everything.

@@ -56,6 +56,7 @@ def show(cells: int) -> Generator[float, None, None]:
         scenes.panel(cells=cells)
         scenes.look_from_above()
         bpy.context.scene.reflection_lines.stripes.show = True
+        bpy.ops.wm.tool_set_by_id(name="reflection_lines.tool")  # its gizmos are drawn when the add-on goes
     area.tag_redraw()
     yield 0.2
 

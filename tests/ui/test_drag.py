@@ -66,6 +66,25 @@ def test_the_header_of_another_tool_tells_how_much_of_the_target_was_reached(dri
     assert header.startswith(report.headline().split(",")[0]) and "% of the target reached" in header
 
 
+def test_a_mouse_that_rests_asks_for_no_solve(driver: window.Window) -> Steps:
+    """Blender sends moves to the same place after redraws; solving at each would keep the gain from being measured."""
+    panel(driver)
+    yield from press(driver)
+    driver.move(300, 300)
+    yield 0.1
+    yield from settled(driver)
+    request = running_drag().request
+    for _ in range(3):
+        driver.move(300, 300)
+        yield 0.1
+    assert running_drag().request is request
+    driver.move(310, 300)
+    yield 0.2
+    assert running_drag().request is not request
+    driver.key('ESC')
+    yield 0.3
+
+
 def test_what_is_kept_is_what_the_operator_makes_without_a_mouse(driver: window.Window) -> Steps:
     panel(driver)
     yield from press(driver)
@@ -236,6 +255,7 @@ def test_disabling_the_add_on_takes_a_drag_back(driver: window.Window) -> Steps:
 window.run(test_a_drag_follows_and_escape_leaves_no_bit_changed,
            test_the_header_tells_the_gain_first_as_the_result_will,
            test_the_header_of_another_tool_tells_how_much_of_the_target_was_reached,
+           test_a_mouse_that_rests_asks_for_no_solve,
            test_what_is_kept_is_what_the_operator_makes_without_a_mouse, test_typed_numbers,
            test_a_typed_expression_with_a_unit_is_shown_with_its_value,
            test_one_undo_takes_a_drag_back_and_redo_brings_it,
