@@ -17,8 +17,7 @@ import pictures
 
 HERE = pathlib.Path(__file__).resolve().parent
 WIDTH = 480  # pixels of each part of a picture of the manual
-WINDOWS = ("sidebar.jpg", "drag.jpg", "live.jpg")  # pictures of a window, taken by hand
-WINDOW_WIDTH = 760
+LIVE, LIVE_WIDTH = "live.jpg", 760  # a picture of a window, taken by hand; window_pictures.py takes the others
 
 
 @dataclass(frozen=True)
@@ -72,8 +71,7 @@ def shown(operation: Operation, folder: pathlib.Path) -> None:
 
 def main(folder: pathlib.Path, names: list[str]) -> None:
     (folder / "manual").mkdir(parents=True, exist_ok=True)
-    for name in WINDOWS:
-        pictures.shrink(HERE / name, folder / "manual" / name, WINDOW_WIDTH)
+    pictures.shrink(HERE / LIVE, folder / "manual" / LIVE, LIVE_WIDTH)
     checkout.enable_add_on()
     for operation in OPERATIONS:
         if not names or operation.name in names:

@@ -1,17 +1,15 @@
 """README's first use with the mouse, and the tools by F3's search, in a real window."""
 import os
 from collections.abc import Generator
-from pathlib import Path
 
 import bpy
 import numpy as np
 
-import sidebar
+import newcomer
 import window
 from dragging import ended, executed, panel, shown
 
 Steps = Generator[float, None, None]
-SAMPLE = Path(__file__).resolve().parents[2] / "blend_samples" / "hood.blend"
 
 
 def search(driver: window.Window, text: str) -> Steps:
@@ -54,25 +52,21 @@ def test_search_finds_stripes_by_the_trades_words(driver: window.Window) -> Step
             assert stripes.mode == mode, (text, stripes.mode)
 
 
-def test_a_sample_opens_with_the_sidebar_and_the_button_smooths_it(driver: window.Window) -> Steps:
-    """No key N: that would close the sidebar."""
-    bpy.ops.wm.open_mainfile(filepath=str(SAMPLE), load_ui=True)
-    yield 1.5
-    driver = window.Window()
-    assert driver.area().spaces.active.show_region_ui
-    yield from sidebar.open_tab(driver)
-    before = shown(driver)
-    x, y = yield from sidebar.find_button(driver, "bpy.ops.reflines.smooth()")
-    yield from sidebar.press(driver, x, y)
-    yield from ended(driver)
-    report = bpy.context.view_layer.objects.active.reflection_lines.report
-    assert np.abs(shown(driver) - before).max() > 1e-4
-    assert report.headline().startswith("Lines ") and " x smoother, moved at most 1.7" in report.headline(), \
-        report.headline()
+def noted(name: str) -> Steps:
+    """Takes a picture of a step of the first use, where one is asked for."""
     if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "first_use.png"))
+        yield 0.5
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"first_use_{name}.png"))
         yield 0.3
 
 
+def test_the_newcomer_smooths_a_sample(_driver: window.Window) -> Steps:
+    yield from newcomer.use_sample(noted)
+
+
+def test_the_newcomer_smooths_a_model_of_their_own(driver: window.Window) -> Steps:
+    yield from newcomer.use_own_model(driver, noted)
+
+
 window.run(test_search_finds_the_tools_and_solves_at_once, test_search_finds_stripes_by_the_trades_words,
-           test_a_sample_opens_with_the_sidebar_and_the_button_smooths_it)
+           test_the_newcomer_smooths_a_sample, test_the_newcomer_smooths_a_model_of_their_own)
