@@ -1,49 +1,24 @@
-// Any triangles, borders and targets: solved, or refused in a sentence. What is held does not move, what converged is
-// finite, the energy does not rise, and what failed has changed nothing.
+// Any triangles, borders, targets and limits: solved, or refused in a sentence. What is held does not move, nothing
+// moves further than its limit, what converged is finite, the energy does not rise, and what failed has changed
+// nothing.
 #include <vector>
 
 #include "reflection/line_smoother.h"
 #include "reflines/shape_optimizer.h"
 #include "reflines/uniform_target.h"
 #include "tests/fuzz/bytes.h"
+#include "tests/fuzz/meshes.h"
 
 namespace reflines {
 namespace {
 
 using fuzz::Bytes;
 
-// A grid with holes, doubled and turned faces, and moved vertices: most of it is a surface.
-void read_mesh(Bytes& bytes, Positions& V, Triangles& F) {
-  const int columns = bytes.between(1, 9), rows = bytes.between(1, 9);
-  V.resize((columns + 1) * (rows + 1), 3);
-  for (int v = 0; v < V.rows(); ++v) {
-    const double x = double(v % (columns + 1)) / columns, y = double(v / (columns + 1)) / rows;
-    V.row(v) << x, y, -0.2 * x * x - 0.1 * y * y;
-  }
-  std::vector<int> corners;
-  for (int cell = 0; cell < columns * rows; ++cell) {
-    const int a = cell / columns * (columns + 1) + cell % columns, b = a + 1, c = a + columns + 2, d = a + columns + 1;
-    corners.insert(corners.end(), {a, b, c, a, c, d});
-  }
-  for (int change = bytes.below(12); change > 0 && !bytes.empty(); --change) {
-    const int kind = bytes.below(4), place = bytes.below(255) * static_cast<int>(corners.size()) / 255;
-    if (kind == 0) V(bytes.below(255) * V.rows() / 255, bytes.below(3)) += 0.2 * bytes.number();
-    if (kind == 1) corners[place] = bytes.between(-1, static_cast<int>(std::min<Eigen::Index>(V.rows(), 250)));
-    if (kind == 2) std::swap(corners[place], corners[place / 3 * 3]);
-    if (kind == 3) corners.erase(corners.begin() + place / 3 * 3, corners.begin() + place / 3 * 3 + 3);
-    if (corners.empty()) break;
-  }
-  F = Eigen::Map<const Triangles>(corners.data(), static_cast<int>(corners.size()) / 3, 3);
-}
-
 ShapeOptions read_options(Bytes& bytes, Eigen::Index vertices, Eigen::Index triangles) {
   static constexpr Border kBorders[] = {Border::kFree, Border::kFixed, Border::kClamped};
   ShapeOptions options;
   options.border.assign(bytes.below(30) == 29 ? 3 : vertices, kBorders[bytes.below(3)]);
-  if (bytes.flag()) {
-    options.held = Mask::Constant(vertices, false);
-    for (int k = bytes.below(8); k > 0; --k) options.held(bytes.below(255) * vertices / 255) = true;
-  }
+  options.held = fuzz::read_held(bytes, vertices);
   if (bytes.below(8) == 7) options.quadrature_weight = Vector::Constant(bytes.flag() ? triangles : 3, bytes.number());
   if (bytes.flag()) options.linear_solver = LinearSolverKind::kUmfpack;
   return options;
@@ -71,18 +46,39 @@ Target read_target(Bytes& bytes, ShapeOptimizer& optimizer) {
   }
 }
 
+// One length, or each vertex's own range; sometimes neither is a limit.
+MoveLimit read_limit(Bytes& bytes, int vertices) {
+  const int kind = bytes.below(4);
+  if (kind == 1) return MoveLimit::within(0.02 * std::abs(bytes.number()), vertices);
+  if (kind != 2) return MoveLimit::none();
+  MoveLimit limit{Vector(vertices), Vector(vertices)};
+  for (int v = 0; v < vertices; ++v) {
+    limit.lowest(v) = -0.01 * std::abs(bytes.number());
+    limit.highest(v) = bytes.below(50) == 49 ? bytes.number() : 0.01 * std::abs(bytes.number());
+  }
+  return limit;
+}
+
+void require_within(const MoveLimit& limit, const Vector& move) {
+  if (!limit.exists()) return;
+  for (int v = 0; v < move.size(); ++v) fuzz::require(move(v) <= limit.highest(v) && move(v) >= limit.lowest(v));
+}
+
 void solve(Bytes& bytes, ShapeOptimizer& optimizer, const Positions& V) {
   const Target target = read_target(bytes, optimizer);
   MinimizerOptions options;
   options.max_iterations = bytes.below(6);
   options.strategy = static_cast<Strategy>(bytes.below(4));
+  const MoveLimit limit = read_limit(bytes, static_cast<int>(V.rows()));
   const Positions before = optimizer.positions();
   try {
-    const Report report = optimizer.solve({target}, options);
+    const Report report = optimizer.solve({target}, options, nullptr, limit);
     const Positions after = optimizer.positions();
     const Mask free = optimizer.free();
     fuzz::require(!report.converged() || after.allFinite());
-    fuzz::require(report.energy_after <= report.energy_before * (1 + 1e-12));
+    // A reachable target is solved for without what no surface has, so that its energy may end above its least.
+    fuzz::require(target.reachable_only || report.energy_after <= report.energy_before * (1 + 1e-12));
+    require_within(limit, optimizer.heights() - optimizer.frame().heights(V));
     for (int v = 0; v < V.rows(); ++v) fuzz::require(free(v) || (after.row(v).array() == V.row(v).array()).all());
   } catch (const std::exception&) {
     fuzz::require((optimizer.positions().array() == before.array()).all());
@@ -98,7 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Bytes bytes(data, size);
   Positions V;
   Triangles F;
-  read_mesh(bytes, V, F);
+  fuzz::read_mesh(bytes, V, F);
   fuzz::may_refuse([&] {
     const ShapeOptions options = read_options(bytes, V.rows(), F.rows());
     const Vector3 view(0.3 * bytes.number(), 0.3 * bytes.number(), 1);

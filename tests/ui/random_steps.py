@@ -1,10 +1,13 @@
 """Steps of a random walk: what an artist may do at any moment, well considered or not. Each waits as it needs."""
 import random
+import shutil
 from collections.abc import Callable, Generator
+from pathlib import Path
 
 import bpy
 import installation
 import numpy as np
+import packages
 import scenes
 import window
 
@@ -252,6 +255,20 @@ def reload_addon(walker: Walker) -> Steps:
     walker.call("preferences.addon_disable", module=installation.NAME)
     yield walker.dice.choice((0.0, 0.2))
     installation.install()
+    yield 0.1
+
+
+def reinstall(walker: Walker) -> Steps:
+    """A package over itself, of the same build or another; only where an installed one is tested, for the checkout's
+    is not to be written over."""
+    if installation.INSTALLED:
+        tail = walker.dice.choice((b"", b"another build"))
+        source = Path(walker.file).parent / "reflection_lines"
+        if not source.exists():
+            shutil.copytree(packages.folder(), source, ignore=shutil.ignore_patterns("__pycache__"))
+        packages.install(packages.packed(source, "again.zip", tail))
+        yield walker.dice.choice((0.0, 0.2))
+        installation.install()
     yield 0.1
 
 

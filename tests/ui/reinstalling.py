@@ -1,43 +1,20 @@
 """A session of a Blender with settings of its own: the add-on is installed over itself time and again, in turns the
 same build and another, used and unused. Run by test_reinstall.py with how often and the folder to pack."""
-import os
 import sys
-import zipfile
 from collections.abc import Generator
 from pathlib import Path
 
 import bpy
 
 import scenes
+from packages import MODULE, NATIVE, folder, install, packed
 
 ROUNDS, SOURCE = int(sys.argv[1]), Path(sys.argv[2])
-EXTENSION = bpy.app.version >= (4, 2)
-MODULE = "bl_ext.user_default.reflection_lines" if EXTENSION else "reflection_lines"
-NATIVE = (".so", ".pyd")
-
-
-def packed(name: str, tail: bytes) -> Path:
-    """As .ci/package.py packs; a tail makes another library of the same code."""
-    path = Path(os.environ["BLENDER_USER_RESOURCES"]) / name
-    with zipfile.ZipFile(path, "w") as archive:
-        for file in sorted(SOURCE.rglob("*")):
-            if file.is_file() and "__pycache__" not in file.parts:
-                content = file.read_bytes() + (tail if file.suffix in NATIVE else b"")
-                archive.writestr(f"reflection_lines/{file.relative_to(SOURCE).as_posix()}", content)
-    return path
-
-
-def install(package: Path) -> None:
-    if EXTENSION:
-        bpy.ops.extensions.package_install_files(filepath=str(package), repo="user_default", enable_on_install=True)
-    else:
-        bpy.ops.preferences.addon_install(filepath=str(package), overwrite=True)
-    assert bpy.ops.preferences.addon_enable(module=MODULE) == {'FINISHED'}
 
 
 def spoil() -> None:
     """What an installation that writes into the library leaves of it for a moment."""
-    for file in Path(sys.modules[MODULE].__file__).parent.iterdir():
+    for file in folder().iterdir():
         if file.suffix in NATIVE:
             content = file.read_bytes()
             file.write_bytes(bytes(len(content)))
@@ -71,7 +48,7 @@ def solve() -> None:
 
 
 def session() -> Generator[float, None, None]:
-    packages = packed("same.zip", b""), packed("other.zip", b"another build")
+    packages = packed(SOURCE, "same.zip", b""), packed(SOURCE, "other.zip", b"another build")
     for turn in range(ROUNDS):
         install(packages[turn // 2 % 2])  # over itself, and over another
         yield 0.05

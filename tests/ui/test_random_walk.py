@@ -17,8 +17,8 @@ SEED = int(os.environ.get("REFLINES_SEED", "1"))
 STEPS = {
     steps.run_tool: 14, steps.drag_tool: 14, steps.surprised_drag: 5, steps.grab: 3, steps.undo: 9, steps.redo: 5,
     steps.change_mode: 8, steps.change_settings: 8, steps.select: 8, steps.change_mesh: 6, steps.add_modifier: 3,
-    steps.delete_something: 4, steps.activate: 5, steps.reload_addon: 3, steps.save: 3, steps.load: 3,
-    steps.new_panel: 8, steps.another_panel: 2, steps.pull_lattice: 12,
+    steps.delete_something: 4, steps.activate: 5, steps.reload_addon: 3, steps.reinstall: 2, steps.save: 3,
+    steps.load: 3, steps.new_panel: 8, steps.another_panel: 2, steps.pull_lattice: 12,
 }
 
 Steps = Generator[float, None, None]
