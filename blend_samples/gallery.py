@@ -17,7 +17,8 @@ import pictures
 
 HERE = pathlib.Path(__file__).resolve().parent
 WIDTH = 480  # pixels of each part of a picture of the manual
-LIVE, LIVE_WIDTH = "live.jpg", 760  # a picture of a window, taken by hand; window_pictures.py takes the others
+TAKEN_WIDTH = 760
+TAKEN = ("live.jpg", "pull_line.jpg")  # taken of a window by hand; window_pictures.py takes the others
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,8 @@ def shown(operation: Operation, folder: pathlib.Path) -> None:
 
 def main(folder: pathlib.Path, names: list[str]) -> None:
     (folder / "manual").mkdir(parents=True, exist_ok=True)
-    pictures.shrink(HERE / LIVE, folder / "manual" / LIVE, LIVE_WIDTH)
+    for name in TAKEN:
+        pictures.shrink(HERE / name, folder / "manual" / name, TAKEN_WIDTH)
     checkout.enable_add_on()
     for operation in OPERATIONS:
         if not names or operation.name in names:

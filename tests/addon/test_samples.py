@@ -85,8 +85,9 @@ def test_opens_with_its_numbers(name: str) -> None:
     assert settings.camera == bpy.context.scene.camera and settings.stripes.show
 
 
-OPERATORS = {"Smooth": "smooth", "Untwist": "untwist", "Warp": "warp", "Image Pattern": "pattern"}
-EXPECTED = re.compile(r"\*([\w ]+)\*: (\w+), ([\d.]+) % left, ([\d.]+) mm")
+OPERATORS = {"Smooth": "smooth", "Untwist": "untwist", "Warp": "warp", "Image Pattern": "pattern",
+             "Re-solve": "resolve"}
+EXPECTED = re.compile(r"\*([\w -]+)\*: (\w+), ([\d.]+) % left, ([\d.]+) mm")
 
 
 @pytest.mark.parametrize("name", sorted(rows()))

@@ -22,8 +22,14 @@ constexpr double kPlaceWeight = 1e4;
 // The weight of the values beyond the radii, for an area of radius^2. Of 0, 1, 1e2 and 1e4 lines there move by 0.36,
 // 0.35, 0.1 and 0.002 of the pull: heights that change under it must come down again somewhere.
 constexpr double kStayWeight = 1e4;
-constexpr int kMostPlaces = 64;     // of a polyline
-constexpr int kFewestVertices = 8;  // within a radius
+// The weight of the values around a pull, for an area of radius^2, and the share of the radius where it falls to 0.
+// Heights under a held border reach a third to three quarters of c; without it the rest is a corner of the line at the
+// handle. At a fifth of the radius along the line 0.74 of the pull are left without it, and 0.80 with it.
+constexpr double kRoundWeight = 500;
+constexpr double kRound = 1.0 / 3;
+constexpr double kPlaceEdges = 2.5;  // edges that the triangles around a place measure across
+constexpr int kMostPlaces = 64;      // of a polyline
+constexpr int kFewestVertices = 8;   // within a radius
 
 std::string call(const Handle& handle, int number) {
   return handle.name.empty() ? "Handle " + std::to_string(number + 1) : "Handle " + handle.name;
@@ -118,6 +124,19 @@ Location locate(const LineReader& reader, const Vector2& point, const Handle& ha
                      " lies off the region's lines (beside it, or on a fillet or fold); move it onto the panel.");
 }
 
+// Adds the weights of the values (#F) that round the lines at pulls.
+void add_rounding(const RegionField& field, const std::vector<Handle>& handles, double scale, Vector& weight) {
+  for (const Handle& handle : handles) {
+    if (handle.kind != HandleKind::kPull) continue;
+    const double reach = kRound * handle.radius, most = kRoundWeight * scale / (handle.radius * handle.radius);
+    for (int t = 0; t < field.F.rows(); ++t) {
+      if (!field.active(t) || field.feature(t)) continue;
+      const double share = measure_distance(field.center.row(t), handle.points) / reach;
+      if (share < 1) weight(t) = std::max(weight(t), most * std::pow(1 - share * share, 2));
+    }
+  }
+}
+
 }  // namespace
 
 LineHandles::LineHandles(RegionField field, const Mask& changeable, SpdFactorize factorize)
@@ -207,7 +226,9 @@ void LineHandles::weight_places(const std::vector<Handle>& handles, const Places
     around.erase(std::unique(around.begin(), around.end()), around.end());
     double area = 0;
     for (const int t : around) area += field_->area(t);
-    const double count = std::max<double>(1.0, static_cast<double>(places[k].size()));
+    // A pinned area weighs as the places that it has room for.
+    const double room = handles[k].triangles.size() > 0 ? area / std::pow(kPlaceEdges * mean_edge(*field_), 2) : 0.0;
+    const double count = std::max({1.0, static_cast<double>(places[k].size()), room});
     for (const int t : around) weight(t) = std::max(weight(t), kPlaceWeight * scale * count / area);
   }
 }
@@ -233,6 +254,7 @@ std::vector<Target> LineHandles::build(const std::vector<Handle>& handles) {
       value.theta(t) = wrap_angle(field_->theta(t) + (c(a) + c(b) + c(d)) / 3);
     }
   }
+  add_rounding(*field_, handles, scale, value.weight);
   weight_places(handles, places, scale, value.weight);
   value.gradient = gradient.gradient;
   return {std::move(gradient), std::move(value)};
