@@ -248,14 +248,15 @@ def test_lengths_are_told_in_the_scenes_unit(panel, capfd, scale, told) -> None:
     """As the sidebar's fields show them, where a Blender unit may be a millimetre."""
     bpy.context.scene.unit_settings.scale_length = scale
     scenes.smooth(length=2.0)
-    moved = panel.reflection_lines.report.largest_move * scale
-    said = capfd.readouterr().out
-    assert f" at length 2 {told}, " in said
-    assert f"largest move {bpy.utils.units.to_string('METRIC', 'LENGTH', moved, precision=5)}" in said
+    report = panel.reflection_lines.report
+    moved = bpy.utils.units.to_string('METRIC', 'LENGTH', report.largest_move * scale, precision=2)
+    assert report.measured_length() == f"2 {told}"
+    assert f"moved at most {moved}\n" in capfd.readouterr().out
 
 
 def test_lengths_without_a_unit(panel, capfd) -> None:
     bpy.context.scene.unit_settings.system = 'NONE'
     scenes.smooth(length=0.5)
-    said = capfd.readouterr().out
-    assert " at length 0.5, " in said and f"move {panel.reflection_lines.report.largest_move:.5g}\n" in said
+    report = panel.reflection_lines.report
+    assert report.measured_length() == "0.5"
+    assert f"moved at most {report.largest_move:.2g}\n" in capfd.readouterr().out
