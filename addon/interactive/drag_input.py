@@ -1,4 +1,4 @@
-"""Keys, wheel and clicks of a drag, and the text of its values: the same for a dragged tool and for Sweep Light.
+"""The input of a drag by keys, wheel and clicks, and the text of its values, for dragged tools and Sweep Light.
 
 Moves of the mouse are the operator's own. What a key changes is in drag_handles.py.
 """

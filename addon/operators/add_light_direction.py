@@ -1,4 +1,4 @@
-"""Add Light Direction."""
+"""The operator Add Light Direction."""
 import bpy
 from mathutils import Matrix, Vector
 
@@ -20,7 +20,7 @@ Turn the arrow to turn the reflection lines; it must not point along the view"""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reflection_lines
-        frame = self.frame(context, settings)
+        frame = self.choose_frame(context, settings)
         direction = Vector(self.direction) if any(self.direction) else frame.col[0]
         center, size = view_and_light.measure_extent(context.view_layer.objects.active)
         arrow = bpy.data.objects.new("Light Direction", None)
@@ -32,8 +32,10 @@ Turn the arrow to turn the reflection lines; it must not point along the view"""
         settings.light = arrow
         return {'FINISHED'}
 
-    def frame(self, context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> Matrix:
-        """Of the view that counts: the view camera's; without one the viewport's; in background from above."""
+    def choose_frame(self, context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> Matrix:
+        """Returns the axes of the view camera's picture; without a camera those of the 3D view, in background of a view
+        from above.
+        """
         if settings.present(settings.camera):
             return settings.camera.matrix_world.to_3x3().normalized()
         return view_and_light.read_viewport_frame(context) or Matrix.Identity(3)

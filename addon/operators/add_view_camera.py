@@ -1,4 +1,4 @@
-"""Add View Camera."""
+"""The operator Add View Camera."""
 import bpy
 
 from .camera_aim import CameraAim

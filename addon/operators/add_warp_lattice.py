@@ -1,4 +1,4 @@
-"""Add Warp Lattice."""
+"""The operator Add Warp Lattice."""
 import bpy
 
 from ..bridge import facing, read_patch, region_faces, scene_objects, warp_lattice

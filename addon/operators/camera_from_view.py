@@ -1,4 +1,4 @@
-"""Camera from This View, and the view that a panel was last seen in."""
+"""The operators that turn the view camera to this view, and back to the view that a panel was last seen in."""
 import bpy
 
 from ..bridge import scene_objects

@@ -1,4 +1,4 @@
-"""Direction and Density."""
+"""The operator Direction and Density."""
 from functools import partial
 from math import pi, radians
 
@@ -42,13 +42,13 @@ evenly spaced"""
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         scene = context.scene
         settings = Direction(
-            self.line_direction(scene), self.density, self.density_end, self.axis,
+            self.find_line_direction(scene), self.density, self.density_end, self.axis,
             count=scene.reflection_lines.stripes.count if self.unit == 'LINES' else 0, strength=self.strength,
             falloff=self.read_falloff(context, ob, patch), emphasis=self.emphasis)
         return partial(direction.build_direction_target, settings=settings)
 
-    def line_direction(self, scene: bpy.types.Scene) -> np.ndarray:
-        """In world space; zero for that of the region's mean."""
+    def find_line_direction(self, scene: bpy.types.Scene) -> np.ndarray:
+        """Returns the wanted direction of the lines in world space; zero stands for the region's mean."""
         if self.direction == 'ANGLE':
             return view_and_light.find_picture_direction(scene.reflection_lines.camera, self.angle)
         if self.direction == 'MEAN':

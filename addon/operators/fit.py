@@ -1,4 +1,4 @@
-"""Fit Cage to Mesh."""
+"""The operator Fit Cage to Mesh."""
 import bpy
 import numpy as np
 
@@ -21,7 +21,8 @@ has its lines. Select that mesh, then the cage"""
         return scene.reflection_lines
 
     def copy_settings(self, scene: bpy.types.Scene) -> None:
-        """Unless told otherwise the border lies on the other mesh, too."""
+        """Copies the settings; the border is free where none was given, so that it comes to lie on the other mesh too.
+        """
         self.solve_for = 'CAGE'
         if not self.properties.is_property_set("border"):
             self.border = 'free'
@@ -29,7 +30,7 @@ has its lines. Select that mesh, then the cage"""
             self.result = scene.reflection_lines.result
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """The other mesh may be in Edit Mode, too."""
+        """Returns the active object alone, for the other mesh may be in Edit Mode too."""
         return [scene_objects.find_active_object(context)]
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:

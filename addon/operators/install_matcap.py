@@ -1,4 +1,4 @@
-"""Install Stripes MatCap."""
+"""The operator Install Stripes MatCap."""
 import bpy
 import numpy as np
 

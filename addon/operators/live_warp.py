@@ -1,4 +1,4 @@
-"""Start, Apply and Discard Live Warp."""
+"""The operators that start, apply and discard the live warp."""
 import bpy
 
 from ..bridge import (gather, live_warp_start, modifiers, read_mesh, region_faces, scene_objects, shape_keys,

@@ -1,4 +1,4 @@
-"""Look Through."""
+"""The operator Look Through."""
 import bpy
 
 from ..bridge import view_camera, view_region

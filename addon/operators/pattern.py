@@ -1,4 +1,4 @@
-"""Image Pattern."""
+"""The operator Image Pattern."""
 from functools import partial
 from math import pi, radians
 

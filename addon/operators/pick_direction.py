@@ -1,4 +1,4 @@
-"""Pick Line Direction."""
+"""The operator Pick Line Direction."""
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import region_2d_to_location_3d
@@ -33,11 +33,13 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
             return {'CANCELLED'}
         if event.type != 'LEFTMOUSE' or event.value != 'PRESS':
             return {'PASS_THROUGH'} if event.type in NAVIGATION else {'RUNNING_MODAL'}
-        self.points.append(self.under(context, event))
+        self.points.append(self.find_point(context, event))
         return {'RUNNING_MODAL'} if len(self.points) < 2 else self.finish(context)
 
-    def under(self, context: bpy.types.Context, event: bpy.types.Event) -> np.ndarray:
-        """World point under the mouse, as far away as the panel's middle: what counts is the direction."""
+    def find_point(self, context: bpy.types.Context, event: bpy.types.Event) -> np.ndarray:
+        """Returns the point under the mouse in world space, as far away as the panel's middle: only the direction
+        between two points is used.
+        """
         at = (event.mouse_x - self.window.x, event.mouse_y - self.window.y)
         centre = view_and_light.measure_extent(scene_objects.find_active_object(context))[0]
         return np.array(region_2d_to_location_3d(self.window, context.space_data.region_3d, at, centre))

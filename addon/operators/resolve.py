@@ -1,4 +1,4 @@
-"""Re-solve."""
+"""The operator Re-solve."""
 import json
 
 import bpy
@@ -53,7 +53,7 @@ before that run, unless the mesh has been changed since"""
         return {'FINISHED'}
 
     def run(self, ob: bpy.types.Object, run: bpy.types.PropertyGroup, *, shared: bool) -> None:
-        """The name and the settings come from the file: only tools that solve are run."""
+        """Runs the tool of the stored run. Name and settings come from the file, so only tools that solve are run."""
         kind = getattr(bpy.types, run.operator, None)
         if not isinstance(kind, type) or not issubclass(kind, SolveTool):
             raise Refusal(f"{ob.name}: the stored run names no tool ({run.operator[:40]}): run a tool again")

@@ -1,4 +1,4 @@
-"""Save Stripes Preset."""
+"""The operator Save Stripes Preset."""
 import bpy
 from bl_operators.presets import AddPresetBase
 

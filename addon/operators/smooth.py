@@ -1,4 +1,4 @@
-"""Smooth Lines."""
+"""The operator Smooth Lines."""
 from dataclasses import replace
 from functools import partial
 

@@ -1,4 +1,4 @@
-"""Store Result."""
+"""The operator Store Result."""
 from collections.abc import Iterable
 
 import bpy

@@ -1,4 +1,4 @@
-"""Named set-ups of the stripes, and the eye they are seen by."""
+"""The operators for named set-ups of the stripes, and for the eye they are seen by."""
 import bpy
 from bpy.props import StringProperty
 

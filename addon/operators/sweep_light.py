@@ -1,4 +1,4 @@
-"""Sweep Light."""
+"""The operator Sweep Light."""
 from math import radians, remainder, tau
 
 import bpy

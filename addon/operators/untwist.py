@@ -1,4 +1,4 @@
-"""Untwist Lines."""
+"""The operator Untwist Lines."""
 from functools import partial
 from math import pi, radians
 

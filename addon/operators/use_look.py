@@ -1,4 +1,4 @@
-"""Use Look."""
+"""The operator Use Look."""
 import bpy
 from bpy.props import EnumProperty
 

@@ -1,4 +1,4 @@
-"""Warp Lines."""
+"""The operator Warp Lines."""
 from functools import partial
 
 import bpy

@@ -38,7 +38,7 @@ class Uploaded:
 
 @dataclass
 class ShownObject:
-    """What the GPU holds of one object."""
+    """The batches and the state of drawing of one object."""
     kind: tuple = ()              # mode, content, solve and kind of surface when it was read
     stale: bool = True            # the surface may have changed since it was uploaded
     topology: Topology | None = None
@@ -257,7 +257,7 @@ def draw_batch(name: str, batch: gpu.types.GPUBatch, values: np.ndarray, texture
 
 
 def poll_fits() -> float | None:
-    """A timer that redraws surfaces whose fit has finished."""
+    """Redraws surfaces whose fit has finished; a timer that runs while one is pending."""
     name = _cache.fits.take_finished()
     if name is not None and name.removeprefix(BEFORE) in _cache.shown:
         _cache.shown[name.removeprefix(BEFORE)].stale = True

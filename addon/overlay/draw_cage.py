@@ -56,7 +56,7 @@ class CageStyle:
 
 @dataclass
 class CageBatches:
-    """What the GPU holds of a cage; None for what there is not."""
+    """The GPU batches of a cage; None for what it does not have."""
     plain_edges: gpu.types.GPUBatch | None
     marked_edges: gpu.types.GPUBatch | None
     marked_rims: gpu.types.GPUBatch | None

@@ -36,7 +36,7 @@ class Dot:
 
 @dataclass(frozen=True)
 class Marks:
-    """All that is drawn."""
+    """The curves and dots that are drawn."""
     curves: tuple[Curve, ...] = ()
     dots: tuple[Dot, ...] = field(default=())
 

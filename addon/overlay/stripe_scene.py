@@ -1,4 +1,4 @@
-"""How stripes are drawn on an object, read from scene and settings: eye, lights, look."""
+"""Reads from scene and settings how stripes are drawn on an object: eye, lights and look."""
 import bpy
 import numpy as np
 from mathutils import Matrix

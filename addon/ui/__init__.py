@@ -1,1 +1,1 @@
-"""What the artist sees beside the 3D view: properties, panels, menus, keys and preferences."""
+"""The user interface: properties, panels, menus, gizmos, tools of the toolbar, keys and preferences."""

@@ -34,7 +34,7 @@ def build_address(section: str) -> str:
 
 
 def manual_map() -> tuple[str, tuple[tuple[str, str], ...]]:
-    """The page's address, and pairs of an identifier's pattern and the section that is appended to the address."""
+    """Returns the page's address, and pairs of an identifier's pattern and the section appended to the address."""
     operators = ((f"bpy.ops.reflines.{name}", f"#reflines.{name}") for name in dir(bpy.ops.reflines))
     return PAGE.as_uri(), (*operators, *SETTINGS)
 

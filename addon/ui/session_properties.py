@@ -16,7 +16,7 @@ def describe_live_warp() -> str:
 
 
 class ReflinesSession(bpy.types.PropertyGroup):
-    """What panels show of the session, on the window manager."""
+    """The properties of the session that panels show, on the window manager."""
     problem: StringProperty(get=lambda _: native.STATE.problem)
     remedy: StringProperty(get=lambda _: native.STATE.remedy)
     live: StringProperty(get=lambda _: describe_live_warp())

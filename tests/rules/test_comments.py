@@ -10,7 +10,8 @@ from tree import ROOT, files
 # Rooms of C++ whose comments are judged; headers and sources.
 CPP_ROOMS = ("native/include/", "native/src/", "native/python/", "native/examples/")
 PYTHON_ROOMS = ("addon/bridge/", "addon/model/", "addon/targets/", "addon/solver/", "addon/state/",
-                "addon/interactive/", "addon/native.py", "addon/library_copy.py", "native/python/reflines.pyi")
+                "addon/interactive/", "addon/operators/", "addon/overlay/", "addon/ui/", "addon/native.py",
+                "addon/library_copy.py", "native/python/reflines.pyi")
 
 # A sentence that begins so has no subject: "Of one worker thread.", "Whether it holds.".
 FRAGMENT = re.compile(r"(Of|For|Whether|What|Who|Where|How|Those|That|By|From|Within|At|As|Like|Likewise|Also|So|Not|"
@@ -68,8 +69,12 @@ def test_cpp_comments_are_sentences(file: Path) -> None:
 
 
 def docstrings(file: Path) -> Iterator[tuple[int, str, bool]]:
-    """Yields line, text, and whether it is that of a function, for each docstring of a Python file."""
+    """Yields line, text, and whether it is that of a function, for each docstring of a Python file; but not those of
+    operators, which are tooltips: Blender's own end without a full stop.
+    """
     for node in ast.walk(ast.parse((ROOT / file).read_text())):
+        if isinstance(node, ast.ClassDef) and "_OT_" in node.name:
+            continue
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and (text := ast.get_docstring(node)):
             names = [ast.unparse(decorator) for decorator in getattr(node, "decorator_list", [])]
             is_function = isinstance(node, ast.FunctionDef) and not any("property" in name for name in names)
