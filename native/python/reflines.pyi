@@ -153,6 +153,8 @@ class ShapeOptimizer:
     def watch(self, progress: Progress | None) -> None:
         """Reports the stages of smoothing and of the score to `progress`, and raises Cancelled there where it was cancelled.
         A solve has a progress of its own."""
+    def scale_move(self, share: float) -> None:
+        """Scales all moves from the heights that the optimizer was built with by a share between 0 and 1."""
     def reset(self) -> None:
         """Restores the heights that the optimizer was built with."""
 
@@ -247,13 +249,17 @@ def smooth(optimizer: ShapeOptimizer, *, length: float, strength: float = 1.0, d
 def uniform(optimizer: ShapeOptimizer, *, direction: Sequence[float] = (0, 0), density: float = 1.0, relative: bool = True,
             density_end: float = -1.0, axis: Sequence[float] = (0, 0), influence: np.ndarray | None = None,
             weight: np.ndarray | None = None, family: int = 0) -> Target:
-    """Builds the target of lines of one direction ((0, 0): that of the region's mean) and density (a factor of the mean's, or
+    """Builds the target of lines of one direction ((0, 0): that of the region's median) and density (a factor of the median's, or
     |grad theta| in radians / length); along `axis` the density goes linearly from density to density_end."""
 
 def turn(optimizer: ShapeOptimizer, *, angle: float, influence: np.ndarray | None = None, weight: np.ndarray | None = None,
          family: int = 0) -> Target:
     """Builds the target of the current gradients turned by `angle` radians, counter-clockwise in the image plane, times the
     influence."""
+
+def keep(optimizer: ShapeOptimizer, *, family: int) -> Target:
+    """Builds the target of the lines as they are, with a tenth of the weight: solved for together with new lines of another
+    family, it keeps those that cross them as far as these allow."""
 
 def falloff(optimizer: ShapeOptimizer, *, centre: Sequence[float], radius: float, curve: np.ndarray) -> np.ndarray:
     """Returns the curve, tabulated at equal steps from 0 to radius, at each triangle's distance from `centre`: #F."""

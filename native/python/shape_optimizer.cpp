@@ -147,6 +147,7 @@ void bind_optimizer(py::module_& module) {
            py::arg("max_iterations") = minimizer.max_iterations, py::arg("limit") = py::none(),
            py::arg("progress") = py::none())
       .def("watch", release_gil(&Shape::watch), py::arg("progress"))
+      .def("scale_move", release_gil(&Shape::scale_move), py::arg("share"))
       .def("reset", release_gil(&Shape::reset));
 }
 

@@ -6,6 +6,7 @@
 #include "python/bind.h"
 #include "python/exclusive_use.h"
 #include "reflines/errors.h"
+#include "reflines/kept_target.h"
 #include "reflines/pattern_target.h"
 #include "reflines/shape_optimizer.h"
 #include "reflines/smooth_target.h"
@@ -44,6 +45,11 @@ Target uniform(ShapeOptimizer& optimizer, const Vector2& direction, double densi
 Target turn(ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
   const NativeCall call(optimizer);
   return set_weight(build_turned_target(optimizer.region_field(family), angle, influence.value_or(Vector())), weight);
+}
+
+Target keep(ShapeOptimizer& optimizer, int family) {
+  const NativeCall call(optimizer);
+  return build_kept_target(optimizer.region_field(family));
 }
 
 Vector falloff_at(ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
@@ -116,6 +122,7 @@ void bind_builders(py::module_& module) {
              py::arg("family") = 0);
   module.def("turn", &turn, py::arg("optimizer"), py::kw_only(), py::arg("angle"), py::arg("influence") = py::none(),
              py::arg("weight") = py::none(), py::arg("family") = 0);
+  module.def("keep", &keep, py::arg("optimizer"), py::kw_only(), py::arg("family"));
   module.def("falloff", &falloff_at, py::arg("optimizer"), py::kw_only(), py::arg("centre"), py::arg("radius"),
              py::arg("curve"));
   bind_image_tools(module);

@@ -18,9 +18,9 @@ struct PatternOptions {
 };
 
 // Builds the target of an image: `image` holds #rows x #columns grey values (0 black, 1 white), the first row at the
-// bottom. Outside the image its border values continue. Features (field.feature) keep their lines. With by_value,
-// `keep` scales theta about its mean over the region. strength 0 with keep 1 changes no bit of the field. Throws
-// InvalidInput for an image that is empty or not finite.
+// bottom. Outside the image its border values continue. Features and rims keep their lines (field.response). With
+// by_value, `keep` scales theta about its mean over the region. strength 0 with keep 1 changes no bit of the field.
+// Throws InvalidInput for an image that is empty or not finite.
 Target build_pattern_target(const RegionField& field, const Eigen::MatrixXd& image, const PatternOptions& options);
 
 }  // namespace reflines

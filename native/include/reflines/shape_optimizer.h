@@ -119,6 +119,9 @@ class ShapeOptimizer {
   // vertices, the pieces one after another.
   SparseMatrix hessian(const std::vector<Target>& targets, HessianModel model);
 
+  // Scales all moves from the heights that the optimizer was built with. Throws InvalidInput outside 0 to 1.
+  void scale_move(double share);
+
   void reset();  // restores the heights that the optimizer was built with
 
   // These are for heights that depend on fewer unknowns (see ShapeOptions::B), which make one piece: the indices of the

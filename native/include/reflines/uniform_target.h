@@ -8,20 +8,20 @@ namespace reflines {
 
 struct UniformOptions {
   Vector2 direction =
-      Vector2::Zero();   // direction of the lines in the image plane, any length; zero: the region's mean direction
-  double density = 1.0;  // wanted |grad theta|: a factor of the region's mean, or radians / length
+      Vector2::Zero();   // direction of the lines in the image plane, any length; zero: the region's median direction
+  double density = 1.0;  // wanted |grad theta|: a factor of the region's median, or radians / length
   bool relative = true;  // selects the unit of `density`: true for the factor
   double density_end = -1.0;       // density at the far end of `axis`, in the same unit; negative: constant density
   Vector2 axis = Vector2::Zero();  // direction in the image plane along which the density varies linearly
 };
 
 // Builds the target of lines of one direction and density. `influence` (#F in [0, 1], or empty for 1) blends from the
-// current field: 0 keeps it bit for bit, as features (field.feature) do. Of the two gradients across the direction, the
-// one nearer to the region's mean is taken.
+// current field: 0 keeps it bit for bit, and it is multiplied by field.response. Of the two gradients across the
+// direction, the one nearer to the region's median is taken.
 Target build_uniform_target(const RegionField& field, const UniformOptions& options, const Vector& influence);
 
 // Builds the target of the current gradients turned by `angle` (radians, counter-clockwise in the image plane) times
-// the influence of each triangle; 0 for features.
+// the influence of each triangle and field.response.
 Target build_turned_target(const RegionField& field, double angle, const Vector& influence);
 
 // Evaluates a fall-off curve c(d) for every triangle (#F) at its distance d from `centre` in the image plane: `curve`

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "reflection/weighted_median.h"
+
 namespace reflines {
 namespace {
 
@@ -12,6 +14,9 @@ constexpr double kStrong =
 // The least |grad theta| of a feature times the piece's diagonal: a bend radius of a fifth of the diagonal (|grad
 // theta| is some 2 / radius). On a mostly flat panel the median is rounding, and every dent exceeds 8 times that.
 constexpr double kLeast = 10.0;
+
+// The |grad theta| relative to a feature's least up to which tools act in full.
+constexpr double kOrdinary = 1.0 / 3.0;
 
 // Returns the triangles connected to `first` through marked ones, and unmarks them.
 std::vector<int> take_component(const HeightField& field, int first, Mask& marked) {
@@ -46,6 +51,13 @@ double strong_bend(const PlaneVectors& gradient, double diagonal) {
   std::vector<double> sorted(size.data(), size.data() + size.size());
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
   return std::max(kStrong * sorted[sorted.size() / 2], kLeast / diagonal);
+}
+
+Vector measure_response(const PlaneVectors& gradient, const Vector& area, double diagonal) {
+  const Vector size = gradient.rowwise().norm();
+  const double strong = std::max(kStrong * weighted_median(size, area), kLeast / diagonal);
+  const Vector x = (size.array() / strong - kOrdinary).cwiseMax(0.0).cwiseMin(1.0);
+  return 1.0 - x.array().square() * (3.0 - 2.0 * x.array());
 }
 
 Mask strong_features(const HeightField& field, const PlaneVectors& gradient, double length) {

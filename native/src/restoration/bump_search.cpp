@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "restoration/weighted_median.h"
+#include "reflection/weighted_median.h"
 
 namespace reflines {
 namespace {

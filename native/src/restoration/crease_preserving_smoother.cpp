@@ -6,7 +6,7 @@
 
 #include "geometry/mesh.h"
 #include "optimization/linear/linear_solver.h"
-#include "restoration/weighted_median.h"
+#include "reflection/weighted_median.h"
 
 namespace reflines {
 namespace {

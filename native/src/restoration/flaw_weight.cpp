@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reflection/weighted_median.h"
 #include "restoration/disk_mean.h"
-#include "restoration/weighted_median.h"
 
 namespace reflines {
 namespace {

@@ -96,6 +96,8 @@ void PieceProblem::pull_to(const Vector& z, const Vector& weight) {
   minimizer_.emplace(solver_);  // its factor belongs to another energy
 }
 
+void PieceProblem::scale_move(double share) { set_heights(map_.start() + share * (x_ - map_.start())); }
+
 void PieceProblem::reset() {
   set_heights(map_.start());
   energy_.pull_as_built(piece_.field.z);

@@ -41,6 +41,7 @@ class PieceProblem : public Problem {
   void set_heights(const Vector& x);
   void rest_at(const Vector& x);                        // sets the heights, and the rest of the proximity term
   void pull_to(const Vector& z, const Vector& weight);  // pull until reset, #V of the piece; see Energy
+  void scale_move(double share);                        // of the unknowns from the start
   void reset();  // restores the state as built, so that later solves give the same bits
   const Vector& unknowns() const { return x_; }
   bool moves_vertices() const {

@@ -31,6 +31,8 @@ class PieceSmoother {
   // with other arguments.
   const Mask& features(double length, int family);
 
+  PlaneVectors start_gradient(int family) const;  // #T x 2, of the field that the piece started with
+
  private:
   // The last system and the last field that it smoothed: while the strength is dragged, the same field is asked for
   // again.
@@ -51,7 +53,6 @@ class PieceSmoother {
 
   Cache& update(Cache& cache, const SmoothOptions& options, const PlaneVectors& along, int family);
   SpdSolve factorize(const SparseMatrix& matrix) const;
-  PlaneVectors start_gradient(int family) const;
   double longest_gradient(int family) const;
   void enter(double fraction, const char* stage) const;
 

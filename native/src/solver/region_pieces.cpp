@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "reflection/strong_features.h"
+
 namespace reflines {
 
 RegionPieces::RegionPieces(const Positions& V, const Triangles& F, const ImagePlane& frame)
@@ -112,11 +114,23 @@ PlaneVectors RegionPieces::smooth_field(const SmoothOptions& options, int family
   return result;
 }
 
+Vector RegionPieces::response(int family, double feature_length) {
+  PlaneVectors start = PlaneVectors::Zero(triangle_count(), 2);
+  Mask feature = Mask::Constant(triangle_count(), false);
+  for (const auto& piece : pieces_) {
+    start(piece->triangles(), Eigen::all) = piece->smoother().start_gradient(family);
+    feature(piece->triangles()) = piece->smoother().features(feature_length, family);
+  }
+  const PlanePositions xy = this->xy();
+  const double diagonal = (xy.colwise().maxCoeff() - xy.colwise().minCoeff()).norm();
+  return feature.select(0.0, measure_response(start, area(), diagonal).array());
+}
+
 RegionField RegionPieces::region_field(int family, double feature_length) {
   RegionField result{xy(),
                      F_,
                      Eigen::VectorXi::Constant(triangle_count(), -1),
-                     Mask::Constant(triangle_count(), false),
+                     response(family, feature_length),
                      area(),
                      centers(),
                      theta(family),
@@ -128,7 +142,6 @@ RegionField RegionPieces::region_field(int family, double feature_length) {
   for (size_t k = 0; k < pieces_.size(); ++k) {
     pieces_[k]->add_vertex_field(result);
     result.piece(pieces_[k]->triangles()).setConstant(static_cast<int>(k));
-    result.feature(pieces_[k]->triangles()) = pieces_[k]->smoother().features(feature_length, family);
   }
   return result;
 }

@@ -242,6 +242,12 @@ SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, Hessian
   return result;
 }
 
+void ShapeOptimizer::scale_move(double share) {
+  if (!(share >= 0 && share <= 1)) throw InvalidInput("The share of the move must lie between 0 and 1.");
+  region_field_.reset();
+  for (const auto& piece : pieces_->pieces()) piece->scale_move(share);
+}
+
 void ShapeOptimizer::reset() {
   pieces_->set_limit(MoveLimit::none());
   region_field_.reset();

@@ -143,12 +143,16 @@ Target build_pattern_target(const RegionField& field, const Eigen::MatrixXd& ima
   if (options.by_value) target.theta = field.theta;
   const Vector kept = scale_theta(field, options.keep);
   for (int t = 0; t < field.F.rows(); ++t) {
-    if (!field.active(t) || field.feature(t)) continue;
+    const double response = field.response(t);
+    if (!field.active(t) || response == 0) continue;
     const double at_a = delta(field.F(t, 0));
     const Vector2 gradient =
         linear_gradient(field.xy, field.F.row(t), delta(field.F(t, 1)) - at_a, delta(field.F(t, 2)) - at_a);
-    target.gradient.row(t) = options.keep * field.gradient.row(t) + gradient.transpose();
-    if (options.by_value) target.theta(t) = kept(t) + (at_a + delta(field.F(t, 1)) + delta(field.F(t, 2))) / 3.0;
+    const Vector2 now = field.gradient.row(t), wanted = options.keep * now + gradient;
+    target.gradient.row(t) = (now + response * (wanted - now)).transpose();
+    if (!options.by_value) continue;
+    const double added = (at_a + delta(field.F(t, 1)) + delta(field.F(t, 2))) / 3.0;
+    target.theta(t) = field.theta(t) + response * (kept(t) + added - field.theta(t));
   }
   return target;
 }

@@ -19,8 +19,7 @@ void check_influence(const RegionField& field, const Vector& influence) {
 }
 
 double read_influence(const RegionField& field, const Vector& influence, int t) {
-  if (field.feature(t)) return 0.0;
-  return influence.size() == 0 ? 1.0 : influence(t);
+  return field.response(t) * (influence.size() == 0 ? 1.0 : influence(t));
 }
 
 // Returns the position of each triangle along the axis, 0 at the region's first and 1 at its last.
@@ -46,13 +45,13 @@ Target build_uniform_target(const RegionField& field, const UniformOptions& opti
   if (!std::isfinite(options.density_end) || !options.direction.allFinite() || !options.axis.allFinite()) {
     throw InvalidInput("The density at the end, the direction or the axis is not a finite number; type it again.");
   }
-  const Vector2 mean = field.mean_gradient();
+  const Vector2 median = field.median_gradient();
   const bool own_direction = options.direction.norm() == 0;
-  Vector2 across = own_direction ? mean : Vector2(-options.direction.y(), options.direction.x());
-  if (across.norm() == 0) throw InvalidInput("The region's lines have no mean direction; give the direction.");
+  Vector2 across = own_direction ? median : Vector2(-options.direction.y(), options.direction.x());
+  if (across.norm() == 0) throw InvalidInput("The region's lines have no median direction; give the direction.");
   across.normalize();
-  if (across.dot(mean) < 0) across = -across;
-  const double unit = options.relative ? mean.norm() : 1.0;
+  if (across.dot(median) < 0) across = -across;
+  const double unit = options.relative ? median.norm() : 1.0;
   const double end = options.density_end < 0 ? options.density : options.density_end;
   const Vector position = measure_along_axis(field, options.axis);
   Target target{field.gradient, {}, {}, field.family, true};

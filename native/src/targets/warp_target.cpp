@@ -85,14 +85,17 @@ WarpResult add_difference(const RegionField& field, const Vector& delta, const M
   for (int t = 0; t < triangles; ++t) {
     if (!field.active(t)) continue;
     if (by_value) result.target.theta(t) = field.theta(t);
-    if (field.feature(t)) continue;
+    const double response = field.response(t);
+    if (response == 0) continue;
     const int a = field.F(t, 0), b = field.F(t, 1), c = field.F(t, 2);
     const double db = wrap_angle(delta(b) - delta(a)), dc = wrap_angle(delta(c) - delta(a));
     const bool known = !unknown(a) && !unknown(b) && !unknown(c);
     result.outside += !known;
     if (!known) result.target.weight(t) = kOutsideWeight;
-    if (known) result.target.gradient.row(t) += linear_gradient(field.xy, field.F.row(t), db, dc).transpose();
-    if (by_value) result.target.theta(t) = wrap_angle(field.theta(t) + delta(a) + (db + dc) / 3.0);
+    if (known)
+      result.target.gradient.row(t) += response * linear_gradient(field.xy, field.F.row(t), db, dc).transpose();
+    if (by_value)
+      result.target.theta(t) = wrap_angle(field.theta(t) + response * delta(a) + response * (db + dc) / 3.0);
   }
   return result;
 }
@@ -128,7 +131,7 @@ class LineSource {
     Location at = locator_->locate(point);
     if (at.triangle < 0) return at;
     at.triangle = number_[at.triangle];
-    bool smooth = !field.feature(at.triangle) && piece_(v) >= 0;
+    bool smooth = field.response(at.triangle) > 0 && piece_(v) >= 0;
     for (int corner : field.F.row(at.triangle)) smooth = smooth && piece_(corner) == piece_(v);
     if (!smooth) at.triangle = -1;
     return at;

@@ -1,4 +1,4 @@
-#include "restoration/weighted_median.h"
+#include "reflection/weighted_median.h"
 
 #include <algorithm>
 #include <numeric>
