@@ -14,7 +14,7 @@ from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
 from ..model.view import View
 from ..solver.live_optimizer import BuildTarget
-from ..targets import warp
+from ..targets import crossed, warp
 from ..targets.warp import Warp
 
 
@@ -83,7 +83,7 @@ def read_signs(scene: bpy.types.Scene, ob: bpy.types.Object, center: np.ndarray)
     if obstacle:
         raise Refusal(obstacle)
     seen, settings = view_and_light.read_scene_view(scene, center), scene.reflection_lines
-    return (ob.name, tuple(map(tuple, ob.matrix_world)), settings.border,
+    return (ob.name, tuple(map(tuple, ob.matrix_world)), settings.border, settings.lights, settings.limit,
             *(tuple(getattr(seen, name)) for name in ("view_direction", "line_direction")))
 
 
@@ -102,11 +102,15 @@ def bind_target(wanted: Warp) -> BuildTarget:
 
 def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
     """Reads the settings of the solve from the scene."""
-    return SolveSettings(scene.reflection_lines.border, scene.reflection_lines.length)
+    settings = scene.reflection_lines
+    keeps_crossed = settings.lights == 'CROSSED' and settings.warp.fit != 'VALUE'
+    return SolveSettings(settings.border, settings.length, settings.limit,
+                         crossed.build_kept_target if keeps_crossed else None)
 
 
 def read_operator_settings(scene: bpy.types.Scene) -> dict[str, str | float]:
     """Returns the settings with which the operator Warp makes the same shape."""
     settings, own = scene.reflection_lines, scene.reflection_lines.warp
     return {"amount": own.amount, "cells": own.cells, "fit": own.fit, "border": settings.border,
+            "lights": settings.lights, "limit": settings.limit,
             "solve_for": settings.live.solve_for, "result": settings.live.result}

@@ -15,15 +15,14 @@ from ..model.gain import Gain
 from ..model.line_surface import LineState
 from ..model.patch import Patch
 from ..model.refusal import Refusal
-from ..model.solution import Solution, SolveSettings
+from ..model.solution import JointTargets, Solution, SolveSettings
 from ..model.view import View
 from ..solver import live_optimizer, solve
 from ..solver.formulation import choose_formulation
+from ..solver.limited_solve import choose_limit, scale_to_limit
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
 from ..state import optimizer_cache
 
-# Relative to the gradient after a move of the mouse; 1e-2 would leave 4e-5 of the size after a closed path.
-FOLLOW_TOLERANCE = 1e-4
 # Seconds. The gain that takes longer to measure is measured when the mouse rests, so that the panel follows at once.
 MEASURE_BUDGET = 0.03
 
@@ -114,8 +113,8 @@ class SolveJob:
         every = zip(self.patches, self.starts, self.followers, request.builds, strict=True)
         for patch, start, follower, build in every:
             with live_optimizer.convert_native_errors(patch):
-                wanted = live_optimizer.build_targets(start, build)
-                follower.solve(wanted.targets, gradient_tolerance=wanted.follow_tolerance, progress=self.progress)
+                wanted = live_optimizer.build_targets(start, build, request.settings)
+                self.follow_targets(follower, wanted, choose_limit(patch, request.settings.limit))
                 positions.append(choose_formulation(patch, start.view).read_positions(follower))
         gain = self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
         return SolveOutcome(request, tuple(positions), gain=gain, lines=self.read_lines(request))
@@ -130,6 +129,12 @@ class SolveJob:
         return tuple(choose_formulation(start.patch, start.view).read_lines(follower)
                      for start, follower in zip(self.starts, self.followers, strict=True))
 
+    def follow_targets(self, follower: "native.ShapeOptimizer", wanted: JointTargets, limit: float) -> None:
+        """Solves warm-started. Beyond the limit all moves are scaled at once; the final solve takes its time."""
+        report = follower.solve(wanted.targets, gradient_tolerance=wanted.follow_tolerance, progress=self.progress)
+        if report.largest_move > limit:
+            scale_to_limit(follower, report.largest_move, limit)
+
     def measure(self, request: SolveRequest) -> Gain:
         """Measures the present heights against those of the start, by the numbers that the result will be told by."""
         begin = time.perf_counter()
@@ -137,7 +142,7 @@ class SolveJob:
         every = zip(self.patches, self.starts, self.followers, request.builds, strict=True)
         for patch, start, follower, build in every:
             with live_optimizer.convert_native_errors(patch):
-                wanted = live_optimizer.build_targets(start, build)
+                wanted = live_optimizer.build_targets(start, build, request.settings)
                 length = solve.choose_length(patch, request.settings.length)
                 numbers.append((start.optimizer.score(length), follower.score(length),
                                 wanted.measure(start.optimizer), wanted.measure(follower)))

@@ -8,11 +8,16 @@ from .. import native
 from .patch import Patch
 
 
+BuildCrossed = Callable[["native.ShapeOptimizer"], "native.Target"]
+
+
 @dataclass(frozen=True)
 class SolveSettings:
     """The parameters that every solve needs beside its target."""
     border: str
     length: float  # detail finer than this counts as wobble, world units; 0: a fraction of the patch's diagonal
+    limit: float = 0.0  # largest move along the view, world units; 0: a fraction of the patch's diagonal
+    build_crossed: BuildCrossed | None = None  # of the lines that cross the wanted ones; None leaves them to themselves
 
 
 @dataclass(frozen=True)
@@ -24,17 +29,20 @@ class JointTargets:
     # The tolerance of a drag's solves, relative to the gradient after a move of the mouse; 1e-2 would leave 4e-5 of the
     # size after a closed path.
     follow_tolerance: float = 1e-4
+    is_plain: bool = False  # one tool's target, whose residual is the measure
 
 
 @dataclass(frozen=True)
-class PressReport:
-    """The outcome of an automatic press of Smooth, by the names that native.Report has; lengths in world units."""
+class SolveReport:
+    """The outcome of an automatic press of Smooth, or of a solve that the limit held back, by the names that
+    native.Report has; lengths in world units.
+    """
     termination: str     # of the last solve; "not_applied" where nothing was moved
     message: str
     iterations: int      # of the last solve
-    seconds: float       # of the whole press
+    seconds: float       # of the whole press or solve
     unknowns: int
-    largest_move: float  # along the view, of the whole press
+    largest_move: float  # along the view, of the whole press or solve
     limited: int = 0     # vertices that the limit holds back
 
 
@@ -43,7 +51,7 @@ class Solution:
     """The result of one solve of one patch. Scores are degrees."""
     patch: Patch
     positions: np.ndarray  # #V x 3, world space
-    report: "native.Report | PressReport"
+    report: "native.Report | SolveReport"
     target: "native.Target | None"  # None after an automatic press of Smooth
     residual: np.ndarray   # #F, |grad theta - target|, radians / length
     residual_before: float  # root mean square by area and the target's weight, radians / length

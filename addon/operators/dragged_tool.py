@@ -12,8 +12,11 @@ from ..interactive.drag_handles import Handle
 from ..interactive.solve_job import SolveOutcome
 from ..model.patch import Patch
 from ..model.refusal import Refusal
+from ..model.solution import BuildCrossed, SolveSettings
 from ..solver import solve
+from ..targets import crossed
 from ..targets.falloff import Falloff
+from ..ui.tool_properties import lights_property, limit_property
 from .solve_tool import SolveTool
 
 
@@ -34,6 +37,8 @@ class DraggedTool(SolveTool):
 
     smooths = False  # whether the gain is told by how smooth the lines are, not by the share of the target
 
+    lights: lights_property()
+    limit: limit_property()
     follow_mouse: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Drag the tool's values in the 3D view")
     release_confirm: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Keep the values when the mouse button "
                                   "that began the drag is let go, as gizmos do")
@@ -50,6 +55,18 @@ class DraggedTool(SolveTool):
     def choose_automatic(self, name: str, patch: Patch) -> float:
         """Returns the value that 0 stands for in a property."""
         return {"length": solve.choose_length(patch, 0.0), "radius": choose_radius(patch)}.get(name, 0.0)
+
+    def keeps_crossed(self) -> bool:
+        """Returns whether the lines that cross the wanted ones count."""
+        return self.lights == 'CROSSED'
+
+    def choose_crossed(self) -> BuildCrossed:
+        """Returns the builder of the target for the lines that cross the wanted ones."""
+        return crossed.build_kept_target
+
+    def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
+        return SolveSettings(self.border, self.read_detail_length(scene), self.limit,
+                             self.choose_crossed() if self.keeps_crossed() else None)
 
     def read_falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, _patch: Patch) -> Falloff | None:
         """Returns the tool's fall-off, None where it acts everywhere alike."""

@@ -1,4 +1,6 @@
 """The operator Fit Cage to Mesh."""
+import math
+
 import bpy
 import numpy as np
 
@@ -44,7 +46,7 @@ has its lines. Select that mesh, then the cage"""
         patch = self.gather_patch(ob)
         seen = facing.read_patch_view(context.scene, patch)
         fit = Fit(dense_mesh.read_dense_mesh(context, ob), seen.view_direction, seen.line_direction)
-        settings = SolveSettings(self.border, self.read_detail_length(context.scene))
+        settings = SolveSettings(self.border, self.read_detail_length(context.scene), math.inf)
         solution = optimizer_cache.solve_with_cache(patch, seen, settings, fit)
         before, after = fit.before, fit.misfit()
         self.said = (f"Distance from {fit.dense.name} {format_distance(before)} before, {format_distance(after)} "

@@ -12,7 +12,7 @@ from ..model.refusal import Refusal
 from ..solver.live_optimizer import BuildTarget
 from ..targets import pattern
 from ..targets.pattern import Pattern
-from ..ui.tool_properties import PatternSettings
+from ..ui.tool_properties import PatternSettings, lights_property
 from .dragged_tool import DraggedTool
 
 
@@ -24,6 +24,7 @@ What no surface can show is left over: see the colour map of the residual"""
     bl_idname = "reflines.pattern"
     bl_label = "Image Pattern"
 
+    lights: lights_property('SINGLE')
     image: bpy.props.StringProperty(name="Image", options={'SKIP_SAVE'}, description="Name; empty takes the scene's")
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
@@ -32,6 +33,10 @@ What no surface can show is left over: see the colour map of the residual"""
     def build_handles(self) -> tuple[Handle, ...]:
         return (Handle("strength", "Strength", per_pixel=1e-3, low=-pi, high=pi, unit='ANGLE'),
                 Handle("angle", "Rotation", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE'))
+
+    def keeps_crossed(self) -> bool:
+        """A fit by value says where each line lies, which leaves the crossed ones no choice."""
+        return super().keeps_crossed() and self.fit != 'VALUE'
 
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         right, up = view_and_light.read_camera_axes(context.scene.reflection_lines.camera)

@@ -7,15 +7,18 @@ import bpy
 from ..bridge import facing
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
-from ..model.solution import Solution
+from ..model.solution import BuildCrossed, Solution, SolveSettings
 from ..solver import automatic_smooth, live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth
+from ..solver.limited_solve import AUTOMATIC_LIMIT
 from ..solver.live_optimizer import BuildTarget
 from ..targets import smooth
 from ..targets.smooth import Smooth
 from ..ui import automatic_values
 from ..ui.tool_properties import SmoothSettings
 from .dragged_tool import DraggedTool
+
+BESIDE_STRAIGHT = 0.01  # weight of crossed lines; see native/include/reflines/kept_target.h
 
 
 class REFLINES_OT_smooth(DraggedTool, SmoothSettings, bpy.types.Operator):
@@ -37,6 +40,8 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         for name in ("border", "solve_for", "result"):
             layout.prop(self, name)
         self.draw_smooth(layout, automatic_values.draw_plain_value)
+        layout.prop(self, "lights")
+        automatic_values.draw_plain_value(layout, self, "limit")
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines
@@ -45,10 +50,23 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         return self.length
 
     def build_target(self, _context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
-        length = solve.choose_length(patch, self.length)
+        length = self.filter_length = solve.choose_length(patch, self.length)
         if self.follow_mouse and not self.length:
             self.length = length  # a drag smooths by the length that it shows; the redo panel and Re-solve repeat that
         return partial(smooth.build_smooth_target, settings=Smooth(length, self.strength, self.directional))
+
+    def choose_crossed(self) -> BuildCrossed:
+        """Returns the builder of the target for the crossed lines: smoothed as well. Beside straight lines, which are
+        asked for by one light alone, they count as little as those that other tools keep.
+        """
+        weight = BESIDE_STRAIGHT if self.directional else 1.0
+        return partial(smooth.build_smooth_target, settings=Smooth(self.filter_length, self.strength, family=1,
+                                                                   weight=weight))
+
+    def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
+        """The automatic limit is a share of the length, as in the automatic press."""
+        settings = super().read_solve_settings(scene)
+        return settings if self.limit else replace(settings, limit=AUTOMATIC_LIMIT * self.filter_length)
 
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         if self.directional:

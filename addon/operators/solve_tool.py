@@ -13,7 +13,8 @@ from ..state import optimizer_cache, solve_history
 from ..ui.properties import result_property, solve_for_property
 from ..ui.tool_properties import border_property
 
-SHARED = {"border", "solve_for", "result"}  # settings of the scene for all tools that have none of their own
+# Settings of the scene for all tools that have none of their own.
+SHARED = {"border", "solve_for", "result", "lights", "limit"}
 LOST_START = ("The run began with the mesh as it is now: the shape before the last run is not known, since the mesh "
               "was changed, undone, renamed or duplicated after it")
 
@@ -44,6 +45,10 @@ class SolveTool:
     def read_detail_length(self, scene: bpy.types.Scene) -> float:
         """Returns the length below which detail counts as wobble in the score; 0 is a share of the patch's diagonal."""
         return scene.reflection_lines.length
+
+    def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
+        """Reads what the solve needs beside the target, once that is built."""
+        return SolveSettings(self.border, self.read_detail_length(scene))
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -95,7 +100,7 @@ class SolveTool:
 
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         build = self.build_target(context, ob, patch)
-        settings = SolveSettings(self.border, self.read_detail_length(context.scene))
+        settings = self.read_solve_settings(context.scene)
         seen = facing.read_patch_view(context.scene, patch)
         return optimizer_cache.solve_with_cache(patch, seen, settings, build)
 

@@ -29,6 +29,10 @@ An untouched lattice moves nothing"""
     def build_handles(self) -> tuple[Handle, ...]:
         return (Handle("amount", "Amount", per_pixel=1.0 / 3.0, low=0.0, high=1000.0, unit='PERCENT'),)
 
+    def keeps_crossed(self) -> bool:
+        """A fit by value says where each line lies, which leaves the crossed ones no choice."""
+        return super().keeps_crossed() and self.fit != 'VALUE'
+
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, _patch: Patch) -> BuildTarget:
         moves = warp_lattice.read_lattice(warp_lattice.find_lattice(context.scene, self.lattice))
         settings = Warp(moves.scaled(self.amount / 100.0), self.cells, self.fit == 'VALUE')

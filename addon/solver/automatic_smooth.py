@@ -6,7 +6,7 @@ import numpy as np
 
 from .. import native
 from ..model.patch import Patch
-from ..model.solution import PressReport, Solution
+from ..model.solution import SolveReport, Solution
 from ..model.view import View
 from . import live_optimizer, remarks
 from .formulation import Formulation, choose_formulation
@@ -43,11 +43,11 @@ def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmoot
                     cage_move=press.cage_move)
 
 
-def build_report(told: "native.SmoothPanelReport", seconds: float) -> PressReport:
+def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:
     termination = told.solve.termination if told.applied else "not_applied"
     message = told.solve.message if told.applied else told.messages[0]
     move, limited = (told.largest_move, told.limited) if told.applied else (0.0, 0)
-    return PressReport(termination, message, told.solve.iterations, seconds, told.solve.unknowns, move, limited)
+    return SolveReport(termination, message, told.solve.iterations, seconds, told.solve.unknowns, move, limited)
 
 
 def choose_notes(formulation: Formulation, told: "native.SmoothPanelReport") -> tuple[str, ...]:

@@ -48,7 +48,11 @@ class Formulation:
         return None
 
     def choose_directions(self) -> dict[str, np.ndarray]:
-        """Returns the directions as arguments of the native constructors."""
+        """Returns the directions as arguments of the native constructors: the lines', and those that cross them."""
+        return {"view_direction": self.view.view_direction, "line_direction": self.view.both_directions}
+
+    def choose_press_directions(self) -> dict[str, np.ndarray]:
+        """Returns the directions as arguments of the native presses, which add the crossed lines themselves."""
         return {"view_direction": self.view.view_direction, "line_direction": self.view.line_direction}
 
     def choose_border(self, border: str) -> str | np.ndarray:
@@ -58,10 +62,12 @@ class Formulation:
         return np.where(self.patch.mirror.seam, BORDER_CODES["clamped"], BORDER_CODES[border])
 
     def build(self, border: str, progress: "native.Progress | None", *,
-              sparse: bool) -> "native.ShapeOptimizer":
-        """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely."""
+              sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
+        """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely, and `held` (#V, bool) are
+        vertices that stay whatever the border says.
+        """
         return native.reflines.ShapeOptimizer(self.patch.V, self.patch.F, **self.choose_directions(), progress=progress,
-                                              border=self.choose_border(border),
+                                              border=self.choose_border(border), fixed=held,
                                               **self.patch.creases.build_arguments())
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -103,7 +109,7 @@ class Formulation:
     def press_smooth(self, border: str, settings: PressSettings) -> Press:
         """Calls the native press of Smooth; raises the native module's errors."""
         positions, told = native.reflines.smooth_panel(
-            self.patch.V, self.patch.F, **self.choose_directions(), fixed=self.hold_marked_creases(),
+            self.patch.V, self.patch.F, **self.choose_press_directions(), fixed=self.hold_marked_creases(),
             border=self.choose_border(border), **settings)
         return Press(positions, told.stray, told)
 
@@ -137,9 +143,11 @@ class JoinedFormulation(Formulation):
         return self.patch.to_world(local), F, partner
 
     def build(self, border: str, progress: "native.Progress | None", *,
-              sparse: bool) -> "native.ShapeOptimizer":
+              sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
         V, F, partner = self.join()
+        fixed = None if held is None else np.append(held, held[partner[len(held):]])
         return native.reflines.ShapeOptimizer(V, F, **self.choose_directions(), progress=progress, border=border,
+                                              fixed=fixed,
                                               **self.patch.creases.build_arguments(partner))
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -155,8 +163,8 @@ class JoinedFormulation(Formulation):
         V, F, partner = self.join()
         own = self.hold_marked_creases()
         held = np.append(own, own[partner[len(own):]])
-        positions, told = native.reflines.smooth_panel(V, F, **self.choose_directions(), fixed=held, border=border,
-                                                       **settings)
+        positions, told = native.reflines.smooth_panel(V, F, **self.choose_press_directions(), fixed=held,
+                                                       border=border, **settings)
         return Press(self.average_images(positions - V, partner), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
@@ -176,9 +184,14 @@ class CageFormulation(Formulation):
     def image_sign(self) -> np.ndarray | None:
         return np.where(np.arange(3) == self.patch.mirror_axis, -1.0, 1.0) if self.is_symmetric else None
 
-    def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.CageOptimizer":
+    def build(self, border: str, progress: "native.Progress | None", *, sparse: bool,
+              held: np.ndarray | None = None) -> "native.CageOptimizer":
+        fixed = None
+        if held is not None:
+            fixed = np.zeros(len(self.patch.cage.V), dtype=bool)
+            fixed[self.patch.index] = held
         return native.reflines.CageOptimizer(**self.patch.cage.build_arguments(self.is_symmetric),
-                                             **self.choose_directions(), progress=progress, border=border,
+                                             **self.choose_directions(), progress=progress, border=border, fixed=fixed,
                                              sparse=sparse, **self.patch.creases.build_cage_arguments())
 
     def read_triangles(self, optimizer: "native.CageOptimizer") -> np.ndarray:
@@ -209,8 +222,8 @@ class CageFormulation(Formulation):
         cage = self.patch.cage
         arguments = cage.build_arguments(self.is_symmetric)
         arguments["limit_surface"] = arguments.pop("limit")
-        positions, told = native.reflines.smooth_cage_panel(**arguments, **self.choose_directions(), border=border,
-                                                            **settings)
+        positions, told = native.reflines.smooth_cage_panel(**arguments, **self.choose_press_directions(),
+                                                            border=border, **settings)
         return Press(self.patch.V + (positions - cage.V)[self.patch.index], self.spread_to_triangles(told.stray), told,
                      told.largest_control_move)
 

@@ -9,7 +9,7 @@ import numpy as np
 from .. import native
 from ..model.patch import Patch
 from ..model.refusal import Refusal
-from ..model.solution import JointTargets
+from ..model.solution import JointTargets, SolveSettings
 from ..model.view import View
 from .formulation import choose_formulation
 
@@ -33,24 +33,28 @@ class LiveOptimizer:
 
 
 def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Progress | None" = None, *,
-                    to_follow: bool = False) -> LiveOptimizer:
+                    to_follow: bool = False, held: np.ndarray | None = None) -> LiveOptimizer:
     """Builds the optimizer of a patch, which takes long. Refuses closed surfaces; raises the native module's errors.
 
     `progress` goes on watching the optimizer. `to_follow` a drag, a cage is sampled more coarsely: several times faster
-    steps, and a shape that differs by a hundredth of the move.
+    steps, and a shape that differs by a hundredth of the move. `held` (#V, bool) are vertices that stay whatever the
+    border says.
     """
-    optimizer = choose_formulation(patch, seen).build(border, progress, sparse=to_follow)
+    optimizer = choose_formulation(patch, seen).build(border, progress, sparse=to_follow, held=held)
     refuse_closed(patch.name, int(patch.faces.sum()), optimizer.region.closed)
     return LiveOptimizer(patch, seen, border, optimizer)
 
 
-def build_targets(live: LiveOptimizer, build: BuildTarget) -> JointTargets:
-    """Builds the targets at the optimizer's present heights. One target alone is measured by its residual."""
+def build_targets(live: LiveOptimizer, build: BuildTarget, settings: SolveSettings) -> JointTargets:
+    """Builds the targets at the optimizer's present heights, last that of the lines that cross the wanted ones. One
+    wanted target alone is measured by its residual.
+    """
     built, complete = build(live.optimizer), choose_formulation(live.patch, live.view).complete_target
+    crossed = [] if settings.build_crossed is None else [settings.build_crossed(live.optimizer)]
     if isinstance(built, JointTargets):
-        return replace(built, targets=[complete(each) for each in built.targets])
+        return replace(built, targets=[*(complete(each) for each in built.targets), *crossed])
     target = complete(built)
-    return JointTargets([target], partial(compute_rms_residual, target=target))
+    return JointTargets([target, *crossed], partial(compute_rms_residual, target=target), is_plain=True)
 
 
 def compute_rms_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:

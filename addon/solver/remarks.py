@@ -4,9 +4,9 @@ import numpy as np
 from ..model import mirror
 from ..model.patch import Patch
 from .formulation import Formulation
+from .turned_faces import TURNED, find_turned
 
 FAR_MOVE = 0.05  # relative to the patch's diagonal; larger moves are mentioned
-TURNED = np.radians(45.0)  # radians; triangles that turn further are mentioned
 
 
 def describe_mirror(formulation: Formulation) -> tuple[str, ...]:
@@ -37,19 +37,27 @@ def describe_far_move(patch: Patch, move: float, border: str) -> tuple[str, ...]
             f"those of its shape; {remedy} keeps it nearer",)
 
 
+def describe_limit(limited: int, limit: float, *, automatic: bool) -> tuple[str, ...]:
+    """Says that the limit of the move held vertices back, and what to press."""
+    if not limited:
+        return ()
+    own = "automatic limit, a twentieth of the region's size," if automatic else "limit"
+    return (f"The {own} holds {limited} {'vertices' if limited > 1 else 'vertex'} back: ask for less, or raise Limit",)
+
+
+def describe_held_faces(patch: Patch, held: np.ndarray) -> tuple[str, ...]:
+    """Says how many faces were held since they would have turned far."""
+    count = int(held[patch.F].all(axis=1).sum())
+    if count == 0:
+        return ()
+    return (f"{count} triangle{'s' if count > 1 else ''} seen at a slant stayed: they would have turned by more than "
+            f"{np.degrees(TURNED):.0f} degrees",)
+
+
 def describe_turned_faces(patch: Patch, positions: np.ndarray) -> tuple[str, ...]:
-    """Warns where triangles turned by more than TURNED: a move along the view slides a steep face over its neighbour.
-    """
-    before, after = compute_unit_normals(patch.V, patch.F), compute_unit_normals(positions, patch.F)
-    count = int(np.count_nonzero((before * after).sum(axis=1) < np.cos(TURNED)))
+    """Warns where triangles turned by more than turned_faces.TURNED all the same."""
+    count = int(find_turned(patch, positions).sum())
     if count == 0:
         return ()
     return (f"{count} triangle{'s turn' if count > 1 else ' turns'} by more than {np.degrees(TURNED):.0f} degrees: "
             "deselect the faces that the view sees at a slant, or turn the view camera towards them",)
-
-
-def compute_unit_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """Returns the unit normals of triangles: #F x 3; zero where a triangle has no area."""
-    a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
-    normals = np.cross(b - a, c - a)
-    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)

@@ -1,16 +1,20 @@
 """One solve of one patch, from arrays to arrays, without state and without Blender."""
+from dataclasses import replace
+
 import numpy as np
 
 from .. import native
 from ..model.patch import Patch
 from ..model.solution import LastSolve, Solution, SolveSettings
-from . import live_optimizer, remarks
+from . import live_optimizer, remarks, turned_faces
 from .formulation import choose_formulation
+from .limited_solve import choose_limit, solve_within_limit
 from .live_optimizer import BuildTarget, LiveOptimizer
 
 AUTOMATIC_LENGTH = 1.0 / 6.0  # relative to the patch's diagonal
 SMALL_SHARE = 0.2  # reached fraction of a target below which a solve explains why
 SMALL_CHANGE = 0.01  # wanted change, relative to the lines' gradient, below which nothing is explained
+MOST_HOLDS = 3  # times that faces are held and the rest is solved again
 
 
 def choose_length(patch: Patch, length: float) -> float:
@@ -34,25 +38,43 @@ def compute_vertex_values(solution: LastSolve) -> dict[str, np.ndarray]:
 
 def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
                 progress: "native.Progress | None" = None) -> Solution:
-    """Builds the target, minimizes from the optimizer's present heights, and measures the result.
+    """Builds the targets, minimizes from the optimizer's present heights, and measures the result. Faces that would
+    turn far are held, and the rest is solved again.
 
     `progress` lets another thread watch and cancel.
     """
+    solution, held = solve_once(live, build_target, settings, progress), np.zeros(len(live.patch.V), dtype=bool)
+    for _ in range(MOST_HOLDS):
+        turned = turned_faces.find_turned(live.patch, solution.positions)
+        more = turned_faces.find_vertices_to_hold(live.patch, turned)
+        if more is None or solution.report.termination == "cancelled":
+            break
+        held |= more
+        firmer = live_optimizer.build_optimizer(live.patch, live.view, live.border, progress, held=held)
+        solution = solve_once(firmer, build_target, settings, progress)
+    return replace(solution, notes=(*solution.notes, *remarks.describe_held_faces(live.patch, held),
+                                    *remarks.describe_turned_faces(live.patch, solution.positions)))
+
+
+def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
+               progress: "native.Progress | None") -> Solution:
     optimizer, length = live.optimizer, choose_length(live.patch, settings.length)
     score = optimizer.score(length)
-    wanted = live_optimizer.build_targets(live, build_target)  # that of a fit moves the optimizer first
+    wanted = live_optimizer.build_targets(live, build_target, settings)  # that of a fit moves the optimizer first
     target, lacking = wanted.targets[0], wanted.measure(optimizer)
-    report = optimizer.solve(wanted.targets, progress=progress)
+    limit = choose_limit(live.patch, settings.limit)
+    report = solve_within_limit(live, wanted.targets, limit, progress)
     formulation = choose_formulation(live.patch, live.view)
     positions, left = formulation.read_positions(optimizer), wanted.measure(optimizer)
-    short = len(wanted.targets) == 1 and falls_short(optimizer, target, lacking, left)
+    short = not report.limited and wanted.is_plain and falls_short(optimizer, target, lacking, left)
     return Solution(live.patch, positions, report, target, formulation.read_residual(optimizer, target), lacking, left,
                     length, score, optimizer.score(length),
                     (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
+                     *remarks.describe_limit(report.limited, limit, automatic=not settings.limit),
                      *optimizer.region.messages, *remarks.describe_mirror(formulation),
-                     *remarks.describe_far_move(live.patch, report.largest_move, live.border),
-                     *remarks.describe_turned_faces(live.patch, positions)),
-                    choose_length(live.patch, 0.0), "free" if short and live.border != "free" else "")
+                     *remarks.describe_far_move(live.patch, report.largest_move, live.border)),
+                    choose_length(live.patch, 0.0), "free" if short and live.border != "free" else "",
+                    automatic_limit=0.0 if settings.limit else limit)
 
 
 def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lacking: float, left: float) -> bool:

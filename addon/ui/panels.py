@@ -125,8 +125,15 @@ class ToolPanel(ReflinesPanel):
         self.layout.use_property_split, self.layout.use_property_decorate = True, False
         self.draw_tool(self.layout, context, context.scene.reflection_lines)
 
-    def draw_buttons(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, name: str, icon: str) -> None:
-        """Draws the border, the tool's button, and beside it the handle that drags the tool in the 3D view."""
+    def draw_buttons(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, name: str, icon: str, *,
+                     lights: bpy.types.PropertyGroup | None = None) -> None:
+        """Draws what restrains the tool, its button, and beside that the handle that drags the tool in the 3D view.
+
+        `lights` are the settings that hold the tool's choice of lights, where that is not the scene's.
+        """
+        scene = bpy.context.scene.reflection_lines
+        layout.prop(lights or scene, "lights")
+        automatic_values.draw_value(layout, scene, "limit")
         border = layout.row(align=True)
         border.use_property_split = False
         border.prop(settings, "border", expand=True)
@@ -257,7 +264,7 @@ class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
         rows.draw_zero(layout, own, "width", "0: as the region")
         layout.prop(own, "angle")
         layout.prop(own, "offset")
-        self.draw_buttons(layout, settings, "reflines.pattern", 'IMAGE_DATA')
+        self.draw_buttons(layout, settings, "reflines.pattern", 'IMAGE_DATA', lights=own)
 
 
 class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):

@@ -70,6 +70,22 @@ def border_property(default: str = 'clamped') -> object:
                         description="What happens at the border of the region")
 
 
+def lights_property(default: str = 'CROSSED') -> object:
+    """Defines whose lines a tool has regard to. An image is drawn by one light: of the sample plate's, 29 % is left
+    where the crossed lines are kept, and 12 % where they are not.
+    """
+    return EnumProperty(name="Lights", items=LIGHTS, default=default, **SAVED,
+                        description="Whose lines count: Smooth smooths both, other tools keep the crossed ones as far "
+                        "as the wanted ones allow")
+
+
+def limit_property() -> object:
+    """Defines the largest move of a vertex."""
+    return FloatProperty(name="Limit", unit='LENGTH', min=0.0, soft_max=1.0, precision=5, **SAVED,
+                         description="No vertex moves further along the view than this. 0, automatic: a twentieth of "
+                         "the length of what changes, for tools other than Smooth the region's diagonal")
+
+
 def ensure_curve(settings: "FalloffSettings", context: bpy.types.Context) -> None:
     if settings.shape == 'CURVE':
         context.scene.reflection_lines.curve = falloff_curve.ensure_curve()
@@ -96,14 +112,11 @@ class SmoothSettings:
                             description="How much of that detail is removed: 0 leaves the panel as it is")
     directional: BoolProperty(name="Along the Lines", **SAVED,
                               description="Smooth only along the lines: they become straight, their spacing stays")
-    lights: EnumProperty(name="Lights", items=LIGHTS, default='CROSSED', **SAVED,
-                         description="Whose lines the automatic length smooths")
+    lights: lights_property()
     symmetric: BoolProperty(name="Symmetric", default=True, **SAVED,
                             description="With the automatic length, what one half of a symmetric panel has and the "
                             "other has not is a flaw")
-    limit: FloatProperty(name="Limit", unit='LENGTH', min=0.0, soft_max=1.0, precision=5, **SAVED,
-                         description="With the automatic length, no vertex moves further along the view than this: "
-                         "deeper flaws are left in part. 0, automatic: a twentieth of the length")
+    limit: limit_property()
 
     def draw_smooth(self, layout: bpy.types.UILayout, draw_value: Callable) -> None:
         """Draws the settings but the border, for the sidebar and the redo panel, which draw automatic values apart."""
@@ -112,9 +125,7 @@ class SmoothSettings:
         draw_switch(layout, self, "directional")
         automatic = layout.column()
         automatic.active = not self.length and not self.directional
-        automatic.prop(self, "lights")
         draw_switch(automatic, self, "symmetric")
-        draw_value(automatic, self, "limit")
 
 
 class DirectionSettings(FalloffSettings):
@@ -151,6 +162,7 @@ class WarpSettings(FitSettings):
 
 
 class PatternSettings(FitSettings):
+    lights: lights_property('SINGLE')
     strength: FloatProperty(name="Strength", subtype='ANGLE', default=0.1, soft_min=-1.0, soft_max=1.0, **SAVED,
                             description="Turn of the reflected light from black to white; 0 leaves the panel as it is")
     blur: FloatProperty(name="Blur", default=2.0, min=0.0, soft_max=50.0, subtype='PIXEL', **SAVED,

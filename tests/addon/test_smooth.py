@@ -24,8 +24,9 @@ def solved(V: np.ndarray, F: np.ndarray, length: float, strength: float, border:
     settings = bpy.context.scene.reflection_lines
     v, a = (np.array(ob.matrix_world, dtype=float)[:3, 2] for ob in (settings.camera, settings.light))
     v, a = v / np.linalg.norm(v), a / np.linalg.norm(a)
-    optimizer = native.reflines.ShapeOptimizer(V, F, view_direction=v, line_direction=a, border=border)
-    optimizer.solve(native.reflines.smooth(optimizer, length=length, strength=strength))
+    optimizer = native.reflines.ShapeOptimizer(V, F, view_direction=v, line_direction=[a, np.cross(v, a)],
+                                               border=border)
+    optimizer.solve([native.reflines.smooth(optimizer, length=length, strength=strength, family=k) for k in (0, 1)])
     return optimizer.positions
 
 

@@ -1,4 +1,4 @@
-"""Tools on designed panels: rims keep their lines and do not own the rest, and lines that cross the wanted ones stay."""
+"""Tools on designed panels: rims keep their lines and own nothing else, and lines that cross the wanted ones stay."""
 
 import numpy as np
 import pytest
@@ -90,5 +90,5 @@ def test_crossing_lines_are_kept_as_far_as_the_wanted_ones_allow(solver):
         assert solver.solve(targets).converged
         results.append((rms(solver.field() - wanted.gradient) / asked, rms(solver.field(1) - crossed)))
     (alone, lost), (together, less_lost) = results
-    assert less_lost < 0.75 * lost
-    assert together < alone + 0.1
+    assert less_lost < 0.95 * lost
+    assert together < alone + 0.02

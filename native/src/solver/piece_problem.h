@@ -72,6 +72,7 @@ class PieceProblem : public Problem {
 
   TargetTerms::Misfit misfit(const std::vector<Target>& targets) const;  // at the current heights
   PieceSmoother& smoother() { return smoother_; }
+  const PieceSmoother& smoother() const { return smoother_; }
 
   const Vector& visible(int family) const { return visible_[family]; }  // #T: visibility weights in [0, 1]
 

@@ -114,23 +114,27 @@ PlaneVectors RegionPieces::smooth_field(const SmoothOptions& options, int family
   return result;
 }
 
-Vector RegionPieces::response(int family, double feature_length) {
+Mask RegionPieces::features(int family, double length) {
+  Mask result = Mask::Constant(triangle_count(), false);
+  for (const auto& piece : pieces_) result(piece->triangles()) = piece->smoother().features(length, family);
+  return result;
+}
+
+Vector RegionPieces::response(int family, const Mask& features) const {
   PlaneVectors start = PlaneVectors::Zero(triangle_count(), 2);
-  Mask feature = Mask::Constant(triangle_count(), false);
-  for (const auto& piece : pieces_) {
-    start(piece->triangles(), Eigen::all) = piece->smoother().start_gradient(family);
-    feature(piece->triangles()) = piece->smoother().features(feature_length, family);
-  }
+  for (const auto& piece : pieces_) start(piece->triangles(), Eigen::all) = piece->smoother().start_gradient(family);
   const PlanePositions xy = this->xy();
   const double diagonal = (xy.colwise().maxCoeff() - xy.colwise().minCoeff()).norm();
-  return feature.select(0.0, measure_response(start, area(), diagonal).array());
+  return features.select(0.0, measure_response(start, area(), diagonal).array());
 }
 
 RegionField RegionPieces::region_field(int family, double feature_length) {
+  const Mask feature = features(family, feature_length);
   RegionField result{xy(),
                      F_,
                      Eigen::VectorXi::Constant(triangle_count(), -1),
-                     response(family, feature_length),
+                     feature,
+                     response(family, feature),
                      area(),
                      centers(),
                      theta(family),

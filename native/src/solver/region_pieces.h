@@ -43,8 +43,6 @@ class RegionPieces {
   PlaneVectors field(int family) const;                                 // #F x 2
   PlaneVectors smooth_field(const SmoothOptions& options, int family);  // #F x 2
   RegionField region_field(int family, double feature_length);
-  // The response (#F) of RegionField: 0 on features, elsewhere by measure_response of the lines at the start.
-  Vector response(int family, double feature_length);
 
   // Reads the lines of a piecewise surface with other heights (#V); weight 0 (#V) marks unknown heights. Rows of
   // triangles that depend on an unknown height keep their lines and have weight 0.
@@ -55,6 +53,8 @@ class RegionPieces {
 
  private:
   MoveRange range(int vertex) const;
+  Mask features(int family, double length);                 // #F
+  Vector response(int family, const Mask& features) const;  // #F, of the lines at the start; see RegionField
 
   ImagePlane frame_;
   Positions V_;

@@ -11,8 +11,9 @@ constexpr double kNegligible = 1e-10;  // relative: changes and distances
 
 }  // namespace
 
-// The mean is owned by rims, whose gradients are some hundred times those of the panel. On 26 panels cut from six cars
-// its length is 0.5 to 20 times that of the median, and its direction off by up to 90 degrees.
+// Computes the median by Weiszfeld's iteration. The mean is owned by rims, whose gradients are some hundred times those
+// of the panel: on 26 panels cut from six cars its length is 0.5 to 20 times that of the median, and its direction off
+// by up to 90 degrees.
 Vector2 RegionField::median_gradient() const {
   const double total = area.sum();
   if (!(total > 0)) return Vector2::Zero();

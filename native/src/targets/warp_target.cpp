@@ -131,7 +131,7 @@ class LineSource {
     Location at = locator_->locate(point);
     if (at.triangle < 0) return at;
     at.triangle = number_[at.triangle];
-    bool smooth = field.response(at.triangle) > 0 && piece_(v) >= 0;
+    bool smooth = !field.feature(at.triangle) && piece_(v) >= 0;
     for (int corner : field.F.row(at.triangle)) smooth = smooth && piece_(corner) == piece_(v);
     if (!smooth) at.triangle = -1;
     return at;

@@ -1,0 +1,83 @@
+"""What restrains every tool: the limit of the move, faces that would turn far, and the lines of the crossed light."""
+import bpy
+import numpy as np
+import pytest
+from reflection_lines import native
+from reflection_lines.model.patch import Patch
+from reflection_lines.solver import turned_faces
+
+import scenes
+
+
+def press(tool: str, **options: object) -> tuple[bpy.types.Object, np.ndarray, np.ndarray]:
+    """A tool on a new panel: the panel, and its vertices before and after."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    panel = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit_inner(panel)
+    before = scenes.positions(panel)
+    assert getattr(bpy.ops.reflines, tool)(**options) == {'FINISHED'}
+    return panel, before, scenes.positions(panel)
+
+
+def largest_move(before: np.ndarray, after: np.ndarray) -> float:
+    return float(np.abs(after - before)[:, 2].max())
+
+
+def read_fields(panel: bpy.types.Object, V: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Gradients of the reflection function in the light of the solve and in the crossed one."""
+    quads = np.array([tuple(face.vertices) for face in panel.data.polygons])
+    F = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    settings = bpy.context.scene.reflection_lines
+    view, line = (np.array(ob.matrix_world)[:3, 2] for ob in (settings.camera, settings.light))
+    optimizer = native.reflines.ShapeOptimizer(V.astype(float), F, view_direction=view, border="free",
+                                               line_direction=[line, np.cross(view, line)])
+    return optimizer.field(0), optimizer.field(1)
+
+
+def test_no_vertex_moves_beyond_a_twentieth_of_the_region_unasked() -> None:
+    panel, before, after = press("direction", density=20.0, border='free')
+    moved = (after != before).any(axis=1)
+    limit, report = 0.05 * np.linalg.norm(np.ptp(before[moved], axis=0)), panel.reflection_lines.report
+    assert largest_move(before, after) == pytest.approx(limit, rel=0.01)
+    assert report.limited > 0 and f"holds {report.limited} vert" in report.notes and "raise Limit" in report.notes
+    assert report.automatic_limit == pytest.approx(report.largest_move, rel=1e-6)
+
+
+@pytest.mark.parametrize(("tool", "options"), [("direction", {"density": 2.0, "border": 'free'}),
+                                               ("smooth", {"length": 1.0})])
+def test_a_limit_of_the_artist_holds_for_every_tool(tool, options) -> None:
+    _, before, after = press(tool, **options)
+    free = largest_move(before, after)
+    panel, before, after = press(tool, **options, limit=0.5 * free)
+    assert largest_move(before, after) == pytest.approx(0.5 * free, rel=1e-3)
+    assert panel.reflection_lines.report.limited > 0
+
+
+def test_a_limit_that_nothing_reaches_changes_no_bit() -> None:
+    _, _, free = press("direction", density=1.1)
+    _, before, limited = press("direction", density=1.1, limit=1.0)
+    assert largest_move(before, limited) > 0.0
+    assert np.array_equal(free, limited)
+
+
+def test_the_crossed_light_counts_unless_it_is_left_out() -> None:
+    changes = {}
+    for lights in ('SINGLE', 'CROSSED'):
+        panel, before, after = press("untwist", angle=0.3, border='free', lights=lights)
+        now, then = read_fields(panel, after), read_fields(panel, before)
+        changes[lights] = [np.linalg.norm(now[k] - then[k]) for k in (0, 1)]
+    assert 0.0 < changes['CROSSED'][1] < 0.95 * changes['SINGLE'][1]
+    assert changes['CROSSED'][0] > 0.9 * changes['SINGLE'][0]
+
+
+def test_few_faces_that_would_turn_far_are_found_and_held() -> None:
+    """A strip of triangles of which one is steep: along the view its corners need to slide little to turn it over."""
+    V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [1.01, 0, 0.5], [1.01, 1, 0.5]], dtype=float)
+    F = np.array([[0, 1, 2], [1, 3, 2], [1, 4, 3], [4, 5, 3]])
+    patch = Patch("strip", np.ones(4, bool), np.arange(6), V, V, F, np.eye(4), "", None, None)
+    moved = V + np.array([0, 0, 0, 0, -1, -1])[:, None] * [0, 0, 1]
+    turned = turned_faces.find_turned(patch, moved)
+    assert turned.tolist() == [False, False, True, True]
+    assert turned_faces.find_vertices_to_hold(patch, turned) is None  # half of all: what was asked for
+    assert turned_faces.find_vertices_to_hold(patch, np.array([0, 0, 1, 0], bool)).tolist() == [0, 1, 0, 1, 1, 0]
