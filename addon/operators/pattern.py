@@ -35,7 +35,7 @@ What no surface can show is left over: see the colour map of the residual"""
                 Handle("angle", "Rotation", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE'))
 
     def keeps_crossed(self) -> bool:
-        """A fit by value says where each line lies, which leaves the crossed ones no choice."""
+        """Returns false for a fit by value, which says where each line lies and leaves the crossed ones no choice."""
         return super().keeps_crossed() and self.fit != 'VALUE'
 
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:

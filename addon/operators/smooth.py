@@ -64,7 +64,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
                                                                    weight=weight))
 
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
-        """The automatic limit is a share of the length, as in the automatic press."""
+        """Reads the settings, with an automatic limit that is a share of the length, as in the automatic press."""
         settings = super().read_solve_settings(scene)
         return settings if self.limit else replace(settings, limit=AUTOMATIC_LIMIT * self.filter_length)
 

@@ -30,7 +30,7 @@ An untouched lattice moves nothing"""
         return (Handle("amount", "Amount", per_pixel=1.0 / 3.0, low=0.0, high=1000.0, unit='PERCENT'),)
 
     def keeps_crossed(self) -> bool:
-        """A fit by value says where each line lies, which leaves the crossed ones no choice."""
+        """Returns false for a fit by value, which says where each line lies and leaves the crossed ones no choice."""
         return super().keeps_crossed() and self.fit != 'VALUE'
 
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, _patch: Patch) -> BuildTarget:
