@@ -157,3 +157,29 @@ def test_settings_of_uniform_lines_that_are_no_numbers_are_refused(solver, setti
 def test_a_cage_of_two_milliards_of_vertices_is_refused() -> None:
     with pytest.raises(reflines.InvalidInput, match="2147483647 vertices, more than 8 million"):
         reflines.Subdivision([0, 4], [0, 1, 2, 3], vertices=2**31 - 1)
+
+
+@pytest.mark.parametrize("place", [np.nan, np.inf, 1e300, -1e9])
+def test_a_vertex_in_no_face_may_be_anywhere(place) -> None:
+    """It is part of no size: a solve is judged and a press is made as without it."""
+    positions, triangles = panel(24)
+    positions[300, 2] += 1e-3
+    with_another = np.concatenate([positions, [[place, 0.0, place]]])
+    results = []
+    for V in (positions, with_another):
+        solver = reflines.ShapeOptimizer(V, triangles, view_direction=VIEW, line_direction=LINE)
+        assert solver.solve(reflines.smooth(solver, length=0.5)).converged
+        with pytest.raises(reflines.SolverFailure):
+            solver.solve(reflines.uniform(solver, density=1e6))
+        pressed, _ = reflines.smooth_panel(V, triangles, view_direction=VIEW, line_direction=LINE, symmetric=False)
+        results.append((solver.positions, pressed))
+    for alone, beside in zip(*results, strict=True):
+        assert np.array_equal(beside[-1], with_another[-1], equal_nan=True)
+        assert np.array_equal(alone, beside[:-1])
+
+
+@pytest.mark.parametrize("blur", [4e-300, 1e-160, 0.02])
+def test_a_blur_of_next_to_nothing_is_none(solver, blur) -> None:
+    image = np.random.default_rng(0).random((8, 8))
+    target = reflines.pattern(solver, image=image, blur=blur)
+    assert np.array_equal(target.gradient, reflines.pattern(solver, image=image).gradient)

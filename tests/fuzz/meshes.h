@@ -34,6 +34,11 @@ inline void read_mesh(Bytes& bytes, Positions& V, Triangles& F) {
   F = Eigen::Map<const Triangles>(corners.data(), static_cast<int>(corners.size()) / 3, 3);
 }
 
+// Also where both have the same numbers that are none: vertices in no face keep them.
+inline bool are_same(const Positions& a, const Positions& b) {
+  return a.rows() == b.rows() && ((a.array() == b.array()) || (a.array().isNaN() && b.array().isNaN())).all();
+}
+
 // A few held vertices, or an empty mask.
 inline Mask read_held(Bytes& bytes, Eigen::Index vertices) {
   if (!bytes.flag()) return {};

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "geometry/mesh.h"
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/restoration.h"
@@ -47,18 +48,41 @@ SmoothPanelResult run_press(const std::shared_ptr<Progress>& progress,
   return std::move(*result);
 }
 
+Mask find_used(const Positions& V, const Triangles& F) {
+  Mask used = Mask::Constant(V.rows(), false);
+  for (const int v : F.reshaped()) used(v) = true;
+  return used;
+}
+
+// Puts vertices in no face on one that is in a face: they may be anywhere, and no number either, but are part of no
+// size and no symmetry.
+Positions gather_unused(const Positions& V, const Triangles& F, const Mask& used) {
+  Positions result = V;
+  for (Eigen::Index v = 0; v < V.rows() && F.rows() > 0; ++v) {
+    if (!used(v)) result.row(v) = V.row(F(0, 0));
+  }
+  return result;
+}
+
 }  // namespace
 
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options) {
   check(options, V.rows());
+  check_indices(V, F);
   return run_press(options.progress, [=] {
     ShapeOptions shape;
     shape.border = options.border;
     shape.held = options.held;
     set_restoration_rules(options, kMeshProximity, shape);
-    MeshSurface surface(V, F, view_direction, make_families(view_direction, line_direction, options.lights), shape);
-    return Restoration(surface, options).run();
+    const Mask used = find_used(V, F);
+    MeshSurface surface(gather_unused(V, F, used), F, view_direction,
+                        make_families(view_direction, line_direction, options.lights), shape);
+    SmoothPanelResult result = Restoration(surface, options).run();
+    for (Eigen::Index v = 0; v < V.rows(); ++v) {
+      if (!used(v)) result.positions.row(v) = V.row(v);
+    }
+    return result;
   });
 }
 

@@ -22,6 +22,7 @@ class RegionPieces {
   const std::vector<std::unique_ptr<PieceProblem>>& pieces() const { return pieces_; }
   const ImagePlane& frame() const { return frame_; }
   const Positions& start() const { return V_; }  // #V x 3, as handed in
+  const Triangles& triangles() const { return F_; }
   int triangle_count() const { return static_cast<int>(F_.rows()); }
   int vertex_count() const { return static_cast<int>(V_.rows()); }
 

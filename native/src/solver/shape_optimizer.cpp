@@ -210,7 +210,7 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
     }
     if (report.termination == Termination::kCancelled) restore();
     measure(targets, report);
-    check_reach(pieces_->start(), report.largest_move);
+    check_reach(pieces_->start(), pieces_->triangles(), report.largest_move);
     tell_limit(report);
   } catch (...) {
     restore();

@@ -26,9 +26,14 @@ void check_quadrature_weight(const Vector& weight, Eigen::Index triangles) {
   throw InvalidInput("A share of the energy is negative or not a finite number; give 0 or more.");
 }
 
-void check_reach(const Positions& V, double largest_move) {
-  const double diagonal = (V.colwise().maxCoeff() - V.colwise().minCoeff()).norm();
-  const double farthest = V.cwiseAbs().maxCoeff() + largest_move;
+void check_reach(const Positions& V, const Triangles& F, double largest_move) {
+  Eigen::RowVector3d low = V.row(F(0, 0)), high = low;
+  for (const int v : F.reshaped()) {
+    low = low.cwiseMin(V.row(v));
+    high = high.cwiseMax(V.row(v));
+  }
+  const double diagonal = (high - low).norm();
+  const double farthest = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff() + largest_move;
   if (largest_move <= kFarthest * diagonal && farthest < std::numeric_limits<float>::max()) return;
   char move[64];
   std::snprintf(move, sizeof move, "%.3g", largest_move / diagonal);

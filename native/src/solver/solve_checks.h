@@ -9,8 +9,9 @@ namespace reflines {
 // triangles.
 void check_quadrature_weight(const Vector& weight, Eigen::Index triangles);
 
-// Throws SolverFailure where a solve moved a vertex of V (#V x 3) along the view by more than ten diagonals of the
-// region, or beyond the range of float32, in which Blender stores positions. NaN counts as too far.
-void check_reach(const Positions& V, double largest_move);
+// Throws SolverFailure where a solve moved a vertex of the region V (#V x 3), F (#F x 3) along the view by more than
+// ten of its diagonals, or beyond the range of float32, in which Blender stores positions. NaN counts as too far.
+// Vertices in no face may be anywhere.
+void check_reach(const Positions& V, const Triangles& F, double largest_move);
 
 }  // namespace reflines
