@@ -18,7 +18,9 @@ def read_pinned_faces(ob: bpy.types.Object) -> np.ndarray:
     if ob.mode == 'EDIT':
         edit = bmesh.from_edit_mesh(mesh)
         layer = edit.faces.layers.int.get(ATTRIBUTE)
-        return np.array([layer is not None and face[layer] != 0 for face in edit.faces], dtype=bool)
+        if layer is None:
+            return np.zeros(len(edit.faces), dtype=bool)
+        return np.fromiter((face[layer] != 0 for face in edit.faces), bool, len(edit.faces))
     attribute = mesh.attributes.get(ATTRIBUTE)
     if attribute is None or (attribute.domain, attribute.data_type) != ('FACE', 'INT'):
         return np.zeros(len(mesh.polygons), dtype=bool)

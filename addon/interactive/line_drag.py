@@ -41,6 +41,8 @@ class LineDrag(Drag):
         self.pressed: tuple[float, float, bool] | None = None  # a press before the lines are there
         self.mouse = self.last = (0.0, 0.0)  # pixels of the window: of the pull, and of the mouse itself
         self.looked = False  # whether the place under the mouse is known
+        self.traced: dict[LineHandle, Curve] = {}  # lines of the handles in what is shown
+        self.ghosts: dict[LineHandle, Curve] = {}  # and at the start, of the handles that were taken
         super().__init__(tool, context)
         self.marks = Marks()
         self.marks_drawn = handle_marks.add_marks(self.area, lambda: self.marks)
@@ -60,11 +62,10 @@ class LineDrag(Drag):
         self.request = replace(self.request, lines=not final)
 
     def take_gain(self, outcome: SolveOutcome) -> None:
-        """Takes the lines with the gain."""
-        super().take_gain(outcome)
+        """Takes the lines, which a session shows instead of the gain."""
         if not outcome.lines:
             return
-        self.state = outcome.lines[0]
+        self.state, self.traced = outcome.lines[0], {}
         if self.surface is None:
             start = self.job.starts[0]
             triangles = choose_formulation(start.patch, start.view).read_triangles(start.optimizer)
@@ -253,13 +254,16 @@ class LineDrag(Drag):
         if start is None or end is None:
             return ()
         value = self.surface.read_theta(start, self.surface.start)
-        color = handle_marks.PIN_COLOR if own.is_pin else handle_marks.LINE_COLOR
-        now = self.surface.find_level(end, value, self.state)
-        line = Curve(self.surface.trace(now, self.state, self.surface.read_theta(now, self.state)), color)
+        if own not in self.traced:
+            now = self.surface.find_level(end, value, self.state)
+            line = self.surface.trace(now, self.state, self.surface.read_theta(now, self.state))
+            self.traced[own] = Curve(line, handle_marks.PIN_COLOR if own.is_pin else handle_marks.LINE_COLOR)
         if index != self.find_active() or own.is_pin:
-            return (line,)
-        ghost = self.surface.trace(start, self.surface.start, value)
-        return Curve(ghost, handle_marks.GHOST_COLOR, handle_marks.GHOST_WIDTH), line
+            return (self.traced[own],)
+        if own not in self.ghosts:
+            ghost = self.surface.trace(start, self.surface.start, value)
+            self.ghosts = {own: Curve(ghost, handle_marks.GHOST_COLOR, handle_marks.GHOST_WIDTH)}
+        return self.ghosts[own], self.traced[own]
 
     def update_texts(self, context: bpy.types.Context) -> None:
         self.refresh_marks()

@@ -34,7 +34,7 @@ class SolveRequest:
     settings: SolveSettings
     final: bool = False    # whether the result is kept, so solved from the start
     measure: bool = False  # only the gain of the last solution is wanted
-    lines: bool = False    # whether the outcome has the lines, too
+    lines: bool = False    # whether the outcome has the lines, instead of the gain
 
 
 @dataclass(frozen=True)
@@ -115,14 +115,16 @@ class SolveJob:
             with live_optimizer.convert_native_errors(patch):
                 wanted = live_optimizer.build_targets(start, build, request.settings)
                 self.follow_targets(follower, wanted, choose_limit(patch, request.settings.limit))
+                if request.lines:
+                    wanted.measure(follower)  # for the numbers of each handle
                 positions.append(choose_formulation(patch, start.view).read_positions(follower))
+        if request.lines:
+            return SolveOutcome(request, tuple(positions), lines=self.read_lines())
         gain = self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
-        return SolveOutcome(request, tuple(positions), gain=gain, lines=self.read_lines(request))
+        return SolveOutcome(request, tuple(positions), gain=gain)
 
-    def read_lines(self, request: SolveRequest) -> tuple[LineState, ...]:
-        """Reads the lines that are followed, where they are wanted, and once those of the start."""
-        if not request.lines:
-            return ()
+    def read_lines(self) -> tuple[LineState, ...]:
+        """Reads the lines that are followed, and once those of the start."""
         if not self.start_lines:
             self.start_lines = tuple(choose_formulation(start.patch, start.view).read_lines(start.optimizer)
                                      for start in self.starts)

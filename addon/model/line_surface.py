@@ -7,7 +7,7 @@ import numpy as np
 INSIDE = -1e-9      # barycentric coordinate
 MOST_STEPS = 4000   # triangles that one line is followed through
 MOST_ROUNDS = 12    # of the search for the source of a line
-EXACT = 1e-12       # radians
+EXACT = 1e-9        # radians
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,14 @@ class PlaneTriangles:
             found = np.flatnonzero((v > INSIDE) & (w > INSIDE) & (v + w < 1.0 - INSIDE))
         v, w = v[found], w[found]
         return found, np.column_stack([1.0 - v - w, v, w])
+
+
+    def weigh(self, triangle: int, at: np.ndarray) -> np.ndarray:
+        """Returns the barycentric coordinates (3) of a point in a triangle, also outside of it."""
+        way, ab, ac, area = at - self.a[triangle], self.ab[triangle], self.ac[triangle], self.area[triangle]
+        v = (way[0] * ac[1] - way[1] * ac[0]) / area
+        w = (ab[0] * way[1] - ab[1] * way[0]) / area
+        return np.array([1.0 - v - w, v, w])
 
 
 @dataclass(frozen=True)
@@ -93,44 +101,58 @@ class LineSurface:
                 return found
             gradient = self.read_gradient(found.triangle, state)
             step = gradient * (missing / max(float(gradient @ gradient), 1e-300))
-            found = self.find_place(self.read_point(found, state) + step)
+            found = self.walk(found.triangle, self.frame[:2] @ (self.read_point(found, state) + step))
             if found is None:
                 return place
         return found
+
+    def walk(self, triangle: int, at: np.ndarray) -> Place | None:
+        """Returns the place at a point of the image plane, from triangle to triangle; None where the way leaves the
+        region.
+        """
+        for _ in range(MOST_STEPS):
+            weights = self.picture.weigh(triangle, at)
+            outside = int(weights.argmin())
+            if weights[outside] > INSIDE:
+                return Place(triangle, weights)
+            triangle = int(self.neighbors[triangle, outside])
+            if triangle < 0:
+                return None
+        return None
 
     def trace(self, place: Place, state: LineState, value: float) -> np.ndarray:
         """Returns the line of a value of theta from a place both ways until the border: #P x 3, world space; empty
         where it does not pass through the place's triangle.
         """
-        crossed = [edge for edge in range(3) if self.cross_edge(place.triangle, edge, state, value) is not None]
-        if len(crossed) < 2:
+        offset = wrap(state.theta - value)[self.F]  # #F x 3
+        one, other = offset[:, [1, 2, 0]], offset[:, [2, 0, 1]]  # of the edge opposite each corner
+        crossed = ((one < 0.0) != (other < 0.0)) & (np.abs(one - other) < np.pi)
+        edges = np.flatnonzero(crossed[place.triangle]).tolist()
+        if len(edges) < 2:
             return np.empty((0, 3))
-        ways = [self.follow(place.triangle, edge, state, value) for edge in crossed[:2]]
-        return np.array(ways[0][::-1] + ways[1])
+        ways = [self.follow(place.triangle, edge, crossed) for edge in edges[:2]]
+        line = np.array(ways[0][::-1] + ways[1])
+        triangle, edge = line.T
+        share = (one[triangle, edge] / (one[triangle, edge] - other[triangle, edge]))[:, None]
+        first, last = (self.F[triangle, (edge + k) % 3] for k in (1, 2))
+        return (1.0 - share) * state.V[first] + share * state.V[last]
 
-    def follow(self, triangle: int, edge: int, state: LineState, value: float) -> list[np.ndarray]:
-        """Returns the points of a line from the triangle on, which it leaves across an edge."""
-        points, first = [], triangle
+    def follow(self, triangle: int, edge: int, crossed: np.ndarray) -> list[tuple[int, int]]:
+        """Returns the edges, each by a triangle and its opposite corner, that a line crosses from a triangle on;
+        `crossed` (#F x 3) says which edges it does at all.
+        """
+        passed, first = [], triangle
         for _ in range(MOST_STEPS):
-            points.append(self.cross_edge(triangle, edge, state, value))
+            passed.append((triangle, edge))
             beyond = int(self.neighbors[triangle, edge])
             if beyond < 0 or beyond == first:
                 break
-            entered = int(np.flatnonzero(self.neighbors[beyond] == triangle)[0])
-            ways = [k for k in range(3) if k != entered and self.cross_edge(beyond, k, state, value) is not None]
+            across = self.neighbors[beyond].tolist()
+            ways = [k for k, go in enumerate(crossed[beyond].tolist()) if go and across[k] != triangle]
             if not ways:
                 break
             triangle, edge = beyond, ways[0]
-        return points
-
-    def cross_edge(self, triangle: int, edge: int, state: LineState, value: float) -> np.ndarray | None:
-        """Returns where a line crosses the edge opposite a corner; None where it does not."""
-        a, b = sorted((int(self.F[triangle, edge - 2]), int(self.F[triangle, edge - 1])))
-        one, other = wrap(state.theta[a] - value), wrap(state.theta[b] - value)
-        if (one < 0.0) == (other < 0.0) or abs(one - other) > np.pi:
-            return None
-        share = one / (one - other)
-        return (1.0 - share) * state.V[a] + share * state.V[b]
+        return passed
 
 
 def find_neighbors(F: np.ndarray) -> np.ndarray:

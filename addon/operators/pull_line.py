@@ -10,6 +10,7 @@ from ..bridge import facing, pinned_faces, scene_objects
 from ..interactive import drag_input
 from ..interactive.drag_handles import Handle
 from ..interactive.line_drag import LineDrag
+from ..interactive.solve_job import SolveOutcome
 from ..model import line_handle
 from ..model.line_handle import Handles
 from ..model.patch import Patch
@@ -146,6 +147,15 @@ where a line was pulled to; Enter applies them all"""
         self.drag.submit_request(context, final=True)
         self.drag.update_texts(context)
         return {'RUNNING_MODAL'}
+
+    def take_outcome(self, context: bpy.types.Context, outcome: SolveOutcome) -> set[str]:
+        """Takes an outcome; after a refusal of what is to be applied the session goes on: no handle is lost."""
+        drag = self.drag
+        if outcome.refusal and drag.keeping and drag.job.ready:
+            drag.keeping, drag.problem = False, outcome.refusal
+            drag.update_texts(context)
+            return {'RUNNING_MODAL'}
+        return super().take_outcome(context, outcome)
 
     def change_handles(self, event: bpy.types.Event) -> None:
         """Changes handles by the mouse, the wheel or a key."""

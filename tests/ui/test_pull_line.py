@@ -219,6 +219,29 @@ def test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before(dr
     assert np.abs(shown(driver) - before).max() < 1e-7
 
 
+def test_a_handle_that_is_refused_says_why_and_loses_no_other(driver: window.Window) -> Steps:
+    before = yield from start(driver)
+    yield from pull(driver, MIDDLE, UP)
+    yield from pull(driver, (280, 330), (280, 330))
+    good = shown(driver)
+    session().change_radius(1e-4)
+    yield from settled(driver)
+    for key in ('RET', 'NUMPAD_ENTER'):
+        driver.key(key)
+        yield 0.2
+        yield from settled(driver)
+        assert len(session().handles) == 2 and "take a larger one" in session().texts[0], session().texts
+    assert np.array_equal(shown(driver), good)
+    for _ in range(2):
+        driver.key('Z', ctrl=True)
+        yield 0.1
+        yield from settled(driver)
+    assert not session().handles and np.abs(shown(driver) - before).max() < 3e-6
+    driver.key('ESC')
+    yield 0.3
+    assert np.array_equal(shown(driver), before)
+
+
 def test_a_cage_follows(driver: window.Window) -> Steps:
     before = yield from start(driver, cells=16, levels=2)
     yield from pull(driver, MIDDLE, UP)
@@ -250,5 +273,6 @@ window.run(test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed, test_
            test_control_goes_back_to_the_old_line_and_shift_is_finer,
            test_handles_are_taken_again_and_deleted_and_the_wheel_changes_their_radius,
            test_a_pinned_line_stays_beside_a_pull,
-           test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before, test_a_cage_follows,
+           test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before,
+           test_a_handle_that_is_refused_says_why_and_loses_no_other, test_a_cage_follows,
            test_a_press_with_the_tool_of_the_toolbar_pulls_at_once)
