@@ -21,8 +21,8 @@ from .solve_job import SolveOutcome
 
 GRASP = 12.0  # pixels from a dot within which the mouse takes it, times the interface's scale
 RADIUS_STEP, RADIUS_PIXELS = 1.1, 150.0  # factor of a notch of the wheel; pixels that double it
-KEYS_TEXT = ("Drag: pull a line   Alt click, P: pin it   X: delete   Wheel, F: radius   Shift: finer   Ctrl: back   "
-             "Ctrl Z: undo   Enter: apply   Esc: cancel")
+KEYS_TEXT = ("Drag: pull a line   Alt click, P: pin it   X: delete   M: mute   Wheel, F: radius   Shift: finer   "
+             "Ctrl: back   Ctrl Z: undo   Enter: apply   Esc: cancel")
 
 
 class LineDrag(Drag):
@@ -169,6 +169,13 @@ class LineDrag(Drag):
             self.held = self.near = None
             self.set_handles(self.handles[:index] + self.handles[index + 1:])
 
+    def mute_active(self) -> None:
+        """Switches a handle off, and on again."""
+        index = self.find_active()
+        if index is not None:
+            self.keep_history()
+            self.replace_handle(index, replace(self.handles[index], muted=not self.handles[index].muted))
+
     def turn_wheel(self, notches: int) -> None:
         index = self.find_active()
         if index is not None:
@@ -242,8 +249,8 @@ class LineDrag(Drag):
         if self.held is None and self.near is None and self.hover is not None:
             value = self.surface.read_theta(self.hover, self.state)
             curves.append(Curve(self.surface.trace(self.hover, self.state, value), handle_marks.HOVER_COLOR))
-        dots = tuple(Dot(self.find_dot(each), handle_marks.PIN_COLOR if each.is_pin else handle_marks.LINE_COLOR,
-                         index in (self.near, self.held)) for index, each in enumerate(self.handles))
+        dots = tuple(Dot(self.find_dot(each), choose_color(each), index in (self.near, self.held))
+                     for index, each in enumerate(self.handles))
         self.marks = Marks(tuple(curves), dots)
         self.area.tag_redraw()
 
@@ -251,13 +258,13 @@ class LineDrag(Drag):
         """Traces the line of a handle as it is now, and of the one that is taken its ghost at the start."""
         own = self.handles[index]
         start, end = self.find_place(own.start), self.find_place(own.end)
-        if start is None or end is None:
+        if start is None or end is None or own.muted:
             return ()
         value = self.surface.read_theta(start, self.surface.start)
         if own not in self.traced:
             now = self.surface.find_level(end, value, self.state)
             line = self.surface.trace(now, self.state, self.surface.read_theta(now, self.state))
-            self.traced[own] = Curve(line, handle_marks.PIN_COLOR if own.is_pin else handle_marks.LINE_COLOR)
+            self.traced[own] = Curve(line, choose_color(own))
         if index != self.find_active() or own.is_pin:
             return (self.traced[own],)
         if own not in self.ghosts:
@@ -281,8 +288,8 @@ class LineDrag(Drag):
     def describe_handle(self, context: bpy.types.Context, index: int) -> str:
         """Says how far the line of a handle is from it, and its radius."""
         own, number = self.handles[index], index + 1
-        if own.is_pin:
-            return f"Pin {number}"
+        if own.is_pin or own.muted:
+            return f"{'Pin' if own.is_pin else 'Handle'} {number}{', muted' if own.muted else ''}"
         radius = f"Radius: {units.format_length(own.radius, context.scene)}"
         place = sum(not each.muted for each in self.handles[:index])
         if place >= len(self.tool.builder.reached):
@@ -295,3 +302,10 @@ class LineDrag(Drag):
         handle_marks.remove_marks(self.marks_drawn)
         super().end(context)
         self.area.tag_redraw()
+
+
+def choose_color(handle: LineHandle) -> handle_marks.Color:
+    """Returns the colour of a handle's dot and line."""
+    if handle.muted:
+        return handle_marks.GHOST_COLOR
+    return handle_marks.PIN_COLOR if handle.is_pin else handle_marks.LINE_COLOR

@@ -183,6 +183,8 @@ where a line was pulled to; Enter applies them all"""
         drag = self.drag
         if event.type in DELETE_KEYS:
             drag.delete_active()
+        elif event.type == 'M':
+            drag.mute_active()
         elif event.type == 'P':
             drag.press(*drag.last, pins=True)
             drag.release()

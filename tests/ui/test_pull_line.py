@@ -150,12 +150,18 @@ def test_control_goes_back_to_the_old_line_and_shift_is_finer(driver: window.Win
     yield 0.3
 
 
-def test_handles_are_taken_again_and_deleted_and_the_wheel_changes_their_radius(driver: window.Window) -> Steps:
+def test_handles_are_taken_again_muted_and_deleted_and_the_wheel_changes_their_radius(driver: window.Window) -> Steps:
     before = yield from start(driver)
     yield from pull(driver, MIDDLE, UP)
     first = session().handles[0]
     yield from pull(driver, UP, (330, 302))
     assert len(session().handles) == 1 and session().handles[0].start == first.start != session().handles[0].end
+    pulled = shown(driver)
+    for expected in (before, pulled):
+        driver.key('M')
+        yield 0.1
+        yield from settled(driver)
+        assert np.abs(shown(driver) - expected).max() < 3e-6
     driver.event('WHEELUPMOUSE', 'PRESS')
     yield 0.1
     assert abs(session().handles[0].radius / first.radius - 1.1) < 1e-9
@@ -271,7 +277,7 @@ def test_a_press_with_the_tool_of_the_toolbar_pulls_at_once(driver: window.Windo
 window.run(test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed, test_the_line_under_the_mouse_is_shown,
            test_enter_applies_in_one_undo_step_what_the_operator_makes, test_undo_steps_from_handle_to_handle,
            test_control_goes_back_to_the_old_line_and_shift_is_finer,
-           test_handles_are_taken_again_and_deleted_and_the_wheel_changes_their_radius,
+           test_handles_are_taken_again_muted_and_deleted_and_the_wheel_changes_their_radius,
            test_a_pinned_line_stays_beside_a_pull,
            test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before,
            test_a_handle_that_is_refused_says_why_and_loses_no_other, test_a_cage_follows,
