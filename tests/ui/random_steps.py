@@ -110,8 +110,11 @@ def surprised_drag(walker: Walker) -> Steps:
     """Scripts change the scene below a running drag."""
     walker.driver.move(400, 300)
     yield 0.05
-    print("   ", walker.call("reflines.smooth", 'INVOKE_DEFAULT', True, follow_mouse=True), flush=True)
+    tool = walker.dice.choice(("reflines.smooth", "reflines.pull_line"))
+    print("   ", tool, walker.call(tool, 'INVOKE_DEFAULT', True, follow_mouse=True), flush=True)
     yield walker.dice.choice((0.0, 0.2))
+    if tool == "reflines.pull_line":
+        walker.driver.event('LEFTMOUSE', 'PRESS')
     walker.driver.move(walker.dice.randrange(100, 700), 300)
     surprise = walker.dice.choice((delete_something, change_mode, change_mesh, undo, load, reload_addon, add_modifier))
     print("    surprise:", surprise.__name__, flush=True)
