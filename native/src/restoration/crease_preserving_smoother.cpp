@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geometry/mesh.h"
+#include "optimization/linear/dissection.h"
 #include "optimization/linear/linear_solver.h"
 #include "reflection/weighted_median.h"
 
@@ -39,12 +40,17 @@ int entry_index(const SparseMatrix& A, int i, int j) {
 // The linear system: its pattern is analyzed once, and its weights are factored for each solve.
 class CreasePreservingSmoother::System {
  public:
-  explicit System(const CreasePreservingSmoother& owner) : owner_(owner), solver_(LinearSolverKind::kCholmod) {
-    solver_.analyze(owner.pattern_);
+  System(const CreasePreservingSmoother& owner, const PlanePositions& xy)
+      : owner_(owner), solver_(LinearSolverKind::kCholmod) {
+    solver_.analyze(owner.pattern_, dissection_order(owner.pattern_, xy));
   }
+  // Factors anew where the weights are other ones than in the last call.
   TriangleFields solve(const Vector& trust, const TriangleFields& rhs) {
-    owner_.assemble(trust, A_);
-    solver_.factorize(A_);
+    if (trust_.size() != trust.size() || trust_ != trust) {
+      owner_.assemble(trust, A_);
+      solver_.factorize(A_);
+      trust_ = trust;
+    }
     TriangleFields U = rhs;
     for (Eigen::Index k = 0; k < rhs.cols(); ++k) {
       Vector x = rhs.col(k);
@@ -58,6 +64,7 @@ class CreasePreservingSmoother::System {
   const CreasePreservingSmoother& owner_;
   LinearSolver solver_;
   SparseMatrix A_;
+  Vector trust_;  // of the factor; empty before the first
 };
 
 CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, const Triangles& F, const Vector& area,
@@ -72,7 +79,7 @@ CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, con
   for (size_t e = 0; e < edges_.size(); ++e)
     edge_size_(static_cast<Eigen::Index>(e)) = std::sqrt(edges_[e].weight) * edges_[e].distance;
   build_pattern(static_cast<int>(xy.rows()));
-  system_ = std::make_unique<System>(*this);
+  system_ = std::make_unique<System>(*this, xy);
 }
 
 CreasePreservingSmoother::~CreasePreservingSmoother() = default;
@@ -151,9 +158,13 @@ Vector CreasePreservingSmoother::measure_jumps(const TriangleFields& U) const {
 #pragma omp parallel for schedule(static) if (result.size() > kWorthThreads)
   for (Eigen::Index e = 0; e < result.size(); ++e) {
     const Edge& edge = edges_[e];
-    Eigen::RowVectorXd jump = edge.jump[0] * U.row(edge.vertex[0]);
-    for (int i = 1; i < 4; ++i) jump += edge.jump[i] * U.row(edge.vertex[i]);
-    result(e) = jump.norm() / edge.distance;
+    double squared = 0;
+    for (Eigen::Index k = 0; k < U.cols(); ++k) {
+      double jump = 0;
+      for (int i = 0; i < 4; ++i) jump += edge.jump[i] * U(edge.vertex[i], k);
+      squared += jump * jump;
+    }
+    result(e) = std::sqrt(squared) / edge.distance;
   }
   return result;
 }
