@@ -44,9 +44,9 @@ struct HandleReach {
 
 // The builder of targets for a region as its lines are when this is made. The wanted change of theta, c, is the
 // smoothest function (bi-Laplacian) with the handles' changes at their points that is 0 at pins and beyond the radii.
-// The first target is the present field plus grad c; the second fits theta itself (eq. 3) at the handles, where the
-// gradient alone reaches a third to three quarters of the change, and beyond the radii. Handles that change nothing
-// give the present field bit for bit.
+// The first target is the present field plus grad c, as far as heights can reach it; the second fits theta itself (eq.
+// 3) at the handles, where the gradient alone reaches a third to three quarters of the change, and beyond the radii.
+// Handles that change nothing give the present field bit for bit.
 class LineHandles {
  public:
   // `changeable` (#F): triangles with a vertex that can move. Keeps copies of its arguments.

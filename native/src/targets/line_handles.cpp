@@ -241,7 +241,7 @@ std::vector<Target> LineHandles::build(const std::vector<Handle>& handles) {
   const Places places = find_places(handles);
   if (!(radius > 0)) throw InvalidInput("There is no handle that pulls a line; give at least one.");
   const Vector c = compute_change(handles, places, radius);
-  Target gradient{field_->gradient, {}, {}, field_->family};
+  Target gradient{field_->gradient, {}, {}, field_->family, true};
   Target value{field_->gradient, Vector::Zero(field_->F.rows()), field_->theta, field_->family};
   const double scale = compute_value_scale(*field_);
   for (int t = 0; t < field_->F.rows(); ++t) {
