@@ -18,6 +18,7 @@ from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..overlay import falloff_circle
 from ..solver import live_optimizer
+from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
 from . import drag_input
@@ -42,14 +43,16 @@ class DraggedOperator(Protocol):
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings: ...
     def read_falloff(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Falloff | None: ...
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget: ...
+    def choose_press(self) -> AutomaticSmooth | None: ...
 
 
 class Drag:
     """One drag, from the press of the button to its end."""
 
-    def __init__(self, tool: DraggedOperator, context: bpy.types.Context) -> None:
+    def __init__(self, tool: DraggedOperator, context: bpy.types.Context, *, final: bool = False) -> None:
+        """Begins with the solve that is kept where that is asked for at once: a press of the tool."""
         scene = context.scene
-        self.tool, self.area = tool, context.area
+        self.tool, self.area, self.is_press = tool, context.area, final
         subjects = tool.find_subjects(context)
         self.patches = [tool.gather_patch(ob) for ob in subjects]
         self.counts = [read_mesh.count_elements(ob) for ob in subjects]
@@ -59,12 +62,12 @@ class Drag:
         self.vertices = [EditVertices(patch.index) for patch in self.patches]
         self.values = self.read_values(scene)
         self.frame = live_optimizer.compute_image_frame(self.patches[0], views[0])
-        self.update_request(context)  # refuses before anything is started
+        self.update_request(context, final=final)  # refuses before anything is started
         self.job = SolveJob(self.patches, views, tool.border)
         self.circle = falloff_circle.add_circle(lambda: self.circle_points)
         self.thread = BackgroundThread(self.job.run, self.job.cancel)
         self.thread.submit(self.request)
-        self.keeping, self.busy_since, self.problem, self.texts = False, time.monotonic(), "", ("", "")
+        self.keeping, self.busy_since, self.problem, self.texts = final, time.monotonic(), "", ("", "")
         self.moved = False  # whether values changed since the last request
         self.largest_move = 0.0  # of the shown positions from the start, world units
         self.gain: Gain | None = None  # of the shown positions, where it was measured
@@ -117,7 +120,8 @@ class Drag:
                 setattr(self.tool, handle.name, self.values.value(index))
         builds = tuple(self.tool.build_target(context, ob, patch)
                        for ob, patch in zip(self.find_objects(), self.patches, strict=True))
-        self.request = SolveRequest(builds, self.tool.read_solve_settings(context.scene), final)
+        press = self.tool.choose_press() if final else None
+        self.request = SolveRequest(builds, self.tool.read_solve_settings(context.scene), final, press=press)
         falloff = self.tool.read_falloff(context, self.find_objects()[0], self.patches[0])
         self.circle_points = (falloff_circle.sample_circle(falloff.centre, falloff.radius, self.frame)
                               if falloff is not None else None)
@@ -170,6 +174,9 @@ class Drag:
         self.write_positions(self.before)
 
     def update_texts(self, context: bpy.types.Context) -> None:
+        if self.is_press:
+            self.show_texts(context, self.tool.bl_label, "")
+            return
         values = drag_input.describe_values(self.values, context.scene)
         header = f"{self.problem or self.describe_gain(context)}   {values}   ({self.tool.bl_label})"
         self.show_texts(context, header, drag_input.describe_keys(self.values))

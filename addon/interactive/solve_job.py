@@ -18,6 +18,7 @@ from ..model.refusal import Refusal
 from ..model.solution import JointTargets, Solution, SolveSettings
 from ..model.view import View
 from ..solver import live_optimizer, solve
+from ..solver.automatic_smooth import AutomaticSmooth, smooth_panel
 from ..solver.formulation import choose_formulation
 from ..solver.limited_solve import choose_limit, scale_to_limit
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
@@ -34,6 +35,7 @@ class SolveRequest:
     settings: SolveSettings
     final: bool = False    # whether the result is kept, so solved from the start
     measure: bool = False  # only the gain of the last solution is wanted
+    press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds
     lines: bool = False    # whether the outcome has the lines, instead of the gain
 
 
@@ -83,7 +85,9 @@ class SolveJob:
         if self.cancelled:
             self.progress.cancel()
         try:
-            self.prepare()
+            if request.press is not None:
+                return self.press(request)
+            self.prepare(following=not request.final)
             if request.measure:
                 return SolveOutcome(request, gain=self.measure(request))
             return self.solve_from_start(request) if request.final else self.follow(request)
@@ -92,19 +96,25 @@ class SolveJob:
         except native.Cancelled as cancelled:
             return SolveOutcome(request, refusal=str(cancelled))
 
-    def prepare(self) -> None:
-        """Builds the optimizers that are missing."""
-        for start in self.starts:
-            if start is not None:
-                start.optimizer.watch(self.progress)
-        while not self.ready:
-            which = len(self.followers)
-            patch, seen = self.patches[which], self.views[which]
+    def prepare(self, *, following: bool) -> None:
+        """Builds the optimizers that are missing: those that follow the mouse only for a drag."""
+        for which, (patch, seen) in enumerate(zip(self.patches, self.views, strict=True)):
             with live_optimizer.convert_native_errors(patch):
                 if self.starts[which] is None:
                     self.starts[which] = live_optimizer.build_optimizer(patch, seen, self.border, self.progress)
-                follower = live_optimizer.build_optimizer(patch, seen, self.border, self.progress, to_follow=True)
-                self.followers.append(follower.optimizer)
+                self.starts[which].optimizer.watch(self.progress)
+                if following and len(self.followers) == which:
+                    follower = live_optimizer.build_optimizer(patch, seen, self.border, self.progress, to_follow=True)
+                    self.followers.append(follower.optimizer)
+
+    def press(self, request: SolveRequest) -> SolveOutcome:
+        """Presses Smooth on every patch, which needs no optimizer of the job's own."""
+        self.stage = "Smoothing"
+        solutions = []
+        for patch, seen in zip(self.patches, self.views, strict=True):
+            with live_optimizer.convert_native_errors(patch):
+                solutions.append(smooth_panel(patch, seen, self.border, request.press, self.progress))
+        return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
 
     def follow(self, request: SolveRequest) -> SolveOutcome:
         """Solves warm-started from the last solution, to the targets' tolerance."""

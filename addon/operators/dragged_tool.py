@@ -5,6 +5,7 @@ In a drag Enter keeps the result and its values, Esc takes all back.
 import bpy
 from bpy.props import BoolProperty
 
+from ..bridge import modifiers
 from ..bridge.read_falloff import choose_radius
 from ..interactive import drag_input
 from ..interactive.drag import Drag
@@ -14,10 +15,15 @@ from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import BuildCrossed, SolveSettings
 from ..solver import solve
+from ..solver.automatic_smooth import AutomaticSmooth
 from ..targets import crossed
 from ..targets.falloff import Falloff
 from ..ui.tool_properties import lights_property, limit_property
 from .solve_tool import SolveTool
+
+# Selected faces that a press of Smooth takes a third of a second for.
+MANY_FACES = 2500
+CAGE_FACES = 16  # of the surface that a face of a cage stands for, at two levels
 
 
 def build_radius_handle(centre: str) -> tuple[Handle, ...]:
@@ -27,6 +33,12 @@ def build_radius_handle(centre: str) -> tuple[Handle, ...]:
         return ()
     return (Handle("radius", "Radius", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH',
                    wheel=True),)
+
+
+def takes_long(context: bpy.types.Context) -> bool:
+    """Returns whether a press is solved beside Blender, which goes on drawing and hears Esc. Shorter ones block it."""
+    edited = [ob for ob in context.objects_in_mode if ob.type == 'MESH'] if context.mode == 'EDIT_MESH' else []
+    return sum(ob.data.total_face_sel * (CAGE_FACES if modifiers.is_cage(ob) else 1) for ob in edited) > MANY_FACES
 
 
 class DraggedTool(SolveTool):
@@ -73,19 +85,25 @@ class DraggedTool(SolveTool):
         return None
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if not self.follow_mouse or context.area is None or context.area.type != 'VIEW_3D':
+        in_view = context.area is not None and context.area.type == 'VIEW_3D'
+        if not in_view or not self.follow_mouse and not takes_long(context):
             return self.execute(context)
         context.view_layer.update()
         self.copy_settings(context.scene)
         try:
-            self.drag = self.begin_drag(context)
+            self.drag = self.begin_drag(context) if self.follow_mouse else Drag(self, context, final=True)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
-        self.drag.begin_at(context, event.mouse_x, event.mouse_y)
+        if self.follow_mouse:
+            self.drag.begin_at(context, event.mouse_x, event.mouse_y)
         self.drag.update_texts(context)
         context.window_manager.modal_handler_add(self)
         return {'RUNNING_MODAL'}
+
+    def choose_press(self) -> AutomaticSmooth | None:
+        """Returns the settings of the automatic press that takes the place of a solve; None for most tools."""
+        return None
 
     def begin_drag(self, context: bpy.types.Context) -> Drag:
         """Begins the drag; refuses what cannot be dragged."""

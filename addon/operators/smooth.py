@@ -68,12 +68,17 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         settings = super().read_solve_settings(scene)
         return settings if self.limit else replace(settings, limit=AUTOMATIC_LIMIT * self.filter_length)
 
+    def choose_press(self) -> AutomaticSmooth | None:
+        if self.length or self.directional:
+            return None
+        return AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric, self.limit or None)
+
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         if self.directional:
             return super().solve_patch(context, ob, patch)
         if self.length:  # what 0 stands for is known after an automatic press only
             return replace(super().solve_patch(context, ob, patch), automatic_length=0.0)
-        settings = AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric, self.limit or None)
+        settings = self.choose_press()
         seen = facing.read_patch_view(context.scene, patch)
         with live_optimizer.convert_native_errors(patch):
             return automatic_smooth.smooth_panel(patch, seen, self.border, settings)

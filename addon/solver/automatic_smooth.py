@@ -23,15 +23,16 @@ class AutomaticSmooth:
     limit: float | None = None  # largest move along the view, world units; None: automatic
 
 
-def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth) -> Solution:
-    """Calls the native press once; raises the native module's errors.
+def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
+                 progress: "native.Progress | None" = None) -> Solution:
+    """Calls the native press once; raises the native module's errors. `progress` lets another thread watch and cancel.
 
     All numbers are its own: the score is the unevenness, root mean square over the lights, and the residual how far the
     field of the light given strays from its smoothed self. After a refusal both are those of the start.
     """
     begin = time.perf_counter()
     formulation = choose_formulation(patch, seen)
-    press = formulation.press_smooth(border, vars(settings))
+    press = formulation.press_smooth(border, {**vars(settings), "progress": progress})
     told = press.told
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
     report = build_report(told, time.perf_counter() - begin)

@@ -16,7 +16,8 @@ from ..model.patch import Patch
 from ..model.view import View
 from ..targets import mirror_target
 
-PressSettings = Mapping[str, str | float | bool | None]  # arguments of reflines.smooth_panel by their names
+# Arguments of reflines.smooth_panel by their names.
+PressSettings = Mapping[str, "str | float | bool | native.Progress | None"]
 BORDER_CODES = {"free": 0, "fixed": 1, "clamped": 2}  # codes of a vertex's border
 
 

@@ -98,6 +98,24 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
 
 SmoothPanelResult Restoration::run() {
   smoother_.smooth(read_fields(start_), progress(), &creases_);
+  Vector move = attempt();
+  // A shape without the halves' differences, or without what looks like bumps, can be a worse one: of an egg-box of
+  // waves that is symmetric but for its phase, every other wave went, and the press was refused.
+  if (find_worse_light() >= 0 && report_.mirrored > 0) {
+    use_symmetry_ = false;
+    move = attempt();
+  }
+  if (find_worse_light() >= 0 && report_.bumps > 0) {
+    use_bumps_ = false;
+    move = attempt();
+  }
+  return judge(move);
+}
+
+// Returns the moves of the control vertices (#C) without faces that turn far, and measures their result.
+Vector Restoration::attempt() {
+  surface_.optimizer().reset();
+  report_.held_faces = 0;
   Vector move = restore();
   for (int retry = 0; retry < kRetries; ++retry) {
     int count = 0;
@@ -112,12 +130,14 @@ SmoothPanelResult Restoration::run() {
     move = scale_to_limit();
     measure_result(move);
   }
-  return judge(move);
+  return move;
 }
 
 // Returns the moves of the control vertices (#C).
 Vector Restoration::restore() {
-  const Vector flawless = remove_all_bumps(options_.symmetric ? use_symmetry(start_) : start_);
+  report_.mirrored = 0;
+  partner_.resize(0);
+  const Vector flawless = remove_all_bumps(options_.symmetric && use_symmetry_ ? use_symmetry(start_) : start_);
   const std::vector<Target> targets = plan(flawless);
   solve(targets, MoveLimit::none());
   unlimited_ = average_partners(surface_.control_move());
@@ -156,7 +176,7 @@ Vector Restoration::remove_all_bumps(Vector z) {
   report_.bumps = 0;
   const Boundary boundary{
       std::vector<Border>(z.size(), Border::kFree), !surface_.optimizer().free(), {.rule = CreaseRule::kNone}};
-  for (int round = 0; round < kBumpRounds; ++round) {
+  for (int round = 0; round < kBumpRounds && use_bumps_; ++round) {
     const HeightField field =
         make_height_field(lift(surface_.positions(), z - start_), surface_.triangles(), frame_, boundary);
     const BumpRemoval removal = remove_bumps(field, report_.length, progress());

@@ -26,6 +26,7 @@ class Restoration {
 
  private:
   Progress* progress() const { return options_.progress.get(); }
+  Vector attempt();
   Vector restore();
   void solve(const std::vector<Target>& targets, const MoveLimit& limit);
   Vector restore_within_limit(const std::vector<Target>& targets);
@@ -51,10 +52,11 @@ class Restoration {
   Vector start_;  // #V, heights of the surface as its optimizer has them
   SmoothPanelReport report_;
   CreasePreservingSmoother smoother_;
-  Vector creases_;       // weights of the inner edges, of the start
-  IndexVector partner_;  // #C, see MirrorEvidence; empty: no symmetry
-  Vector unlimited_;     // #C, the move of the last solve
-  Vector stray_before_;  // SmoothPanelReport::stray of the start
+  Vector creases_;                               // weights of the inner edges, of the start
+  bool use_symmetry_ = true, use_bumps_ = true;  // false once they have made the lines less even
+  IndexVector partner_;                          // #C, see MirrorEvidence; empty: no symmetry
+  Vector unlimited_;                             // #C, the move of the last solve
+  Vector stray_before_;                          // SmoothPanelReport::stray of the start
 };
 
 }  // namespace reflines

@@ -1,0 +1,81 @@
+"""A press on many faces in a real window: Blender goes on, Esc takes it back, the result is the operator's."""
+import time
+from collections.abc import Generator
+
+import bpy
+import numpy as np
+
+import scenes
+import window
+from dragging import at_rest, panel, shown, undone_and_redone
+
+Steps = Generator[float, None, None]
+CELLS = 80  # 6,084 selected faces
+PATIENCE = 120.0  # seconds
+
+
+def press(driver: window.Window, **settings: object) -> Steps:
+    """Presses Smooth as its button does; returns while it is at work."""
+    driver.move(300, 300)
+    yield 0.1
+    with driver.override():
+        assert bpy.ops.reflines.smooth('INVOKE_DEFAULT', True, **settings) == {'RUNNING_MODAL'}
+
+
+def wait(limit: float = PATIENCE) -> Generator[float, None, float]:
+    """Waits until the press has ended; returns the longest time in which Blender did nothing else."""
+    longest, before, begun = 0.0, time.monotonic(), time.monotonic()
+    while not at_rest() and before - begun < limit:
+        yield 0.01
+        longest, before = max(longest, time.monotonic() - before), time.monotonic()
+    yield 0.2
+    return longest
+
+
+def test_a_long_press_lets_blender_go_on_and_gives_the_result_of_the_operator(driver: window.Window) -> Steps:
+    """One undo step; nothing is shown before the end."""
+    panel(driver, CELLS)
+    with driver.override():
+        begun = time.monotonic()
+        scenes.smooth()
+        whole = time.monotonic() - begun
+    expected = shown(driver)
+    panel(driver, CELLS)
+    before = shown(driver)
+    yield from press(driver)
+    yield 0.05
+    assert np.array_equal(shown(driver), before)
+    longest = yield from wait()
+    assert np.array_equal(shown(driver), expected) and (expected != before).any()
+    assert longest < max(0.5 * whole, 0.4), f"Blender stood still for {longest:.2f} s of a press of {whole:.2f} s"
+    assert bpy.context.view_layer.objects.active.reflection_lines.report.termination == "converged"
+    yield from undone_and_redone(driver, before, expected)
+
+
+def test_escape_takes_a_long_press_back(driver: window.Window) -> Steps:
+    panel(driver, CELLS)
+    before = scenes.fingerprint(bpy.data.objects["Panel"])
+    yield from press(driver)
+    driver.key('ESC')
+    yield 0.3
+    yield from wait()
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
+    assert bpy.data.objects["Panel"].reflection_lines.report.termination == ""
+
+
+def test_other_tools_press_beside_blender_too(driver: window.Window) -> Steps:
+    results = []
+    for long in (False, True):
+        panel(driver, CELLS)
+        with driver.override():
+            how = 'INVOKE_DEFAULT' if long else 'EXEC_DEFAULT'
+            ended = bpy.ops.reflines.direction(how, True, density=1.1)
+        assert ended == {'RUNNING_MODAL' if long else 'FINISHED'}
+        yield from wait()
+        results.append(shown(driver))
+    assert np.array_equal(*results)
+
+
+if __name__ == "__main__":
+    window.run(test_a_long_press_lets_blender_go_on_and_gives_the_result_of_the_operator,
+               test_escape_takes_a_long_press_back, test_other_tools_press_beside_blender_too)
