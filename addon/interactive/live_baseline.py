@@ -105,7 +105,7 @@ def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
     settings = scene.reflection_lines
     keeps_crossed = settings.lights == 'CROSSED' and settings.warp.fit != 'VALUE'
     return SolveSettings(settings.border, settings.length, settings.limit,
-                         crossed.build_kept_target if keeps_crossed else None)
+                         build_crossed=crossed.build_kept_target if keeps_crossed else None)
 
 
 def read_operator_settings(scene: bpy.types.Scene) -> dict[str, str | float]:

@@ -124,7 +124,7 @@ class SolveJob:
         for patch, start, follower, build in every:
             with live_optimizer.convert_native_errors(patch):
                 wanted = live_optimizer.build_targets(start, build, request.settings)
-                self.follow_targets(follower, wanted, choose_limit(patch, request.settings.limit))
+                self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings))
                 if request.lines:
                     wanted.measure(follower)  # for the numbers of each handle
                 positions.append(choose_formulation(patch, start.view).read_positions(follower))
@@ -141,11 +141,13 @@ class SolveJob:
         return tuple(choose_formulation(start.patch, start.view).read_lines(follower)
                      for start, follower in zip(self.starts, self.followers, strict=True))
 
-    def follow_targets(self, follower: "native.ShapeOptimizer", wanted: JointTargets, limit: float) -> None:
+    def follow_targets(self, start: LiveOptimizer, follower: "native.ShapeOptimizer", wanted: JointTargets,
+                       limit: float) -> None:
         """Solves warm-started. Beyond the limit all moves are scaled at once; the final solve takes its time."""
         report = follower.solve(wanted.targets, gradient_tolerance=wanted.follow_tolerance, progress=self.progress)
-        if report.largest_move > limit:
-            scale_to_limit(follower, report.largest_move, limit)
+        largest = choose_formulation(start.patch, start.view).measure_largest_move(follower, report)
+        if largest > limit:
+            scale_to_limit(follower, largest, limit)
 
     def measure(self, request: SolveRequest) -> Gain:
         """Measures the present heights against those of the start, by the numbers that the result will be told by."""
@@ -167,9 +169,11 @@ class SolveJob:
         solutions = []
         for start, build in zip(self.starts, request.builds, strict=True):
             start.optimizer.reset()
-            with live_optimizer.convert_native_errors(start.patch):
-                solutions.append(solve.solve_patch(start, build, request.settings, self.progress))
-            start.optimizer.reset()  # the next target is built from the start's lines too
+            try:
+                with live_optimizer.convert_native_errors(start.patch):
+                    solutions.append(solve.solve_patch(start, build, request.settings, self.progress))
+            finally:
+                start.optimizer.reset()  # the next target is built from the start's lines too, even after a failure
         return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
 
     def return_optimizers(self) -> None:

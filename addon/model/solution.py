@@ -17,6 +17,7 @@ class SolveSettings:
     border: str
     length: float  # detail finer than this counts as wobble, world units; 0: a fraction of the patch's diagonal
     limit: float = 0.0  # largest move along the view, world units; 0: a fraction of the patch's diagonal
+    limit_length: float = 0.0  # the length that an automatic limit is a share of; 0: the patch's diagonal
     build_crossed: BuildCrossed | None = None  # of the lines that cross the wanted ones; None leaves them to themselves
 
 

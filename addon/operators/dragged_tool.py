@@ -78,7 +78,7 @@ class DraggedTool(SolveTool):
 
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
         return SolveSettings(self.border, self.read_detail_length(scene), self.limit,
-                             self.choose_crossed() if self.keeps_crossed() else None)
+                             build_crossed=self.choose_crossed() if self.keeps_crossed() else None)
 
     def read_falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, _patch: Patch) -> Falloff | None:
         """Returns the tool's fall-off, None where it acts everywhere alike."""

@@ -10,7 +10,6 @@ from ..model.patch import Patch
 from ..model.solution import BuildCrossed, Solution, SolveSettings
 from ..solver import automatic_smooth, live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth
-from ..solver.limited_solve import AUTOMATIC_LIMIT
 from ..solver.live_optimizer import BuildTarget
 from ..targets import smooth
 from ..targets.smooth import Smooth
@@ -65,19 +64,21 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
 
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
         """Reads the settings, with an automatic limit that is a share of the length, as in the automatic press."""
-        settings = super().read_solve_settings(scene)
-        return settings if self.limit else replace(settings, limit=AUTOMATIC_LIMIT * self.filter_length)
+        return replace(super().read_solve_settings(scene), limit_length=self.filter_length)
 
     def choose_press(self) -> AutomaticSmooth | None:
         if self.length or self.directional:
             return None
         return AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric, self.limit or None)
 
+    def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
+        """Records a solution. What the length 0 stands for is known after an automatic press only."""
+        given = self.length and not self.directional
+        super().record_solution(ob, replace(solution, automatic_length=0.0) if given else solution)
+
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
-        if self.directional:
+        if self.length or self.directional:
             return super().solve_patch(context, ob, patch)
-        if self.length:  # what 0 stands for is known after an automatic press only
-            return replace(super().solve_patch(context, ob, patch), automatic_length=0.0)
         settings = self.choose_press()
         seen = facing.read_patch_view(context.scene, patch)
         with live_optimizer.convert_native_errors(patch):

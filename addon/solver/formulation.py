@@ -90,6 +90,14 @@ class Formulation:
         """
         return np.flatnonzero(chosen[face_of_triangle])
 
+    def measure_cage_move(self, _optimizer: "native.ShapeOptimizer") -> float:
+        """Measures the largest move of a cage's vertices, world units; 0 where vertices are those of the surface."""
+        return 0.0
+
+    def measure_largest_move(self, optimizer: "native.ShapeOptimizer", report: "native.Report") -> float:
+        """Measures the largest move of any vertex after a solve, of a surface and of its cage."""
+        return max(report.largest_move, self.measure_cage_move(optimizer))
+
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         """Returns the target for all that is solved, from one that was built for it."""
         return wanted
@@ -129,6 +137,11 @@ class SymmetricFormulation(Formulation):
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         move = optimizer.positions - self.patch.V
         return self.patch.V + 0.5 * (move + move[self.patch.mirror.partner])
+
+    def build(self, border: str, progress: "native.Progress | None", *,
+              sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
+        both = None if held is None else held | held[self.patch.mirror.partner]
+        return super().build(border, progress, sparse=sparse, held=both)
 
 
 class JoinedFormulation(Formulation):
@@ -206,6 +219,9 @@ class CageFormulation(Formulation):
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         return self.patch.V + (optimizer.cage_positions - self.patch.cage.V)[self.patch.index]
+
+    def measure_cage_move(self, optimizer: "native.CageOptimizer") -> float:
+        return float(np.linalg.norm(optimizer.cage_positions - self.patch.cage.V, axis=1).max())
 
     def read_residual(self, optimizer: "native.ShapeOptimizer", target: "native.Target") -> np.ndarray:
         """Reads the root mean square over the surface of each face, for all triangles of that face: #F."""

@@ -4,7 +4,8 @@ import numpy as np
 from .. import native
 from ..model.cage import CagePatch
 from ..model.patch import Patch
-from ..model.solution import SolveReport
+from ..model.solution import SolveReport, SolveSettings
+from .formulation import choose_formulation
 from .live_optimizer import LiveOptimizer
 
 # Relative to the patch's diagonal: the same share of the length of what changes as in the automatic press of Smooth.
@@ -13,9 +14,9 @@ AUTOMATIC_LIMIT = 1.0 / 20.0
 MOST_BOUNDED = 20_000  # unknowns; larger solves with bounds take minutes, see tests/bench
 
 
-def choose_limit(patch: Patch, limit: float) -> float:
-    """Returns the largest move: the given one, or for 0 a fraction of the diagonal."""
-    return limit or AUTOMATIC_LIMIT * patch.diagonal
+def choose_limit(patch: Patch, settings: SolveSettings) -> float:
+    """Returns the largest move: the given one, or for 0 a fraction of the length of what changes."""
+    return settings.limit or AUTOMATIC_LIMIT * (settings.limit_length or patch.diagonal)
 
 
 def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]", limit: float,
@@ -25,17 +26,21 @@ def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]", limi
     A cage, whose vertices are no heights of its surface, and a region of many vertices have all moves scaled instead.
     """
     report = live.optimizer.solve(targets, progress=progress)
-    if report.largest_move <= limit or report.termination == "cancelled":
+    largest = choose_formulation(live.patch, live.view).measure_largest_move(live.optimizer, report)
+    if largest <= limit or report.termination == "cancelled":
         return report
+    beyond = scale_to_limit(live.optimizer, largest, limit)
     if not isinstance(live.patch, CagePatch) and report.unknowns <= MOST_BOUNDED:
         return live.optimizer.solve(targets, limit=limit, progress=progress)
-    beyond = scale_to_limit(live.optimizer, report.largest_move, limit)
-    return SolveReport(report.termination, report.message, report.iterations, report.seconds, report.unknowns, limit,
+    move = report.largest_move * limit / largest
+    return SolveReport(report.termination, report.message, report.iterations, report.seconds, report.unknowns, move,
                        beyond)
 
 
 def scale_to_limit(optimizer: "native.ShapeOptimizer", largest_move: float, limit: float) -> int:
-    """Scales all moves by the share that the limit is of the largest; returns how many vertices were beyond it."""
+    """Scales all moves by the share that the limit is of the largest; returns how many vertices of the surface were
+    beyond it, at least one: the largest may be that of a cage.
+    """
     share, moved = limit / largest_move, optimizer.heights
     optimizer.scale_move(share)
-    return int(np.count_nonzero(np.abs(moved - optimizer.heights) > (1.0 - share) * limit))
+    return max(int(np.count_nonzero(np.abs(moved - optimizer.heights) > (1.0 - share) * limit)), 1)

@@ -1,10 +1,12 @@
 """Remarks: sentences about a finished solve that the artist should read."""
 import numpy as np
 
+from .. import native
 from ..model import mirror
 from ..model.patch import Patch
+from ..model.solution import SolveReport
 from .formulation import Formulation
-from .turned_faces import TURNED, find_turned
+from .turned_faces import TURNED
 
 FAR_MOVE = 0.05  # relative to the patch's diagonal; larger moves are mentioned
 
@@ -41,22 +43,24 @@ def describe_limit(limited: int, limit: float, *, automatic: bool) -> tuple[str,
     """Says that the limit of the move held vertices back, and what to press."""
     if not limited:
         return ()
-    own = "automatic limit, a twentieth of the region's size," if automatic else "limit"
+    own = "automatic limit" if automatic else "limit"
     return (f"The {own} holds {limited} {'vertices' if limited > 1 else 'vertex'} back: ask for less, or raise Limit",)
 
 
-def describe_held_faces(patch: Patch, held: np.ndarray) -> tuple[str, ...]:
-    """Says how many faces were held since they would have turned far."""
-    count = int(held[patch.F].all(axis=1).sum())
-    if count == 0:
-        return ()
+def describe_unfinished(report: "native.Report | SolveReport") -> tuple[str, ...]:
+    """Says that a solve stopped before its end, and what to press."""
+    finished = report.termination in {"converged", "already_optimal", "cancelled"}
+    return () if finished else ("The solver stopped before its end: ask for less, or select less",)
+
+
+def describe_held_faces(count: int) -> tuple[str, ...]:
+    """Says how many triangles were held since they would have turned far."""
     return (f"{count} triangle{'s' if count > 1 else ''} seen at a slant stayed: they would have turned by more than "
-            f"{np.degrees(TURNED):.0f} degrees",)
+            f"{np.degrees(TURNED):.0f} degrees",) if count else ()
 
 
-def describe_turned_faces(patch: Patch, positions: np.ndarray) -> tuple[str, ...]:
+def describe_turned_faces(count: int) -> tuple[str, ...]:
     """Warns where triangles turned by more than turned_faces.TURNED all the same."""
-    count = int(find_turned(patch, positions).sum())
     if count == 0:
         return ()
     return (f"{count} triangle{'s turn' if count > 1 else ' turns'} by more than {np.degrees(TURNED):.0f} degrees: "

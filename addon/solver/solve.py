@@ -1,4 +1,5 @@
 """One solve of one patch, from arrays to arrays, without state and without Blender."""
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -43,17 +44,32 @@ def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveS
 
     `progress` lets another thread watch and cancel.
     """
-    solution, held = solve_once(live, build_target, settings, progress), np.zeros(len(live.patch.V), dtype=bool)
+    solution = solve_once(live, build_target, settings, progress)
+    turned, held, count = turned_faces.find_turned(live.patch, solution.positions), np.zeros(len(live.patch.V), bool), 0
     for _ in range(MOST_HOLDS):
-        turned = turned_faces.find_turned(live.patch, solution.positions)
         more = turned_faces.find_vertices_to_hold(live.patch, turned)
-        if more is None or solution.report.termination == "cancelled":
+        if more is None or math.isinf(settings.limit) or solution.report.termination == "cancelled":
             break
         held |= more
+        firmer = solve_held(live, held, build_target, settings, progress)
+        if firmer is None:
+            break
+        left = turned_faces.find_turned(live.patch, firmer.positions)
+        if left.sum() >= turned.sum():
+            break
+        solution, turned, count = firmer, left, count + int((turned & ~left).sum())
+    return replace(solution, notes=(*solution.notes, *remarks.describe_held_faces(count),
+                                    *remarks.describe_turned_faces(int(turned.sum()))))
+
+
+def solve_held(live: LiveOptimizer, held: np.ndarray, build_target: BuildTarget, settings: SolveSettings,
+               progress: "native.Progress | None") -> Solution | None:
+    """Solves with more vertices held; None where nothing is left to move."""
+    try:
         firmer = live_optimizer.build_optimizer(live.patch, live.view, live.border, progress, held=held)
-        solution = solve_once(firmer, build_target, settings, progress)
-    return replace(solution, notes=(*solution.notes, *remarks.describe_held_faces(live.patch, held),
-                                    *remarks.describe_turned_faces(live.patch, solution.positions)))
+        return solve_once(firmer, build_target, settings, progress)
+    except (native.InvalidInput, native.SolverFailure):
+        return None
 
 
 def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
@@ -62,7 +78,7 @@ def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSe
     score = optimizer.score(length)
     wanted = live_optimizer.build_targets(live, build_target, settings)  # that of a fit moves the optimizer first
     target, lacking = wanted.targets[0], wanted.measure(optimizer)
-    limit = choose_limit(live.patch, settings.limit)
+    limit = choose_limit(live.patch, settings)
     report = solve_within_limit(live, wanted.targets, limit, progress)
     formulation = choose_formulation(live.patch, live.view)
     positions, left = formulation.read_positions(optimizer), wanted.measure(optimizer)
@@ -70,11 +86,12 @@ def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSe
     return Solution(live.patch, positions, report, target, formulation.read_residual(optimizer, target), lacking, left,
                     length, score, optimizer.score(length),
                     (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
+                     *remarks.describe_unfinished(report),
                      *remarks.describe_limit(report.limited, limit, automatic=not settings.limit),
                      *optimizer.region.messages, *remarks.describe_mirror(formulation),
                      *remarks.describe_far_move(live.patch, report.largest_move, live.border)),
                     choose_length(live.patch, 0.0), "free" if short and live.border != "free" else "",
-                    automatic_limit=0.0 if settings.limit else limit)
+                    formulation.measure_cage_move(optimizer), automatic_limit=0.0 if settings.limit else limit)
 
 
 def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lacking: float, left: float) -> bool:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from reflection_lines import native
 from reflection_lines.model.patch import Patch
-from reflection_lines.solver import turned_faces
+from reflection_lines.model.solution import SolveReport
+from reflection_lines.solver import remarks, turned_faces
 
 import scenes
 
@@ -54,6 +55,24 @@ def test_a_limit_of_the_artist_holds_for_every_tool(tool, options) -> None:
     assert panel.reflection_lines.report.limited > 0
 
 
+def test_a_limit_holds_for_the_vertices_of_a_cage() -> None:
+    """They move further than their surface; both moves are told."""
+    moves = []
+    for limit in (0.0, 0.01):
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        cage = scenes.panel(cells=8)
+        cage.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+        scenes.look_from_above()
+        scenes.edit_inner(cage, 8)
+        before = scenes.positions(cage)
+        assert bpy.ops.reflines.direction(density=3.0, border='free', limit=limit) == {'FINISHED'}
+        moves.append(largest_move(before, scenes.positions(cage)))
+    assert moves[0] > 0.02
+    assert moves[1] == pytest.approx(0.01, rel=1e-3)
+    report = cage.reflection_lines.report
+    assert report.cage_move == pytest.approx(0.01, rel=1e-3) and report.largest_move < report.cage_move
+
+
 def test_a_limit_that_nothing_reaches_changes_no_bit() -> None:
     _, _, free = press("direction", density=1.1)
     _, before, limited = press("direction", density=1.1, limit=1.0)
@@ -81,3 +100,10 @@ def test_few_faces_that_would_turn_far_are_found_and_held() -> None:
     assert turned.tolist() == [False, False, True, True]
     assert turned_faces.find_vertices_to_hold(patch, turned) is None  # half of all: what was asked for
     assert turned_faces.find_vertices_to_hold(patch, np.array([0, 0, 1, 0], bool)).tolist() == [0, 1, 0, 1, 1, 0]
+
+
+@pytest.mark.parametrize(("termination", "told"), [("converged", 0), ("already_optimal", 0), ("iteration_limit", 1),
+                                                   ("no_progress", 1)])
+def test_a_solve_that_stopped_early_is_told(termination, told) -> None:
+    report = SolveReport(termination, "", 100, 1.0, 10, 0.1)
+    assert len(remarks.describe_unfinished(report)) == told

@@ -26,7 +26,7 @@ def find_hem(solver):
     bend = np.linalg.norm(solver.field(), axis=1)
     order = np.argsort(bend)
     half = np.searchsorted(np.cumsum(solver.area[order]), 0.5 * solver.area.sum())
-    strong = max(8.0 * bend[order[half]], 10.0 / np.linalg.norm(np.ptp(solver.xy, axis=0)))
+    strong = max(8.0 * bend[order[half]], 10.0 / np.linalg.norm(np.ptp(solver.centers, axis=0)))
     return bend > 1.34 * strong, bend < 0.33 * strong
 
 
@@ -92,3 +92,12 @@ def test_crossing_lines_are_kept_as_far_as_the_wanted_ones_allow(solver):
     (alone, lost), (together, less_lost) = results
     assert less_lost < 0.95 * lost
     assert together < alone + 0.02
+
+
+def test_a_flat_panel_has_no_direction_of_its_own():
+    positions, triangles = panel(12)
+    flat = positions * [1.0, 1.0, 0.0]
+    solver = reflines.ShapeOptimizer(flat, triangles, view_direction=(0, 0, 1), line_direction=(0, 1, 0))
+    with pytest.raises(reflines.InvalidInput, match="no median direction"):
+        reflines.uniform(solver)
+    assert np.isfinite(reflines.uniform(solver, direction=(1, 0), density=1.0, relative=False).gradient).all()

@@ -47,6 +47,7 @@ class CreasePreservingSmoother::System {
   // Factors anew where the weights are other ones than in the last call.
   TriangleFields solve(const Vector& trust, const TriangleFields& rhs) {
     if (trust_.size() != trust.size() || trust_ != trust) {
+      trust_.resize(0);
       owner_.assemble(trust, A_);
       solver_.factorize(A_);
       trust_ = trust;

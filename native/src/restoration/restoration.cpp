@@ -115,7 +115,6 @@ SmoothPanelResult Restoration::run() {
 // Returns the moves of the control vertices (#C) without faces that turn far, and measures their result.
 Vector Restoration::attempt() {
   surface_.optimizer().reset();
-  report_.held_faces = 0;
   Vector move = restore();
   for (int retry = 0; retry < kRetries; ++retry) {
     int count = 0;
@@ -285,8 +284,9 @@ void Restoration::measure_result(const Vector& move) {
 
 // Finds the light in which the lines became less even; -1 where there is none.
 int Restoration::find_worse_light() const {
+  const double most = report_.solve.converged() ? kWorse : 1.0;
   for (size_t k = 0; k < report_.unevenness_after.size(); ++k) {
-    if (report_.unevenness_after[k] > kWorse * report_.unevenness_before[k]) return static_cast<int>(k);
+    if (report_.unevenness_after[k] > most * report_.unevenness_before[k]) return static_cast<int>(k);
   }
   return -1;
 }
@@ -316,6 +316,11 @@ void Restoration::tell() {
   if (report_.limited > 0) {
     report_.messages.push_back("The limit of the move holds back " + count_of(report_.limited, "vertex", "vertices") +
                                "; what is deeper is left.");
+  }
+  if (!report_.solve.converged()) {
+    report_.messages.push_back(
+        "The solver stopped before its end; the lines are more even in every light all the same. Select less to let it "
+        "finish.");
   }
   if (report_.held_faces > 0) {
     report_.messages.push_back(count_of(report_.held_faces, "triangle was", "triangles were") +

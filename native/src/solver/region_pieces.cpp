@@ -123,8 +123,8 @@ Mask RegionPieces::features(int family, double length) {
 Vector RegionPieces::response(int family, const Mask& features) const {
   PlaneVectors start = PlaneVectors::Zero(triangle_count(), 2);
   for (const auto& piece : pieces_) start(piece->triangles(), Eigen::all) = piece->smoother().start_gradient(family);
-  const PlanePositions xy = this->xy();
-  const double diagonal = (xy.colwise().maxCoeff() - xy.colwise().minCoeff()).norm();
+  const PlanePositions center = centers();  // not the vertices: those of no triangle may lie anywhere
+  const double diagonal = (center.colwise().maxCoeff() - center.colwise().minCoeff()).norm();
   return features.select(0.0, measure_response(start, area(), diagonal).array());
 }
 

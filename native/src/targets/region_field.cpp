@@ -19,6 +19,7 @@ Vector2 RegionField::median_gradient() const {
   if (!(total > 0)) return Vector2::Zero();
   Vector2 median = gradient.transpose() * area / total;
   const double scale = area.dot(gradient.rowwise().norm()) / total;
+  if (!(scale > 0)) return median;  // a flat panel
   for (int step = 0; step < kMostSteps; ++step) {
     const Vector distance = (gradient.rowwise() - median.transpose()).rowwise().norm();
     const Vector weight = area.array() / distance.array().max(kNegligible * scale);
