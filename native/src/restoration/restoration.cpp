@@ -7,6 +7,8 @@
 
 #include "geometry/height_field.h"
 #include "geometry/mesh.h"
+#include "reflection/reflection_function.h"
+#include "reflection/weighted_median.h"
 #include "reflines/errors.h"
 #include "restoration/bump_removal.h"
 #include "restoration/flaw_weight.h"
@@ -37,6 +39,16 @@ constexpr double kSaturating = 0.6;
 // Height, relative to the diagonal: where vertices that stay differ by more from their partners, the move is not made
 // symmetric, which would kink the lines beside them.
 constexpr double kSymmetricHold = 1e-5;
+
+// Shares by which the median stray of the lines, or its root mean square, has to fall, in the mean of the lights, for
+// changes that can be seen (degrees of theta, root mean square). The press smooths for noise and ripples, which are
+// everywhere: with planted ones the median falls by 30 to 84 % in 47 of 52 trials on 26 panels, on clean panels by -9
+// to 29 %, on three faceted ones by 57 to 65 %. Features own the root mean square, which falls by 0 to 5 % on these
+// panels whatever is healed; where there are none, it tells of waves that are longer than noise. Where neither falls,
+// only bumps and the halves' differences go: the harm to the worst of 26 panels falls from 1.09 to 0.3 degrees. Without
+// the bound of what can be seen clean panels do not change at all, but dents on coarse meshes, which are no bumps, stay
+// too (0.9 instead of 0.65 left).
+constexpr double kLeastGain = 0.3, kLeastSquareGain = 0.1, kVisible = 0.3;
 
 constexpr double kTurned = std::numbers::pi / 4;
 constexpr int kRetries = 3;
@@ -72,6 +84,13 @@ double saturate(double move) {
   return std::copysign(kSaturating + 2 * (1 - kSaturating) * t * (1 - t * t * (1 - 0.5 * t)), move);
 }
 
+// Returns by what share numbers, one for each light, fell in the mean.
+double measure_gain(const std::vector<double>& before, const std::vector<double>& after) {
+  double sum = 0;
+  for (size_t k = 0; k < after.size(); ++k) sum += 1 - after[k] / std::max(before[k], 1e-300);
+  return sum / static_cast<double>(after.size());
+}
+
 std::string degrees(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
@@ -99,6 +118,12 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
 SmoothPanelResult Restoration::run() {
   smoother_.smooth(read_fields(start_), progress(), &creases_);
   Vector move = attempt();
+  if (measure_gain(typical_before_, typical_after_) < kLeastGain &&
+      measure_gain(report_.unevenness_before, report_.unevenness_after) < kLeastSquareGain &&
+      measure_change(move) > kVisible) {
+    use_smoothing_ = false;
+    move = attempt();
+  }
   // A shape without the halves' differences, or without what looks like bumps, can be a worse one: of an egg-box of
   // waves that is symmetric but for its phase, every other wave went, and the press was refused.
   if (find_worse_light() >= 0 && report_.mirrored > 0) {
@@ -137,6 +162,10 @@ Vector Restoration::restore() {
   report_.mirrored = 0;
   partner_.resize(0);
   const Vector flawless = remove_all_bumps(options_.symmetric && use_symmetry_ ? use_symmetry(start_) : start_);
+  if (!use_smoothing_ && flawless == start_) {
+    report_.limited = 0;
+    return Vector::Zero(surface_.control_positions().rows());
+  }
   const std::vector<Target> targets = plan(flawless);
   solve(targets, MoveLimit::none());
   unlimited_ = average_partners(surface_.control_move());
@@ -190,6 +219,7 @@ Vector Restoration::remove_all_bumps(Vector z) {
 std::vector<Target> Restoration::plan(const Vector& z) {
   const ShapeOptimizer& optimizer = surface_.optimizer();
   const TriangleFields fields = read_fields(z);
+  if (!use_smoothing_) return make_targets(fields);
   Vector creases = creases_;
   const TriangleFields change = smoother_.smooth(fields, progress(), &creases) - fields;
   const Vector weight = flaw_weight(change, optimizer.centers(), optimizer.area(), report_.length);
@@ -258,13 +288,30 @@ Mask Restoration::find_turned(const Vector& move, int& count) const {
   return result;
 }
 
-std::vector<double> Restoration::measure_unevenness(const Vector& z, const Vector& creases, Vector& stray) {
+// Returns by how much a move changes theta, in the root mean square over area and lights, degrees.
+double Restoration::measure_change(const Vector& move) {
+  ShapeOptimizer& optimizer = surface_.optimizer();
+  const Vector known = Vector::Ones(start_.size()), z = start_ + surface_.surface_move(move), area = optimizer.area();
+  double squared = 0;
+  for (int k = 0; k < optimizer.family_count(); ++k) {
+    const Vector change =
+        (optimizer.evaluate_lines(z, known, k).theta - optimizer.evaluate_lines(start_, known, k).theta)
+            .unaryExpr([](double angle) { return wrap_angle(angle); });
+    squared += area.dot(change.cwiseAbs2()) / (area.sum() * optimizer.family_count());
+  }
+  return std::sqrt(squared) * 180.0 / std::numbers::pi;
+}
+
+std::vector<double> Restoration::measure_unevenness(const Vector& z, const Vector& creases, Vector& stray,
+                                                    std::vector<double>& typical) {
   const TriangleFields fields = read_fields(z);
   const TriangleFields off = fields - smoother_.smooth_with(creases, fields);
   stray = surface_.gather_faces(off.leftCols(2).rowwise().norm());
   const Vector area = surface_.optimizer().area();
   std::vector<double> result;
+  typical.clear();
   for (Eigen::Index k = 0; k < off.cols(); k += 2) {
+    typical.push_back(weighted_median(off.middleCols(k, 2).rowwise().norm(), area));
     const double squared = area.dot(off.middleCols(k, 2).rowwise().squaredNorm()) / area.sum();
     result.push_back(std::sqrt(squared) * report_.length * 180.0 / std::numbers::pi);
   }
@@ -278,8 +325,8 @@ void Restoration::measure_result(const Vector& move) {
   Vector creases = creases_;
   smoother_.smooth(read_fields(z), progress(), &creases);
   creases = creases.cwiseMax(creases_);
-  report_.unevenness_before = measure_unevenness(start_, creases, stray_before_);
-  report_.unevenness_after = measure_unevenness(z, creases, report_.stray);
+  report_.unevenness_before = measure_unevenness(start_, creases, stray_before_, typical_before_);
+  report_.unevenness_after = measure_unevenness(z, creases, report_.stray, typical_after_);
 }
 
 // Finds the light in which the lines became less even; -1 where there is none.
@@ -313,6 +360,10 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
 }
 
 void Restoration::tell() {
+  if (report_.largest_control_move == 0) {
+    report_.messages.push_back(
+        "No noise, ripples or dents were found: nothing was changed. Give a Length to smooth more.");
+  }
   if (report_.limited > 0) {
     report_.messages.push_back("The limit of the move holds back " + count_of(report_.limited, "vertex", "vertices") +
                                "; what is deeper is left.");

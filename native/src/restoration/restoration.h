@@ -40,7 +40,9 @@ class Restoration {
   Positions lift(const Positions& V, const Vector& move) const;
   // Vertices of triangles that the move turns by more than 45 degrees, and the number of these triangles.
   Mask find_turned(const Vector& move, int& count) const;
-  std::vector<double> measure_unevenness(const Vector& z, const Vector& creases, Vector& stray);
+  double measure_change(const Vector& move);
+  std::vector<double> measure_unevenness(const Vector& z, const Vector& creases, Vector& stray,
+                                         std::vector<double>& typical);
   void measure_result(const Vector& move);
   int find_worse_light() const;
   SmoothPanelResult judge(const Vector& move);
@@ -52,11 +54,13 @@ class Restoration {
   Vector start_;  // #V, heights of the surface as its optimizer has them
   SmoothPanelReport report_;
   CreasePreservingSmoother smoother_;
-  Vector creases_;                               // weights of the inner edges, of the start
-  bool use_symmetry_ = true, use_bumps_ = true;  // false once they have made the lines less even
-  IndexVector partner_;                          // #C, see MirrorEvidence; empty: no symmetry
-  Vector unlimited_;                             // #C, the move of the last solve
-  Vector stray_before_;                          // SmoothPanelReport::stray of the start
+  Vector creases_;                                      // weights of the inner edges, of the start
+  bool use_smoothing_ = true;                           // false once the lines turn out to have no noise
+  bool use_symmetry_ = true, use_bumps_ = true;         // false once they have made the lines less even
+  std::vector<double> typical_before_, typical_after_;  // medians of the lines' stray, for each light
+  IndexVector partner_;                                 // #C, see MirrorEvidence; empty: no symmetry
+  Vector unlimited_;                                    // #C, the move of the last solve
+  Vector stray_before_;                                 // SmoothPanelReport::stray of the start
 };
 
 }  // namespace reflines
