@@ -200,7 +200,8 @@ def test_a_pinned_line_stays_beside_a_pull(driver: window.Window) -> Steps:
         yield from picture("pin_line")
         driver.key('ESC')
         yield 0.3
-    assert changes[1] < 0.02 and changes[1] < 0.2 * changes[0], changes
+    # A thousandth of the spacing cannot be seen: with another Blender's view the place may lie on a line that stays.
+    assert changes[1] < 0.02 and changes[1] < max(0.2 * changes[0], 1e-3), changes
 
 
 def test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before(driver: window.Window) -> Steps:
