@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 
-// The sanitizers bring their own malloc: GCC tells by a macro, clang by __has_feature.
+// Only glibc lets a program replace malloc and call the original. The sanitizers bring their own malloc: GCC tells by a
+// macro, clang by __has_feature.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
 #define REFLINES_OTHER_MALLOC
@@ -13,13 +15,14 @@
 #define REFLINES_OTHER_MALLOC
 #endif
 
-#if !defined(REFLINES_OTHER_MALLOC)
+static std::atomic<std::int64_t> allocations{0};
+#if defined(__GLIBC__) && !defined(REFLINES_OTHER_MALLOC)
+constexpr bool kAllocationsAreCounted = true;
 extern "C" void* __libc_malloc(std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
-static std::atomic<long> allocations{0};
 extern "C" void* malloc(std::size_t size) {
   allocations.fetch_add(1, std::memory_order_relaxed);
   return __libc_malloc(size);
 }
 #else
-static std::atomic<long> allocations{0};
+constexpr bool kAllocationsAreCounted = false;
 #endif

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "geometry/height_field.h"
@@ -49,7 +50,7 @@ inline Mesh disc(int spokes) {
   for (int ring = 0, t = 0; ring < 3; ++ring) {
     for (int i = 0; i < spokes; ++i) {
       const int inner = 1 + (ring - 1) * spokes, outer = 1 + ring * spokes, next = (i + 1) % spokes;
-      const double angle = 2 * M_PI * i / spokes;
+      const double angle = 2 * std::numbers::pi * i / spokes;
       mesh.V.row(outer + i) << 0.1 * (ring + 1) * std::cos(angle), 0.1 * (ring + 1) * std::sin(angle), 0;
       mesh.F.row(t++) << (ring == 0 ? 0 : inner + i), outer + i, outer + next;
       if (ring > 0) mesh.F.row(t++) << inner + i, outer + next, inner + next;

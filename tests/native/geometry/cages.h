@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -58,7 +59,7 @@ inline PlacedCage star(int valence, int rings) {
     return 1 + k * block + (a - 1) * (rings + 1) + b;
   };
   for (int k = 0; k < valence; ++k) {
-    const double first = 2 * M_PI * k / valence, second = 2 * M_PI * (k + 1) / valence;
+    const double first = 2 * std::numbers::pi * k / valence, second = 2 * std::numbers::pi * (k + 1) / valence;
     for (int a = 1; a <= rings; ++a) {
       for (int b = 0; b <= rings; ++b) {
         result.V.row(at(k, a, b)) << a * cos(first) + b * cos(second), a * sin(first) + b * sin(second), 0;
@@ -84,8 +85,8 @@ inline PlacedCage pentagonal_prism() {
   PlacedCage result;
   result.V.resize(10, 3);
   for (int i = 0; i < 5; ++i) {
-    result.V.row(i) << cos(0.4 * M_PI * i), sin(0.4 * M_PI * i), -1;
-    result.V.row(5 + i) << cos(0.4 * M_PI * i), sin(0.4 * M_PI * i), 1;
+    result.V.row(i) << cos(0.4 * std::numbers::pi * i), sin(0.4 * std::numbers::pi * i), -1;
+    result.V.row(5 + i) << cos(0.4 * std::numbers::pi * i), sin(0.4 * std::numbers::pi * i), 1;
   }
   std::vector<std::vector<int>> faces = {{4, 3, 2, 1, 0}, {5, 6, 7, 8, 9}};
   for (int i = 0; i < 5; ++i) faces.push_back({i, (i + 1) % 5, 5 + (i + 1) % 5, 5 + i});

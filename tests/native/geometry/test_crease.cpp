@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "geometry/mesh.h"
 #include "geometry/piece.h"
 #include "tests/native/sample_meshes.h"
@@ -38,7 +40,7 @@ TEST(Crease, EdgesSharperThanTheAngleAlwaysAre) {
   samples::Mesh mesh = grooved(0.0);
   mesh.V(16 * 33 + 16, 2) += 0.05;
   EXPECT_GT(crease_count(mesh), 0);
-  EXPECT_EQ(crease_count(mesh, M_PI), 0);
+  EXPECT_EQ(crease_count(mesh, std::numbers::pi), 0);
 }
 
 TEST(Crease, NeighboursStayInOnePieceThoughAllTheirVerticesAreHeld) {

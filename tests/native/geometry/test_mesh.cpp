@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "geometry/derivatives.h"
 #include "geometry/mesh.h"
@@ -105,7 +106,7 @@ TEST(HeightField, ASphereSeenFromOutsideIsOnePieceOfItsFrontHalf) {
   F << 0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5;
   Boundary boundary;
   boundary.border.assign(6, Border::kFixed);
-  boundary.creases.angle = M_PI;  // so coarse a sphere is all creases
+  boundary.creases.angle = std::numbers::pi;  // so coarse a sphere is all creases
   const HeightField field = make_height_field(V, F, ImagePlane(Vector3(0, 0, 1), Vector3(0, 1, 0)), boundary);
   EXPECT_TRUE(field.closed);
   EXPECT_EQ(field.piece_count, 1);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <numbers>
 
 #include "geometry/derivatives.h"
 #include "geometry/stencil.h"
@@ -90,7 +91,8 @@ TEST(Stencil, SixPointsOnACircleAreFoundByTheConicTest) {
   // A triangle and its three neighbours, all six vertices on the unit circle.
   samples::Mesh mesh;
   mesh.V.resize(6, 3);
-  for (int k = 0; k < 6; ++k) mesh.V.row(k) << std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0;
+  for (int k = 0; k < 6; ++k)
+    mesh.V.row(k) << std::cos(k * std::numbers::pi / 3), std::sin(k * std::numbers::pi / 3), 0;
   mesh.F.resize(4, 3);
   mesh.F << 0, 2, 4, 0, 1, 2, 2, 3, 4, 4, 5, 0;
   const HeightField field = samples::height_field(mesh);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 
 #include "optimization/linear/dissection.h"
@@ -34,7 +35,7 @@ PlanePositions grid_places() {
 }
 
 // Entries of L below the diagonal when the unknowns are eliminated in this order.
-long fill(const SparseMatrix& lower, const std::vector<int>& order) {
+std::int64_t fill(const SparseMatrix& lower, const std::vector<int>& order) {
   std::vector<int> turn(order.size());
   for (size_t k = 0; k < order.size(); ++k) turn[order[k]] = static_cast<int>(k);
   std::vector<std::vector<int>> later(order.size());  // by turn
@@ -44,11 +45,11 @@ long fill(const SparseMatrix& lower, const std::vector<int>& order) {
       if (a != b) later[std::min(a, b)].push_back(std::max(a, b));
     }
   }
-  long count = 0;
+  std::int64_t count = 0;
   for (std::vector<int>& own : later) {
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
-    count += static_cast<long>(own.size());
+    count += static_cast<std::int64_t>(own.size());
     if (!own.empty()) later[own.front()].insert(later[own.front()].end(), own.begin() + 1, own.end());
   }
   return count;

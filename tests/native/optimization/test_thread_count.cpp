@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -56,19 +57,29 @@ TEST(ThreadCountTest, DISABLED_PrintDigest) {
   }
 }
 
+#if defined(_WIN32)
+void set_variable(const char* name, const std::string& value) { _putenv_s(name, value.c_str()); }
+std::FILE* start(const std::string& command) { return _popen(command.c_str(), "r"); }
+int finish(std::FILE* pipe) { return _pclose(pipe); }
+#else
+void set_variable(const char* name, const std::string& value) { setenv(name, value.c_str(), 1); }
+std::FILE* start(const std::string& command) { return popen(command.c_str(), "r"); }
+int finish(std::FILE* pipe) { return pclose(pipe); }
+#endif
+
+// Changes the environment of this process too, where all libraries have read theirs.
 std::string digests_with_threads(int threads) {
-  const std::string count = std::to_string(threads);
-  const std::string command = "OMP_NUM_THREADS=" + count + " OPENBLAS_NUM_THREADS=" + count + " '" +
-                              std::filesystem::read_symlink("/proc/self/exe").string() +
-                              "' --gtest_also_run_disabled_tests --gtest_filter=ThreadCountTest.DISABLED_PrintDigest";
-  std::FILE* pipe = popen(command.c_str(), "r");
+  for (const char* name : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"}) set_variable(name, std::to_string(threads));
+  const std::filesystem::path program = std::filesystem::absolute(testing::internal::GetArgvs().front());
+  std::FILE* pipe = start('"' + program.string() +
+                          "\" --gtest_also_run_disabled_tests --gtest_filter=ThreadCountTest.DISABLED_PrintDigest");
   if (pipe == nullptr) return "";
   std::string digests;
   char line[256];
   while (std::fgets(line, sizeof line, pipe) != nullptr) {
     if (std::strncmp(line, "digest", 6) == 0) digests += line;
   }
-  return pclose(pipe) == 0 ? digests : "";
+  return finish(pipe) == 0 ? digests : "";
 }
 
 TEST(ThreadCountTest, TheSolutionHasTheSameBits) {

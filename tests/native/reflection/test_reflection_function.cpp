@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <random>
 
 #include "reflection/reflection_function.h"
@@ -26,7 +27,7 @@ double equation_one(const Vector3& n, const Vector3& v, const Vector3& a) {
   return std::atan2(r.dot(a_perp), r.dot(v_a));
 }
 
-double turn(double angle) { return std::abs(std::remainder(angle, 2 * M_PI)); }
+double turn(double angle) { return std::abs(std::remainder(angle, 2 * std::numbers::pi)); }
 
 TEST_F(Reflection, AgreesWithEquationOneInSpace) {
   for (int k = 0; k < 2000; ++k) {
@@ -73,9 +74,11 @@ TEST_F(Reflection, DerivativesAgreeWithCentralDifferences) {
     const auto p1 = reflection.derivatives(p + h, q, 2), p0 = reflection.derivatives(p - h, q, 2);
     const auto q1 = reflection.derivatives(p, q + h, 2), q0 = reflection.derivatives(p, q - h, 2);
     const double tolerance = 1e-7;
-    EXPECT_NEAR(d.p, std::remainder(reflection.theta(p + h, q) - reflection.theta(p - h, q), 2 * M_PI) / (2 * h),
+    EXPECT_NEAR(d.p,
+                std::remainder(reflection.theta(p + h, q) - reflection.theta(p - h, q), 2 * std::numbers::pi) / (2 * h),
                 tolerance);
-    EXPECT_NEAR(d.q, std::remainder(reflection.theta(p, q + h) - reflection.theta(p, q - h), 2 * M_PI) / (2 * h),
+    EXPECT_NEAR(d.q,
+                std::remainder(reflection.theta(p, q + h) - reflection.theta(p, q - h), 2 * std::numbers::pi) / (2 * h),
                 tolerance);
     EXPECT_NEAR(d.pp, (p1.p - p0.p) / (2 * h), tolerance * (1 + std::abs(d.pp)));
     EXPECT_NEAR(d.pq, (q1.p - q0.p) / (2 * h), tolerance * (1 + std::abs(d.pq)));
