@@ -5,7 +5,7 @@ import numpy as np
 from ..model import triangulation
 from ..model.patch import Patch
 from ..model.refusal import Refusal
-from . import mesh_checks, read_creases, read_mesh, read_mirror, region_faces
+from . import border_segments, mesh_checks, read_creases, read_mesh, read_mirror, region_faces
 
 
 def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
@@ -28,7 +28,7 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
     V = local @ matrix[:3, :3].T + matrix[:3, 3]
     mirror = read_mirror.read_mirror(ob, local)
     return Patch(ob.name, faces, index, local, V, np.ascontiguousarray(F), matrix, key, mirror,
-                 read_creases.read_creases(ob, index))
+                 read_creases.read_creases(ob, index), border_segments.read_border(ob, index))
 
 
 def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:

@@ -12,6 +12,7 @@ import zlib
 import bpy
 import numpy as np
 
+from ..model import border
 from ..model.creases import AUTOMATIC
 from ..model.patch import Patch
 from . import read_mesh
@@ -51,7 +52,8 @@ def decode_solve(ob: bpy.types.Object, text: str) -> tuple[Patch, np.ndarray, np
     index, local, key = stored["index"], stored["local"].astype(np.float64), str(stored["key"])
     matrix = stored["matrix"]
     V = local @ matrix[:3, :3].T + matrix[:3, 3]
-    patch = Patch(ob.name, stored["faces"], index, local, V, stored["F"], matrix, key, None, AUTOMATIC)
+    patch = Patch(ob.name, stored["faces"], index, local, V, stored["F"], matrix, key, None, AUTOMATIC,
+                  np.full(len(index), border.UNSET))
     move = read_mesh.read_coordinates(ob, key)[index] - local
     return patch, V + move @ matrix[:3, :3].T, stored["residual"].astype(np.float64)
 

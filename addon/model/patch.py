@@ -22,6 +22,7 @@ class Patch:
     key: str             # the shape key that the result goes to; empty for the mesh itself
     mirror: Mirror | None
     creases: Creases
+    border: np.ndarray   # #V: codes of the border's own conditions, border.UNSET where the tool's holds
 
     @property
     def center(self) -> np.ndarray:
@@ -72,7 +73,7 @@ class Patch:
         """Returns whether an optimizer built for one patch serves the other."""
         return (type(self) is type(other) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
                 and mirror.are_equal(self.mirror, other.mirror) and np.array_equal(self.matrix, other.matrix)
-                and self.creases.same(other.creases))
+                and self.creases.same(other.creases) and np.array_equal(self.border, other.border))
 
 
 def compute_bounds(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

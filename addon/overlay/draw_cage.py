@@ -158,15 +158,29 @@ def compile_dots() -> gpu.types.GPUShader:
     return gpu.shader.create_from_info(info)
 
 
-class CagePainter:
+class SurfacePainter:
+    """Draws over the surface of one object in one viewport."""
+
+    def __init__(self, context: bpy.types.Context, ob: bpy.types.Object) -> None:
+        self.region_3d, self.ob = context.region_data, ob
+        self.size = np.array([context.region.width, context.region.height], dtype=np.float64)
+        self.offset = stripe_scene.compute_offset(context, ob)
+        self.xray = context.space_data.shading.show_xray
+
+    def measure_pixels(self, radius: float) -> float:
+        """Returns by how much something of this radius in pixels is nearer than the stripes, for `move_nearer`."""
+        return RADII_NEARER * stripes.measure_pixels(np.array(self.region_3d.window_matrix), radius, self.size[0])
+
+    def nearer(self, share: float) -> "NearerProjection":
+        return NearerProjection(self, self.offset + share)
+
+
+class CagePainter(SurfacePainter):
     """Draws the cage of one object in one viewport."""
 
     def __init__(self, context: bpy.types.Context, ob: bpy.types.Object, dots: gpu.types.GPUShader) -> None:
-        self.region_3d, self.ob, self.dots = context.region_data, ob, dots
-        self.size = np.array([context.region.width, context.region.height], dtype=np.float64)
-        self.style = read_style(context)
-        self.offset = stripe_scene.compute_offset(context, ob)
-        self.xray = context.space_data.shading.show_xray
+        super().__init__(context, ob)
+        self.dots, self.style = dots, read_style(context)
 
     def draw(self, shown: ShownCage) -> None:
         gpu.state.depth_test_set('NONE' if self.xray else 'LESS_EQUAL')
@@ -241,18 +255,11 @@ class CagePainter:
         batch.draw(self.dots)
         gpu.state.program_point_size_set(False)
 
-    def measure_pixels(self, radius: float) -> float:
-        """Returns by how much something of this radius in pixels is nearer than the stripes, for `move_nearer`."""
-        return RADII_NEARER * stripes.measure_pixels(np.array(self.region_3d.window_matrix), radius, self.size[0])
-
-    def nearer(self, share: float) -> "NearerProjection":
-        return NearerProjection(self, self.offset + share)
-
 
 class NearerProjection:
     """The matrices of Blender's own shaders while something is drawn nearer to the eye."""
 
-    def __init__(self, painter: CagePainter, share: float) -> None:
+    def __init__(self, painter: SurfacePainter, share: float) -> None:
         self.painter = painter
         self.projection = Matrix(stripes.move_nearer(np.array(painter.region_3d.window_matrix), share))
 

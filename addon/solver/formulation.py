@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import native
 from ..model import mirror
+from ..model.border import CODES, UNSET, fill_border
 from ..model.cage import CagePatch
 from ..model.line_surface import LineState
 from ..model.patch import Patch
@@ -18,7 +19,6 @@ from ..targets import mirror_target
 
 # Arguments of reflines.smooth_panel by their names.
 PressSettings = Mapping[str, "str | float | bool | native.Progress | None"]
-BORDER_CODES = {"free": 0, "fixed": 1, "clamped": 2}  # codes of a vertex's border
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,10 @@ class Formulation:
 
     def choose_border(self, border: str) -> str | np.ndarray:
         """Returns the border, or its codes vertex by vertex (#V), as the native module takes it."""
-        if self.patch.mirror is None or not self.patch.mirror.image:
-            return border
-        return np.where(self.patch.mirror.seam, BORDER_CODES["clamped"], BORDER_CODES[border])
+        own = self.patch.border
+        if self.patch.mirror is not None and self.patch.mirror.image:
+            own = np.where(self.patch.mirror.seam, CODES["clamped"], own)
+        return fill_border(own, border)
 
     def build(self, border: str, progress: "native.Progress | None", *,
               sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
@@ -134,6 +135,11 @@ class SymmetricFormulation(Formulation):
     def image_sign(self) -> np.ndarray | None:
         return self.patch.mirror.sign
 
+    def choose_border(self, border: str) -> str | np.ndarray:
+        """Returns the border; of two mirror images the firmer one holds for both, since their moves are averaged."""
+        codes = fill_border(self.patch.border, border)
+        return codes if isinstance(codes, str) else np.maximum(codes, codes[self.patch.mirror.partner])
+
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         move = optimizer.positions - self.patch.V
         return self.patch.V + 0.5 * (move + move[self.patch.mirror.partner])
@@ -156,12 +162,17 @@ class JoinedFormulation(Formulation):
         local, F, partner = mirror.join_with_image(self.patch.mirror, self.patch.local, self.patch.F)
         return self.patch.to_world(local), F, partner
 
+    def choose_border(self, border: str) -> str | np.ndarray:
+        _, _, partner = self.join()
+        own = self.patch.border
+        return fill_border(np.append(own, own[partner[len(own):]]), border)
+
     def build(self, border: str, progress: "native.Progress | None", *,
               sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
         V, F, partner = self.join()
         fixed = None if held is None else np.append(held, held[partner[len(held):]])
-        return native.reflines.ShapeOptimizer(V, F, **self.choose_directions(), progress=progress, border=border,
-                                              fixed=fixed,
+        return native.reflines.ShapeOptimizer(V, F, **self.choose_directions(), progress=progress,
+                                              border=self.choose_border(border), fixed=fixed,
                                               **self.patch.creases.build_arguments(partner))
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -178,7 +189,7 @@ class JoinedFormulation(Formulation):
         own = self.hold_marked_creases()
         held = np.append(own, own[partner[len(own):]])
         positions, told = native.reflines.smooth_panel(V, F, **self.choose_press_directions(), fixed=held,
-                                                       border=border, **settings)
+                                                       border=self.choose_border(border), **settings)
         return Press(self.average_images(positions - V, partner), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
@@ -198,6 +209,18 @@ class CageFormulation(Formulation):
     def image_sign(self) -> np.ndarray | None:
         return np.where(np.arange(3) == self.patch.mirror_axis, -1.0, 1.0) if self.is_symmetric else None
 
+    def choose_border(self, border: str) -> str | np.ndarray:
+        """Returns the border, or its codes for the cage's vertices; the image of a Mirror modifier has those of the
+        mesh's own half.
+        """
+        cage, index = self.patch.cage, self.patch.index
+        own = np.full(len(cage.V), UNSET)
+        own[index] = self.patch.border
+        image = cage.partner[index]
+        added = (image >= 0) & ~np.isin(image, index)
+        own[image[added]] = self.patch.border[added]
+        return fill_border(own, border)
+
     def build(self, border: str, progress: "native.Progress | None", *, sparse: bool,
               held: np.ndarray | None = None) -> "native.CageOptimizer":
         fixed = None
@@ -205,8 +228,9 @@ class CageFormulation(Formulation):
             fixed = np.zeros(len(self.patch.cage.V), dtype=bool)
             fixed[self.patch.index] = held
         return native.reflines.CageOptimizer(**self.patch.cage.build_arguments(self.is_symmetric),
-                                             **self.choose_directions(), progress=progress, border=border, fixed=fixed,
-                                             sparse=sparse, **self.patch.creases.build_cage_arguments())
+                                             **self.choose_directions(), progress=progress,
+                                             border=self.choose_border(border), fixed=fixed, sparse=sparse,
+                                             **self.patch.creases.build_cage_arguments())
 
     def read_triangles(self, optimizer: "native.CageOptimizer") -> np.ndarray:
         return optimizer.triangles
@@ -240,7 +264,7 @@ class CageFormulation(Formulation):
         arguments = cage.build_arguments(self.is_symmetric)
         arguments["limit_surface"] = arguments.pop("limit")
         positions, told = native.reflines.smooth_cage_panel(**arguments, **self.choose_press_directions(),
-                                                            border=border, **settings)
+                                                            border=self.choose_border(border), **settings)
         return Press(self.patch.V + (positions - cage.V)[self.patch.index], self.spread_to_triangles(told.stray), told,
                      told.largest_control_move)
 

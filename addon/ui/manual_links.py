@@ -17,7 +17,7 @@ SETTINGS = (
     *((f"bpy.types.reflines{tool}.*", f"#reflines.{tool}") for tool in ("direction", "untwist", "warp", "pattern")),
     ("bpy.types.reflinesscene.camera", "#view-and-light"),
     ("bpy.types.reflinesscene.light*", "#view-and-light"),
-    *((f"bpy.types.reflinesscene.{name}", "#region") for name in ("border", "solve_for", "result")),
+    *((f"bpy.types.reflinesscene.{name}", "#region") for name in ("border", "show_borders", "solve_for", "result")),
     ("bpy.types.reflinesobject.crease*", "#region"),
     ("bpy.types.reflinespull.*", "#reflines.pull_line"),
     ("bpy.types.reflineshandles.*", "#reflines.pull_line"),

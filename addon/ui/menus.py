@@ -28,6 +28,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.separator()
         for name, icon in SETUP:
             layout.operator(name, icon=icon)
+        layout.operator_menu_enum("reflines.set_border", "border")
         layout.separator()
         stripes = context.scene.reflection_lines.stripes
         layout.prop(stripes, "show", text="Show Zebra Stripes")

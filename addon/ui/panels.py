@@ -96,10 +96,20 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         layout.prop(context.scene.reflection_lines, "result")
         ob = context.view_layer.objects.active
         if ob is not None and ob.type == 'MESH':
+            self.draw_borders(layout, context.scene.reflection_lines)
             self.draw_creases(layout, ob.reflection_lines)
         if ob is not None and ob.reflection_lines.is_cage():
             layout.prop(context.scene.reflection_lines, "solve_for")
             layout.operator("reflines.fit", icon='MOD_SHRINKWRAP')
+
+    def draw_borders(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+        head = layout.row(align=True)
+        head.label(text="Border of the Selected")
+        head.prop(settings, "show_borders", text="", icon='HIDE_OFF' if settings.show_borders else 'HIDE_ON')
+        head.operator("reflines.set_border", text="", icon='X').border = 'unset'
+        row = layout.row(align=True)
+        for name, label in (("clamped", "Clamped"), ("fixed", "Fixed"), ("free", "Free")):
+            row.operator("reflines.set_border", text=label).border = name
 
     def draw_creases(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
         layout.prop(settings, "creases")

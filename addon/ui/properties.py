@@ -2,7 +2,8 @@
 import json
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import (BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty,
+                       StringProperty)
 from mathutils import Vector
 
 from ..bridge import light_angles, modifiers, scene_objects, units
@@ -222,6 +223,9 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     limit_automatic: switch_property("limit", "Limit")
     solve_for: solve_for_property()
     result: result_property()
+    show_borders: BoolProperty(name="Show Borders", default=True,
+                               description="Draw the borders that were set by segment: green Free, orange Fixed, blue "
+                               "Clamped")
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     pull: PointerProperty(type=ReflinesPull)

@@ -26,11 +26,11 @@ SubdivisionOptions subdivision_options(int level, const std::string& scheme, con
           limit};
 }
 
-CageOptions cage_options_of(const std::optional<Mask>& region, const std::string& border,
+CageOptions cage_options_of(const std::optional<Mask>& region, const Codes& border, Eigen::Index vertices,
                             const std::optional<Mask>& fixed, const std::optional<Indices>& partner) {
   CageOptions options;
   if (region) options.region = *region;
-  options.hold = find_named(kBorders, border, "border");
+  options.border = border_codes(border, vertices);
   if (fixed) options.held = *fixed;
   if (partner) options.partner = index_vector(*partner);
   return options;

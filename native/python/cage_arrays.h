@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "python/border_codes.h"
 #include "python/index_arrays.h"
 #include "reflines/cage_optimizer.h"
 #include "reflines/subdivision.h"
@@ -28,7 +29,7 @@ Cage cage_of(const CageArrays& arrays, int vertices);
 SubdivisionOptions subdivision_options(int level, const std::string& scheme, const std::string& boundary, bool limit);
 
 // Reads what of a cage may move; the other options keep their defaults.
-CageOptions cage_options_of(const std::optional<Mask>& region, const std::string& border,
+CageOptions cage_options_of(const std::optional<Mask>& region, const Codes& border, Eigen::Index vertices,
                             const std::optional<Mask>& fixed, const std::optional<Indices>& partner);
 
 }  // namespace reflines

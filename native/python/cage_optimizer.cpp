@@ -48,7 +48,7 @@ constexpr double kCageCreaseAngle = 1.5 * kCreaseAngle;
 
 std::unique_ptr<CageOptimizer> build_optimizer(
     const Positions& V, const Indices& face_offsets, const Indices& face_vertices, const Vector3& view_direction,
-    const Eigen::MatrixXd& line_direction, const std::optional<Mask>& region, const std::string& border,
+    const Eigen::MatrixXd& line_direction, const std::optional<Mask>& region, const Codes& border,
     const std::optional<Mask>& fixed, const std::optional<Indices>& partner, int level, const std::string& scheme,
     const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness, const Indices& corners,
     const Numbers& corner_sharpness, bool limit, bool sparse, const std::string& stencil,
@@ -56,7 +56,7 @@ std::unique_ptr<CageOptimizer> build_optimizer(
     std::shared_ptr<Progress> progress) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
-  CageOptions options = cage_options_of(region, border, fixed, partner);
+  CageOptions options = cage_options_of(region, border, V.rows(), fixed, partner);
   options.subdivision = subdivision_options(level, scheme, boundary, limit);
   options.sparse = sparse;
   options.shape.stencil = find_named(kStencils, stencil, "stencil");

@@ -193,7 +193,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
 
 def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
                       view_direction: Sequence[float], line_direction: Sequence[float],
-                      region: np.ndarray | None = None, border: Border = "clamped", fixed: np.ndarray | None = None,
+                      region: np.ndarray | None = None, border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None,
                       partner: np.ndarray | None = None, level: int = 2, scheme: Scheme = "catmull_clark",
                       boundary: Boundary = "all", creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                       corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,
@@ -220,7 +220,8 @@ class CageOptimizer(ShapeOptimizer):
     def __init__(self, V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
                  view_direction: Sequence[float], line_direction: Sequence[float] | np.ndarray,
                  region: np.ndarray | None = None,    # #faces bool: those that may change; default all
-                 border: Border = "clamped",          # of the region, on the surface: its limit position and tangents stay
+                 border: Border | np.ndarray = "clamped",  # of the region, on the surface: its limit position and tangents
+                                                      # stay; or #V codes 0 free, 1 fixed, 2 clamped, see cage_border.h
                  fixed: np.ndarray | None = None,     # #V bool: held whatever the border says
                  partner: np.ndarray | None = None,   # #V of mirror_pairs, mutual, -1: none. Partners keep equal moves
                  level: int = 2, scheme: Scheme = "catmull_clark", boundary: Boundary = "all",

@@ -64,16 +64,16 @@ py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_
 
 py::tuple smooth_cage(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
                       const Vector3& view_direction, const Vector3& line_direction, const std::optional<Mask>& region,
-                      const std::string& border, const std::optional<Mask>& fixed,
-                      const std::optional<Indices>& partner, int level, const std::string& scheme,
-                      const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness,
-                      const Indices& corners, const Numbers& corner_sharpness, bool limit_surface,
-                      const std::string& lights, const std::optional<double>& length, double strength,
-                      const std::optional<double>& limit, bool symmetric, std::shared_ptr<Progress> progress) {
+                      const Codes& border, const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
+                      int level, const std::string& scheme, const std::string& boundary, const Indices& creases,
+                      const Numbers& crease_sharpness, const Indices& corners, const Numbers& corner_sharpness,
+                      bool limit_surface, const std::string& lights, const std::optional<double>& length,
+                      double strength, const std::optional<double>& limit, bool symmetric,
+                      std::shared_ptr<Progress> progress) {
   const SmoothPanelOptions options = options_of(lights, length, strength, limit, symmetric, std::move(progress));
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
-  CageOptions cage_options = cage_options_of(region, border, fixed, partner);
+  CageOptions cage_options = cage_options_of(region, border, V.rows(), fixed, partner);
   cage_options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
   return run_unlocked(
       [&] { return smooth_cage_panel(cage, V, view_direction, line_direction, cage_options, options); });

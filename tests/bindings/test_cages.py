@@ -52,6 +52,27 @@ def test_a_clamped_border_keeps_its_limit_position_and_normal(region: str | None
     assert np.array_equal(solver.cage_positions[~solver.cage_free], V[~solver.cage_free])
 
 
+def test_each_segment_of_the_border_has_its_own_condition() -> None:
+    """The front is free, the sides are fixed, the rear is clamped."""
+    V, offsets, corners = cage = dented(hood(), VIEW, LINE)
+    x, y = np.abs(V[:, 0]) == 0.7, np.round(V[:, 1], 9)
+    codes = np.where(y == -0.6, 0, np.where(x & (y < 0.5), 1, 2))
+    solver = optimizer(cage, border=codes)
+    assert solver.solve(reflines.uniform(solver, density=1.2)).largest_move > 1e-3
+    moved = (solver.cage_positions != V).any(axis=1)
+    beside = np.abs(V[:, 0]) < 0.4
+    assert moved[(y == -0.6) & beside].all()
+    assert not moved[y > 0.5].any()      # clamped: the last two rows of the cage
+    assert not moved[x].any()
+    next_to_sides = np.isclose(np.abs(V[:, 0]), 0.7 * 7 / 8) & (y > -0.5) & (y < 0.2)
+    assert moved[next_to_sides].all()    # fixed: the second row moves
+    alike, press = optimizer(cage, border=np.full(len(V), 2)), {"view_direction": VIEW, "line_direction": LINE}
+    assert np.array_equal(alike.cage_free, optimizer(cage).cage_free)
+    pressed = reflines.smooth_cage_panel(*cage, **press, border=codes)[0]
+    assert np.array_equal(pressed[y > 0.5], V[y > 0.5])
+    assert (pressed != V).any()
+
+
 @pytest.mark.parametrize("change", [{3: 10**6}, {3: -7}, {3: 5}, {3: 5, 5: 3}])
 def test_mirror_partners_that_are_none_are_refused(change: dict[int, int]) -> None:
     """Of 17 in a row, 3 and 13 are a pair, and 5 and 11."""
@@ -170,6 +191,8 @@ def test_the_same_bits_for_any_number_of_targets_before() -> None:
     ({"fixed": np.ones(255, bool)}, "No vertex"),
     ({"level": 9}, "level is 9"),
     ({"border": "glued"}, "'glued'"),
+    ({"border": np.zeros(3, int)}, "border codes has 3 entries"),
+    ({"border": np.full(255, 4)}, "Border codes are"),
     ({"view_direction": (0, 0, -1)}, "turn away"),
 ])
 def test_unusable_input_gets_one_sentence(options: dict, said: str) -> None:

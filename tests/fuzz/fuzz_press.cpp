@@ -72,7 +72,7 @@ void press_cage(Bytes& bytes, const Vector3& view, const Vector3& line) {
   CageOptions options;
   options.subdivision.level = bytes.between(1, 2);
   options.subdivision.limit = !bytes.flag();
-  options.hold = bytes.flag() ? Border::kFixed : Border::kClamped;
+  options.border.assign(vertices, bytes.flag() ? Border::kFixed : Border::kClamped);
   options.held = fuzz::read_held(bytes, vertices);
   check(smooth_cage_panel(cage, V, view, line, options, read_options(bytes)), V, view, options.held);
 }

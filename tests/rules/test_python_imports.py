@@ -29,6 +29,7 @@ MAY_IMPORT = {
     "overlay.stripe_scene": {"overlay.stripes", "bridge"},
     "overlay.shown_objects": {"overlay.stripes", "bridge", "model", "state"},
     "overlay.draw_cage": {"overlay.stripes", "overlay.stripe_scene", "bridge", "model"},
+    "overlay.draw_borders": {"overlay.draw_cage", "bridge", "model"},
     "overlay.draw": {"overlay.stripes", "overlay.draw_cage", "overlay.legend",
                      "overlay.shader", "overlay.fitted_normals", "overlay.solve_maps",
                      "overlay.limit_surface", "overlay.stripe_scene", "overlay.shown_objects", "native", "bridge",
@@ -67,7 +68,8 @@ PURE = {"native", "model", "targets", "solver", "interactive.drag_handles", "ove
 
 FORBIDDEN_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
 OWNERS_OF_STATE = {"state.last_panels", "state.optimizer_cache", "state.solve_history", "interactive.drag",
-                   "interactive.live_warp_handlers", "interactive.background_thread", "overlay.draw"}
+                   "interactive.live_warp_handlers", "interactive.background_thread", "overlay.draw",
+                   "overlay.draw_borders"}
 
 
 def module_name(file: Path) -> str:

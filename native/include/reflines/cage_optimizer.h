@@ -16,10 +16,10 @@ namespace reflines {
 struct CageSurface;
 
 struct CageOptions {
-  Mask region;                     // #cage faces that may change; empty: all
-  Border hold = Border::kClamped;  // of the region's border on the subdivided surface
-  Mask held;                       // #V or empty: vertices that stay whatever the border says
-  IndexVector partner;             // #V or empty: see mirror_pairs; partners keep equal moves along the view
+  Mask region;                 // #cage faces that may change; empty: all
+  std::vector<Border> border;  // #V, or empty: clamped everywhere; of the region's border on the subdivided surface
+  Mask held;                   // #V or empty: vertices that stay whatever the border says
+  IndexVector partner;         // #V or empty: see mirror_pairs; partners keep equal moves along the view
   SubdivisionOptions subdivision;
   // Samples the energy: from level 3 on only every eighth triangle (Loop: fourth), evenly spread, with a larger weight.
   // Meant for drags: updates take a fraction of the time, and shapes differ by 0.6 % of the move (those of level 2 by 7

@@ -16,6 +16,25 @@ void mark_columns(const SparseMatrix& matrix, const Mask& rows, Mask* columns) {
   }
 }
 
+// Returns the condition of each refined vertex (#refined): on the refined border that of the cage's border vertex with
+// the largest weight, of equal ones the firmest; elsewhere kFree.
+std::vector<Border> carry_border(const Subdivision& subdivision, const Mask& on_border,
+                                 const std::vector<Border>& border) {
+  constexpr double kEqual = 1e-9;  // weights add up to 1
+  std::vector<Border> result(on_border.size(), Border::kFree);
+  Vector largest = Vector::Zero(on_border.size());
+  for (int v = 0; v < subdivision.positions.cols(); ++v) {
+    if (!on_border[v]) continue;  // the cage's own vertices are the first refined ones
+    for (SparseMatrix::InnerIterator it(subdivision.positions, v); it; ++it) {
+      const auto row = it.row();
+      if (!on_border[row] || it.value() < largest[row] - kEqual) continue;
+      result[row] = it.value() > largest[row] + kEqual ? border[v] : std::max(result[row], border[v]);
+      largest[row] = std::max(largest[row], it.value());
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 Mask find_refined_border(const Subdivision& subdivision, const Mask& region) {
@@ -38,19 +57,22 @@ Mask find_refined_border(const Subdivision& subdivision, const Mask& region) {
   return border;
 }
 
-Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, Border hold) {
-  const Mask border = find_refined_border(subdivision, region);
-  Mask held = Mask::Constant(subdivision.positions.cols(), false);
-  if (hold != Border::kFree) mark_columns(subdivision.positions, border, &held);
-  if (hold == Border::kClamped) {
-    mark_columns(subdivision.tangent_u, border, &held);
-    mark_columns(subdivision.tangent_v, border, &held);
+Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, const std::vector<Border>& border) {
+  const std::vector<Border> refined = carry_border(subdivision, find_refined_border(subdivision, region), border);
+  Mask fixed(subdivision.positions.rows()), clamped(subdivision.positions.rows());
+  for (size_t i = 0; i < refined.size(); ++i) {
+    fixed[static_cast<int>(i)] = refined[i] != Border::kFree;
+    clamped[static_cast<int>(i)] = refined[i] == Border::kClamped;
   }
+  Mask held = Mask::Constant(subdivision.positions.cols(), false);
+  mark_columns(subdivision.positions, fixed, &held);
+  mark_columns(subdivision.tangent_u, clamped, &held);
+  mark_columns(subdivision.tangent_v, clamped, &held);
   Mask inside = Mask::Constant(held.size(), false);
   for (int f = 0; f < subdivision.faces.rows(); ++f) {
     if (!region[subdivision.face_parent[f]]) continue;
     for (const int vertex : subdivision.faces.row(f)) {
-      if (vertex < held.size()) inside[vertex] = true;  // the cage's own vertices are the first refined ones
+      if (vertex < held.size()) inside[vertex] = true;
     }
   }
   return held || !inside;

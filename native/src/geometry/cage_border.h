@@ -2,6 +2,8 @@
 // of the refined surface; the subdivision matrices tell on which vertices of the cage it depends.
 #pragma once
 
+#include <vector>
+
 #include "reflines/border.h"
 #include "reflines/subdivision.h"
 #include "reflines/types.h"
@@ -19,6 +21,8 @@ Mask find_refined_border(const Subdivision& subdivision, const Mask& region);
 // * where the region ends inside the surface, both depend on its border's ring and one ring more. All refined vertices
 // outside stay then, too, and with them the curvature across the border where the surface is regular.
 // The set is minimal: on a sheet, positions and tangents of the border determine every held vertex.
-Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, Border hold);
+// `border` (#V) is read at the cage's vertices on the border. A point of the surface's border has the condition of the
+// one that weighs most there: where a held segment meets a free one, it is held up to the middle of the edge between.
+Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, const std::vector<Border>& border);
 
 }  // namespace reflines

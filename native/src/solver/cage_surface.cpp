@@ -41,6 +41,7 @@ void check_arrays(const Cage& cage, const Positions& V, const CageOptions& optio
                        " vertices of the cage have a coordinate that is not a finite number; delete or retype them.");
   }
   check_length(options.region.size(), cage.face_offsets.size() - 1, "region mask");
+  check_length(static_cast<Eigen::Index>(options.border.size()), cage.vertices, "list of border codes");
   check_length(options.held.size(), cage.vertices, "held mask");
   check_length(options.partner.size(), cage.vertices, "list of mirror partners");
   check_partners(options.partner);
@@ -130,7 +131,9 @@ CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector
   const Subdivision whole = subdivide(cage, options.subdivision, progress);
   enter(0.5, "choosing the region");
   const Mask region = options.region.size() > 0 ? options.region : Mask::Constant(cage.face_offsets.size() - 1, true);
-  Mask held = find_held_vertices(whole, region, options.hold);
+  std::vector<Border> border = options.border;
+  if (border.empty()) border.assign(cage.vertices, Border::kClamped);
+  Mask held = find_held_vertices(whole, region, border);
   if (options.held.size() > 0) held = held || options.held;
   CageSurface surface;
   const std::vector<int> number = number_vertices(whole, region, surface.refined);

@@ -13,6 +13,12 @@ namespace {
 constexpr auto kPosition = Border::kFixed;
 constexpr auto kTangent = Border::kClamped;
 
+// One condition all around.
+Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, Border border) {
+  const std::vector<Border> everywhere(subdivision.positions.cols(), border);
+  return reflines::find_held_vertices(subdivision, region, everywhere);
+}
+
 Mask everywhere(const Cage& cage) { return Mask::Constant(cage.face_offsets.size() - 1, true); }
 
 SubdivisionOptions at(int level, bool limit, SubdivisionBoundary boundary = SubdivisionBoundary::kAll) {
@@ -97,6 +103,24 @@ TEST(CageBorder, CreasesAcrossAndAlongTheBorderChangeNothing) {
     for (int i = 0; i < 6; ++i) add_crease(&along.cage, 7 + i, 8 + i, sharpness);
     expect_rings_at_all_levels(across.cage);
     expect_rings_at_all_levels(along.cage);
+  }
+}
+
+TEST(CageBorder, SegmentsAreHeldUpToTheMiddleOfTheNextEdge) {
+  constexpr int kRow = 9;  // vertices of a row of the grid
+  const PlacedCage placed = grid(8, 8);
+  std::vector<Border> border(placed.cage.vertices, Border::kFree);
+  for (int v = 0; v < kRow; ++v) border[v] = v < 4 ? Border::kClamped : Border::kFixed;
+  const Subdivision result = subdivide(placed.cage, at(2, true));
+  const Mask held = reflines::find_held_vertices(result, everywhere(placed.cage), border);
+  for (int v = 0; v < placed.cage.vertices; ++v) {
+    const int x = v % kRow, y = v / kRow;
+    // The surface at the middle of an edge depends on one vertex more, and so does the last held point on the sides.
+    const bool on_segment = y == 0 || (y == 1 && x <= 4) || (y <= 2 && (x == 0 || x == 8)) || (y == 2 && x == 1);
+    if (y == 0) EXPECT_TRUE(held[v]) << v;
+    if (!on_segment && y > 2) EXPECT_FALSE(held[v]) << v;
+    if (y == 1 && x > 5 && x < 8) EXPECT_FALSE(held[v]) << v;
+    if (y == 1 && x > 0 && x <= 4) EXPECT_TRUE(held[v]) << v;
   }
 }
 

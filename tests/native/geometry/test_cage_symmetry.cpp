@@ -54,7 +54,7 @@ TEST(CageSymmetry, APlaneNeedsANormal) {
 TEST(CageSymmetry, UnknownsReachEveryFreeVertexOnceAndNoHeldOne) {
   const PlacedCage placed = grid(6, 6);
   const Subdivision surface = subdivide(placed.cage, {});
-  const Mask held = find_held_vertices(surface, Mask::Constant(36, true), Border::kClamped);
+  const Mask held = find_held_vertices(surface, Mask::Constant(36, true), std::vector<Border>(49, Border::kClamped));
   const SparseMatrix B = build_cage_unknowns(held, mirror_pairs(placed.V, kMiddle, 1e-6));
   EXPECT_EQ(B.cols(), 3 * 2);  // 3 x 3 free vertices, a column of them on the plane
   const Vector reached = B * Vector::Ones(B.cols());

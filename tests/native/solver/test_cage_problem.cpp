@@ -39,7 +39,8 @@ Crown crown(int n) {
 PieceProblem problem_of(const Crown& crown, Border hold, int level, double proximity = -1.0) {
   const Subdivision surface = subdivide(crown.cage, {.level = level});
   const Mask region = Mask::Constant(crown.cage.face_offsets.size() - 1, true);
-  const SparseMatrix B_cage = build_cage_unknowns(find_held_vertices(surface, region, hold), {});
+  const std::vector<Border> border(crown.cage.vertices, hold);
+  const SparseMatrix B_cage = build_cage_unknowns(find_held_vertices(surface, region, border), {});
   const SparseMatrix B = surface.positions * B_cage;
   const Vector start = B_cage.transpose() * crown.V.col(2);
   Triangles F(2 * surface.faces.rows(), 3);

@@ -1,0 +1,110 @@
+"""The border's condition by segment: a vertex attribute, so that undo, save and edits keep it.
+
+It is an integer: 0 where the tool's own border holds, else one more than the native code. Blender fills new vertices
+with zeros.
+"""
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..model import border
+from ..model.refusal import Refusal
+from . import read_mesh, vertex_attributes
+
+ATTRIBUTE = "reflines_border"
+LARGEST = 1 + max(border.CODES.values())
+
+
+@dataclass(frozen=True)
+class BorderEdges:
+    """The edges between vertices with a condition of their own."""
+    V: np.ndarray      # #V x 3, object space
+    ends: np.ndarray   # #E x 2 of V
+    codes: np.ndarray  # #V
+
+
+def read_border(ob: bpy.types.Object, index: np.ndarray) -> np.ndarray:
+    """Reads the codes of a patch's vertices, whose numbers in the mesh are `index` (#V): #V, border.UNSET where one
+    has none of its own. Refuses values that are no codes.
+    """
+    values = (read_edit_values if ob.mode == 'EDIT' else read_object_values)(ob.data)[index].astype(np.int64)
+    wrong = int(((values < 0) | (values > LARGEST)).sum())
+    if wrong:
+        raise Refusal(f"{ob.name}: {wrong} vertices have a border that is none of Free, Fixed and Clamped: select them "
+                      "and press one of these under Border of the Selected")
+    return values - 1
+
+
+def read_edit_values(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Reads the stored values in Edit Mode, where attributes are empty: #vertices."""
+    edit = bmesh.from_edit_mesh(mesh)
+    layer = edit.verts.layers.int.get(ATTRIBUTE)
+    if layer is None:
+        return np.zeros(len(edit.verts), dtype=np.int32)
+    return np.fromiter((vertex[layer] for vertex in edit.verts), np.int32, len(edit.verts))
+
+
+def read_object_values(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Reads the stored values in Object Mode: #vertices; zeros where the attribute is of another type."""
+    values = np.zeros(len(mesh.vertices), dtype=np.int32)
+    attribute = mesh.attributes.get(ATTRIBUTE)
+    if attribute is not None and (attribute.domain, attribute.data_type) == ('POINT', 'INT'):
+        attribute.data.foreach_get("value", values)
+    return values
+
+
+def set_selected_border(ob: bpy.types.Object, name: str) -> int:
+    """Sets the border of the selected vertices in Edit Mode, or takes their own away for an empty name. With faces
+    selected by faces, it is that of their rim. Returns how many vertices these are.
+    """
+    vertex_attributes.refuse_taken_attribute(ob, ATTRIBUTE, 'INT')
+    edit = bmesh.from_edit_mesh(ob.data)
+    layers = edit.verts.layers.int
+    layer = layers.get(ATTRIBUTE) or layers.new(ATTRIBUTE)
+    chosen = list(list_rim(edit) if edit.select_mode == {'FACE'} else list_selected(edit))
+    for vertex in chosen:
+        vertex[layer] = border.CODES.get(name, border.UNSET) + 1
+    bmesh.update_edit_mesh(ob.data, loop_triangles=False, destructive=False)
+    return len(chosen)
+
+
+def list_selected(edit: bmesh.types.BMesh) -> Iterator[bmesh.types.BMVert]:
+    return (vertex for vertex in edit.verts if vertex.select and not vertex.hide)
+
+
+def list_rim(edit: bmesh.types.BMesh) -> set[bmesh.types.BMVert]:
+    """Lists the vertices of edges with exactly one selected face."""
+    rim = (edge for edge in edit.edges if edge.select and sum(face.select for face in edge.link_faces) == 1)
+    return {vertex for edge in rim for vertex in edge.verts}
+
+
+def read_border_edges(ob: bpy.types.Object) -> BorderEdges | None:
+    """Reads the edges to draw, of the shape that the tools change; None where no vertex has a border of its own."""
+    return read_edit_edges(ob) if ob.mode == 'EDIT' else read_object_edges(ob)
+
+
+def read_edit_edges(ob: bpy.types.Object) -> BorderEdges | None:
+    edit = bmesh.from_edit_mesh(ob.data)
+    layer = edit.verts.layers.int.get(ATTRIBUTE)
+    own = [] if layer is None else [vertex for vertex in edit.verts if 0 < vertex[layer] <= LARGEST and not vertex.hide]
+    if not own:
+        return None
+    number = {vertex: k for k, vertex in enumerate(own)}
+    edges = {edge for vertex in own for edge in vertex.link_edges}
+    ends = [[number[vertex] for vertex in edge.verts] for edge in edges
+            if all(vertex in number for vertex in edge.verts)]
+    return BorderEdges(np.array([vertex.co[:] for vertex in own]), np.array(ends, dtype=np.int64).reshape(-1, 2),
+                       np.array([vertex[layer] - 1 for vertex in own]))
+
+
+def read_object_edges(ob: bpy.types.Object) -> BorderEdges | None:
+    values = read_object_values(ob.data)
+    own = (values > 0) & (values <= LARGEST)
+    if not own.any():
+        return None
+    ends = read_mesh.read_integers(ob.data.edges, "vertices", 2).reshape(-1, 2)
+    number = np.cumsum(own) - 1
+    return BorderEdges(read_mesh.read_coordinates(ob)[own], number[ends[own[ends].all(axis=1)]], values[own] - 1)

@@ -1,0 +1,12 @@
+"""The condition at a region's border: one for all vertices, or each segment's own."""
+import numpy as np
+
+CODES = {"free": 0, "fixed": 1, "clamped": 2}  # by which the native module knows them
+UNSET = -1  # of a vertex without a condition of its own
+
+
+def fill_border(own: np.ndarray, border: str) -> str | np.ndarray:
+    """Returns the border as the native module takes it: the name where no vertex has a code of its own (#V), else the
+    codes, with the name's for the others.
+    """
+    return np.where(own == UNSET, CODES[border], own) if (own != UNSET).any() else border

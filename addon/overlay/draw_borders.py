@@ -1,0 +1,123 @@
+"""Draws the borders that were set by segment: along the mesh's edges, in one colour for each condition."""
+from dataclasses import dataclass, field
+
+import bpy
+import gpu
+import numpy as np
+
+from ..bridge import border_segments
+from ..bridge.border_segments import BorderEdges
+from ..model import border
+from . import draw_cage
+
+COLORS = {"free": (0.25, 0.85, 0.3), "fixed": (1.0, 0.55, 0.05), "clamped": (0.2, 0.5, 1.0)}  # sRGB
+RIM_COLOR = (0.0, 0.0, 0.0, 0.7)
+WIDTH, RIM = 3.5, 1.0  # pixels
+
+
+@dataclass
+class ShownBorders:
+    """The batches of one object: all edges, and the halves of edges in each colour."""
+    whole: gpu.types.GPUBatch | None = None
+    halves: dict[str, gpu.types.GPUBatch] = field(default_factory=dict)
+
+
+@dataclass
+class BorderCache:
+    """The borders drawn last, by the name and mode of the object; empty where a mesh may have changed since."""
+    shown: dict[tuple[str, str], ShownBorders] = field(default_factory=dict)
+    handles: list = field(default_factory=list)
+
+
+_cache = BorderCache()
+
+
+def split_edges(edges: BorderEdges) -> dict[str, np.ndarray]:
+    """Splits edges at their middles: the points of each condition's line segments, two a segment (#P x 3)."""
+    first, second = edges.V[edges.ends[:, 0]], edges.V[edges.ends[:, 1]]
+    middle = 0.5 * (first + second)
+    points = np.concatenate([np.stack([first, middle], axis=1), np.stack([middle, second], axis=1)])
+    codes = np.concatenate([edges.codes[edges.ends[:, 0]], edges.codes[edges.ends[:, 1]]])
+    return {name: points[codes == code].reshape(-1, 3) for name, code in border.CODES.items()}
+
+
+def build_borders(ob: bpy.types.Object) -> ShownBorders:
+    edges = border_segments.read_border_edges(ob)
+    if edges is None:
+        return ShownBorders()
+    halves = {name: draw_cage.build_batch('LINES', points, np.arange(len(points)).reshape(-1, 2))
+              for name, points in split_edges(edges).items() if len(points)}
+    return ShownBorders(draw_cage.build_batch('LINES', edges.V, edges.ends), halves)
+
+
+def find_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Returns the meshes whose borders are drawn: those in Edit Mode, else the active one."""
+    active = context.view_layer.objects.active
+    found = context.objects_in_mode if active is not None and active.mode == 'EDIT' else [active]
+    return [ob for ob in found if ob is not None and ob.type == 'MESH' and ob.mode in {'EDIT', 'OBJECT'}
+            and ob.visible_get(viewport=context.space_data)]
+
+
+def draw_borders() -> None:
+    """Draws the borders in a viewport (POST_VIEW), after the stripes."""
+    context = bpy.context
+    if not (context.scene.reflection_lines.show_borders and context.space_data.overlay.show_overlays):
+        return
+    for ob in find_objects(context):
+        key = ob.name, ob.mode
+        if key not in _cache.shown:
+            _cache.shown[key] = build_borders(ob)
+        if _cache.shown[key].halves:
+            draw_object(context, ob, _cache.shown[key])
+
+
+def draw_object(context: bpy.types.Context, ob: bpy.types.Object, shown: ShownBorders) -> None:
+    painter = draw_cage.SurfacePainter(context, ob)
+    gpu.state.depth_test_set('NONE' if painter.xray else 'LESS_EQUAL')
+    gpu.state.depth_mask_set(False)
+    gpu.state.blend_set('ALPHA')
+    with painter.nearer(painter.measure_pixels(0.5 * WIDTH + RIM)):
+        shader = gpu.shader.from_builtin('POLYLINE_UNIFORM_COLOR')
+        shader.bind()
+        shader.uniform_float("viewportSize", painter.size)
+        lines = [(shown.whole, RIM_COLOR, WIDTH + 2.0 * RIM)]
+        lines += [(batch, (*COLORS[name], 1.0), WIDTH) for name, batch in shown.halves.items()]
+        for batch, color, width in lines:
+            shader.uniform_float("color", color)
+            shader.uniform_float("lineWidth", width)
+            batch.draw(shader)
+    gpu.state.blend_set('NONE')
+    gpu.state.depth_test_set('NONE')
+
+
+@bpy.app.handlers.persistent
+def note_changes(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Forgets the borders where a mesh changed."""
+    if any(isinstance(update.id, (bpy.types.Mesh, bpy.types.Object)) and update.is_updated_geometry
+           for update in depsgraph.updates):
+        _cache.shown.clear()
+
+
+@bpy.app.handlers.persistent
+def clear_cache(*_: object) -> None:
+    _cache.shown.clear()
+
+
+HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", clear_cache), ("redo_post", clear_cache),
+            ("load_post", clear_cache))
+
+
+def register() -> None:
+    if bpy.app.background:
+        return
+    for name, handler in HANDLERS:
+        getattr(bpy.app.handlers, name).append(handler)
+    _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw_borders, (), 'WINDOW', 'POST_VIEW'))
+
+
+def unregister() -> None:
+    for name, handler in HANDLERS if _cache.handles else ():
+        getattr(bpy.app.handlers, name).remove(handler)
+    while _cache.handles:
+        bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
+    clear_cache()

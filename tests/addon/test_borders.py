@@ -1,0 +1,156 @@
+"""The border by segment in Blender: what was set on vertices holds in every tool, and bad attributes are refused."""
+import bmesh
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+
+ROW = 17  # vertices of a row of the panel
+
+
+def side(column: int) -> list[int]:
+    return [column + ROW * k for k in range(1, ROW - 1)]
+
+
+def select_vertices(ob: bpy.types.Object, wanted: list[int]) -> None:
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    bpy.ops.mesh.select_all(action='DESELECT')
+    mesh = bmesh.from_edit_mesh(ob.data)
+    mesh.verts.ensure_lookup_table()
+    for index in wanted:
+        mesh.verts[index].select = True
+    mesh.select_flush_mode()
+    bmesh.update_edit_mesh(ob.data)
+
+
+def set_border(ob: bpy.types.Object, wanted: list[int], border: str) -> None:
+    select_vertices(ob, wanted)
+    assert bpy.ops.reflines.set_border('EXEC_DEFAULT', True, border=border) == {'FINISHED'}
+
+
+def segmented_panel() -> bpy.types.Object:
+    """The rippled panel with its inner faces selected: the left side of their rim fixed, the right one free."""
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit(ob)
+    set_border(ob, side(1), 'fixed')
+    set_border(ob, side(15)[1:-1], 'free')
+    scenes.select_faces(ob, scenes.inner())
+    return ob
+
+
+def stored(ob: bpy.types.Object) -> np.ndarray:
+    if ob.mode == 'EDIT':
+        mesh = bmesh.from_edit_mesh(ob.data)
+        return np.array([vertex[mesh.verts.layers.int["reflines_border"]] for vertex in mesh.verts])
+    values = np.empty(len(ob.data.vertices), dtype=np.int32)
+    ob.data.attributes["reflines_border"].data.foreach_get("value", values)
+    return values
+
+
+def run(tool: str) -> set[str]:
+    settings = {"smooth": {"length": 0.6}, "press": {}, "direction": {"density": 1.3, "border": "clamped"},
+                "untwist": {"angle": 0.2, "border": "clamped"}}[tool]
+    name = "smooth" if tool == "press" else tool
+    return getattr(bpy.ops.reflines, name)('EXEC_DEFAULT', True, **settings)
+
+
+@pytest.mark.parametrize("tool", ["smooth", "press", "direction", "untwist"])
+def test_every_tool_obeys_the_segments(tool: str) -> None:
+    ob = segmented_panel()
+    before = scenes.positions(ob)
+    assert run(tool) == {'FINISHED'}
+    moved = (scenes.positions(ob) != before).any(axis=1)
+    assert not moved[side(1)].any()          # fixed
+    assert moved[side(2)[3:-3]].any()        # whose neighbours move: it is not clamped
+    assert moved[side(15)[4:-4]].any()       # free
+    assert not moved[[1 * ROW + k for k in range(5, 12)]].any()  # clamped, as the tool has it
+    assert not moved[[2 * ROW + k for k in range(5, 12)]].any()
+
+
+def test_a_cage_obeys_the_segments() -> None:
+    ob = segmented_panel()
+    ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+    before = scenes.positions(ob)
+    assert scenes.smooth(length=0.6) == {'FINISHED'}
+    moved = (scenes.positions(ob) != before).any(axis=1)
+    assert moved[side(15)[4:-4]].any()
+    assert not moved[[1 * ROW + k for k in range(5, 12)]].any()
+
+
+def test_the_mesh_keeps_what_was_set_through_modes_and_undo() -> None:
+    ob = segmented_panel()
+    values = stored(ob)
+    assert (values[side(1)] == 2).all()
+    assert (values[side(15)[1:-1]] == 1).all()
+    assert np.count_nonzero(values) == len(side(1)) + len(side(15)[1:-1])
+    scenes.object_mode()
+    assert np.array_equal(stored(ob), values)
+    scenes.edit(ob)
+    set_border(ob, side(1), 'unset')
+    assert not stored(ob)[side(1)].any()
+
+
+def test_of_faces_the_rim_is_set() -> None:
+    ob = scenes.panel()
+    scenes.edit(ob)
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    scenes.select_faces(ob, scenes.inner(margin=2))
+    assert bpy.ops.reflines.set_border(border='clamped') == {'FINISHED'}
+    assert np.count_nonzero(stored(ob)) == 4 * 12
+
+
+def test_other_segments_make_another_optimizer() -> None:
+    """A cached optimizer would go on holding what is no longer held, and the other way round."""
+    ob = segmented_panel()
+    assert scenes.smooth(length=0.6) == {'FINISHED'}
+    set_border(ob, side(1), 'unset')
+    scenes.select_faces(ob, scenes.inner())
+    before = scenes.positions(ob)
+    assert scenes.smooth(length=0.7) == {'FINISHED'}
+    assert not (scenes.positions(ob) != before).any(axis=1)[side(2)].any()  # clamped, as the tool has it
+
+
+@pytest.mark.parametrize("value", [-1, 4, 2**31 - 1, -2**31])
+def test_values_that_are_no_borders_are_refused(value: int) -> None:
+    ob = segmented_panel()
+    scenes.object_mode()
+    ob.data.attributes["reflines_border"].data[side(1)[0]].value = value
+    scenes.edit_inner(ob)
+    before = scenes.fingerprint(ob)
+    with pytest.raises(RuntimeError, match="1 vertices have a border that is none of Free, Fixed and Clamped"):
+        scenes.smooth()
+    assert scenes.fingerprint(ob) == before
+    set_border(ob, [side(1)[0]], 'fixed')
+    scenes.select_faces(ob, scenes.inner())
+    assert scenes.smooth(length=0.6) == {'FINISHED'}
+
+
+@pytest.mark.parametrize(("kind", "domain"), [('FLOAT', 'POINT'), ('INT', 'FACE')])
+def test_a_name_that_is_taken_is_refused(kind: str, domain: str) -> None:
+    ob = scenes.panel()
+    ob.data.attributes.new("reflines_border", kind, domain)
+    scenes.look_from_above()
+    scenes.edit_inner(ob)
+    with pytest.raises(RuntimeError, match="has another attribute reflines_border"):
+        bpy.ops.reflines.set_border(border='fixed')
+    assert scenes.smooth(length=0.6) == {'FINISHED'}
+
+
+def test_both_halves_below_a_mirror_have_the_borders_of_the_meshs_own() -> None:
+    """View and light are symmetric: the half is solved together with its image."""
+    grid = np.linspace(0.0, 1.0, 9)
+    vertices = [(x, y, scenes.rippled(x, 2 * y - 1)) for y in grid for x in grid]
+    faces = [(i, i + 1, i + 10, i + 9) for j in range(8) for i in range(9 * j, 9 * j + 8)]
+    ob = scenes.linked("Half", vertices, faces)
+    ob.modifiers.new("Mirror", 'MIRROR')
+    scenes.look_from_above()
+    scenes.edit(ob)
+    set_border(ob, [9 * k + 8 for k in range(9)], 'free')
+    bpy.ops.mesh.select_all(action='SELECT')
+    before = scenes.positions(ob)
+    assert scenes.smooth(length=0.6) == {'FINISHED'}
+    moved = (scenes.positions(ob) != before).any(axis=1)
+    assert moved[[9 * k + 8 for k in range(3, 6)]].all()
+    assert not moved[[9 * k + 8 for k in (0, 8)]].any()  # beside the clamped rows at both ends
