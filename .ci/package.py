@@ -11,11 +11,11 @@ import re
 import subprocess
 import sys
 import time
-import zipfile
 from pathlib import Path
 
 from debian import CACHE, Suite, Unavailable, output
 from static_libraries import static_libraries
+from wheel import version, write_zip
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build/package"
@@ -69,25 +69,16 @@ def check(module: Path) -> str:
     return f"{module.name}: {size:.1f} MB, glibc 2.{max(map(int, versions))} or newer, {', '.join(sorted(needed))}"
 
 
-def version() -> str:
-    return re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
-
-
 def addon_files() -> list[Path]:
     listing = output("git", "ls-files", "--cached", "--others", "--exclude-standard", "addon", cwd=ROOT)
     return [ROOT / name for name in sorted(set(listing.splitlines())) if (ROOT / name).is_file()]
 
 
 def make_zip(built: list[Path]) -> Path:
-    """The same content gives the same bytes: names sorted, one date."""
     path = BUILD / f"{NAME}-{version()}.zip"
     inside = {file.relative_to(ROOT / "addon"): file for file in addon_files()}
     inside |= {Path("LICENSE"): ROOT / "LICENSE"} | {Path(module.name): module for module in built}
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, file in sorted(inside.items()):
-            entry = zipfile.ZipInfo(f"{NAME}/{name.as_posix()}", (2000, 1, 1, 0, 0, 0))
-            entry.external_attr = (0o755 if file.suffix == ".so" else 0o644) << 16
-            archive.writestr(entry, file.read_bytes(), zipfile.ZIP_DEFLATED, 9)
+    write_zip(path, {f"{NAME}/{name.as_posix()}": file.read_bytes() for name, file in inside.items()})
     return path
 
 

@@ -1,10 +1,12 @@
 """Loads the native module `reflines`, which other modules take from here, and describes why it cannot be loaded."""
+import re
 import sys
 import sysconfig
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib import invalidate_caches
 from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
-from importlib.util import module_from_spec, spec_from_file_location
+from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -25,6 +27,20 @@ if TYPE_CHECKING:
     from .reflines import Target as Target
 
 HERE = Path(__file__).resolve().parent
+SYSTEMS = {"win32": "Windows", "darwin": "macOS"}
+SYSTEM = SYSTEMS.get(sys.platform, "Linux")
+# Words of Windows, macOS and Linux for a library that may not be loaded.
+BLOCKED = re.compile(r"Access is denied|Application Control|virus|system policy|code signature|not valid for use|"
+                     r"Operation not permitted|Permission denied")
+
+
+def find_library() -> Path | None:
+    """Returns the file of the module: beside this one, or where Blender unpacks the wheels of an extension."""
+    beside = [HERE / f"reflines{suffix}" for suffix in EXTENSION_SUFFIXES]
+    invalidate_caches()  # the wheel may have come in this session
+    wheel = find_spec("reflines")
+    installed = [Path(wheel.origin)] if wheel is not None and wheel.origin else []
+    return next((path for path in beside + installed if path.is_file()), None)
 
 
 def load_library() -> ModuleType:
@@ -32,8 +48,7 @@ def load_library() -> ModuleType:
 
     Each content is loaded once in a process, under a name of its own that survives reloads of the add-on.
     """
-    library = next((HERE / f"reflines{suffix}" for suffix in EXTENSION_SUFFIXES
-                    if (HERE / f"reflines{suffix}").is_file()), None)
+    library = find_library()
     if library is None:
         raise ImportError("there is none for this Python")
     digest = library_copy.compute_digest(library)
@@ -79,19 +94,40 @@ class State:
         return not self.problem
 
 
+def find_system(name: str) -> str:
+    """Returns the system for which a library of this name is built."""
+    if name.endswith(".pyd"):
+        return "Windows"
+    return "macOS" if "darwin" in name else "Linux"
+
+
 def describe_state() -> State:
     """Describes whether the module is loaded, and if not, why."""
     if reflines is not None:
         return State()
+    if find_library() is not None:
+        return describe_failure(_import_error)
     python = sysconfig.get_python_version()
     built = sorted(path.name for path in HERE.glob("reflines.*") if path.suffix in {".so", ".pyd"})
     if not built:
         return State("The native solver is missing from the add-on's folder.",
                      f"Install the add-on from its zip package, which has the solver for Python {python}.")
-    if not any(name == "reflines" + suffix for name in built for suffix in EXTENSION_SUFFIXES):
-        return State(f"The native solver ({', '.join(built)}) is for another Python than this Blender's {python}.",
-                     f"Install the package of the add-on that has the solver for Python {python}.")
-    return State(f"The native solver cannot be loaded: {_import_error}.",
+    systems = sorted({find_system(name) for name in built})
+    if SYSTEM not in systems:
+        return State(f"The native solver is for {' and '.join(systems)}, and this Blender runs on {SYSTEM}.",
+                     f"Install the package of the add-on for {SYSTEM}.")
+    return State(f"The native solver ({', '.join(built)}) is for another Python than this Blender's {python}.",
+                 f"Install the package of the add-on that has the solver for Python {python}.")
+
+
+def describe_failure(error: str) -> State:
+    """Describes why the system did not load a library that is there and fits."""
+    if BLOCKED.search(error):
+        remedies = {"Windows": "Allow it in the antivirus program, or ask who looks after this computer.",
+                    "macOS": "Allow it in System Settings > Privacy & Security, then start Blender again."}
+        return State(f"{SYSTEM} blocks the native solver: {error}.",
+                     remedies.get(SYSTEM, "Install the add-on in a folder from which programs may run."))
+    return State(f"The native solver cannot be loaded: {error}.",
                  "Install the missing library it names, or install the add-on's zip package again.")
 
 

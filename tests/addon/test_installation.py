@@ -112,6 +112,39 @@ def test_a_module_for_another_python(copy) -> None:
     stays_enabled_and_says("is for another Python than this Blender's", "Install the package of the add-on")
 
 
+def test_a_module_for_another_system(copy) -> None:
+    shutil.copy(native_module(), copy / "reflines.cp313-win_amd64.pyd")
+    shutil.copy(native_module(), copy / "reflines.cpython-313-darwin.so")
+    stays_enabled_and_says("is for Windows and macOS, and this Blender runs on Linux", "add-on for Linux")
+
+
+@pytest.mark.parametrize(("error", "blocked"), [
+    ("DLL load failed while importing reflines: Access is denied", True),
+    ("DLL load failed while importing reflines: An Application Control policy has blocked this file", True),
+    ("DLL load failed while importing reflines: The specified module could not be found", False),
+    ("dlopen(/x/reflines.so, 2): library load disallowed by system policy", True),
+    ("/x/reflines.so: failed to map segment from shared object: Operation not permitted", True),
+    ("libgomp.so.1: cannot open shared object file: No such file or directory", False),
+])
+def test_a_module_that_the_system_blocks(error: str, blocked: bool) -> None:
+    """The sentences are those of Windows, macOS and Linux."""
+    state = sys.modules[installation.NAME + ".native"].describe_failure(error)
+    assert ("blocks the native solver" in state.problem) == blocked
+    assert error in state.problem
+    assert ("may run" in state.remedy) == blocked
+
+
+def test_a_module_that_a_wheel_brought(copy, tmp_path, monkeypatch) -> None:
+    """Blender unpacks the wheels of an extension into a folder of Python modules."""
+    place = tmp_path / "site-packages"
+    place.mkdir()
+    shutil.copy(native_module(), place)
+    monkeypatch.syspath_prepend(str(place))
+    enable(COPY)
+    assert not bpy.context.window_manager.reflection_lines.problem
+    assert works()
+
+
 def test_a_module_that_does_not_load(copy) -> None:
     (copy / native_module().name).write_bytes(b"this is no library")
     stays_enabled_and_says("The native solver cannot be loaded", "install the add-on's zip package again")
