@@ -35,6 +35,14 @@ def read_coordinates(ob: bpy.types.Object, key: str = "") -> np.ndarray:
     return values.reshape(-1, 3).astype(np.float64)
 
 
+def read_shown_coordinates(ob: bpy.types.Object) -> np.ndarray:
+    """Reads the coordinates as they are being edited: #vertices x 3 float32, object space."""
+    if ob.mode == 'EDIT':
+        vertices = bmesh.from_edit_mesh(ob.data).verts
+        return np.array([vertex.co[:] for vertex in vertices], dtype=np.float32).reshape(-1, 3)
+    return read_coordinates(ob).astype(np.float32)
+
+
 def find_shape_points(ob: bpy.types.Object, key: str = "") -> bpy.types.bpy_prop_collection:
     """Returns the points of the shape that tools change.
 

@@ -2,30 +2,21 @@
 from dataclasses import dataclass, field
 
 import bpy
-import gpu
 import numpy as np
 
 from ..bridge import border_segments
 from ..bridge.border_segments import BorderEdges
 from ..model import border
-from . import draw_cage
+from . import surface_lines
+from .surface_lines import SurfaceLines
 
 COLORS = {"free": (0.25, 0.85, 0.3), "fixed": (1.0, 0.55, 0.05), "clamped": (0.2, 0.5, 1.0)}  # sRGB
-RIM_COLOR = (0.0, 0.0, 0.0, 0.7)
-WIDTH, RIM = 3.5, 1.0  # pixels
-
-
-@dataclass
-class ShownBorders:
-    """The batches of one object: all edges, and the halves of edges in each colour."""
-    whole: gpu.types.GPUBatch | None = None
-    halves: dict[str, gpu.types.GPUBatch] = field(default_factory=dict)
 
 
 @dataclass
 class BorderCache:
     """The borders drawn last, by the name and mode of the object; empty where a mesh may have changed since."""
-    shown: dict[tuple[str, str], ShownBorders] = field(default_factory=dict)
+    shown: dict[tuple[str, str], SurfaceLines] = field(default_factory=dict)
     handles: list = field(default_factory=list)
 
 
@@ -41,13 +32,11 @@ def split_edges(edges: BorderEdges) -> dict[str, np.ndarray]:
     return {name: points[codes == code].reshape(-1, 3) for name, code in border.CODES.items()}
 
 
-def build_borders(ob: bpy.types.Object) -> ShownBorders:
+def build_borders(ob: bpy.types.Object) -> SurfaceLines:
     edges = border_segments.read_border_edges(ob)
     if edges is None:
-        return ShownBorders()
-    halves = {name: draw_cage.build_batch('LINES', points, np.arange(len(points)).reshape(-1, 2))
-              for name, points in split_edges(edges).items() if len(points)}
-    return ShownBorders(draw_cage.build_batch('LINES', edges.V, edges.ends), halves)
+        return surface_lines.NOTHING
+    return surface_lines.build_lines({COLORS[name]: points for name, points in split_edges(edges).items()})
 
 
 def find_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -67,27 +56,7 @@ def draw_borders() -> None:
         key = ob.name, ob.mode
         if key not in _cache.shown:
             _cache.shown[key] = build_borders(ob)
-        if _cache.shown[key].halves:
-            draw_object(context, ob, _cache.shown[key])
-
-
-def draw_object(context: bpy.types.Context, ob: bpy.types.Object, shown: ShownBorders) -> None:
-    painter = draw_cage.SurfacePainter(context, ob)
-    gpu.state.depth_test_set('NONE' if painter.xray else 'LESS_EQUAL')
-    gpu.state.depth_mask_set(False)
-    gpu.state.blend_set('ALPHA')
-    with painter.nearer(painter.measure_pixels(0.5 * WIDTH + RIM)):
-        shader = gpu.shader.from_builtin('POLYLINE_UNIFORM_COLOR')
-        shader.bind()
-        shader.uniform_float("viewportSize", painter.size)
-        lines = [(shown.whole, RIM_COLOR, WIDTH + 2.0 * RIM)]
-        lines += [(batch, (*COLORS[name], 1.0), WIDTH) for name, batch in shown.halves.items()]
-        for batch, color, width in lines:
-            shader.uniform_float("color", color)
-            shader.uniform_float("lineWidth", width)
-            batch.draw(shader)
-    gpu.state.blend_set('NONE')
-    gpu.state.depth_test_set('NONE')
+        surface_lines.draw_lines(context, ob, _cache.shown[key])
 
 
 @bpy.app.handlers.persistent

@@ -21,6 +21,7 @@ SETTINGS = (
     ("bpy.types.reflinesobject.crease*", "#region"),
     ("bpy.types.reflinespull.*", "#reflines.pull_line"),
     ("bpy.types.reflineshandles.*", "#reflines.pull_line"),
+    ("bpy.types.reflinesmarks.*", "#reflines.check"),
     ("bpy.types.reflinesscene.*", "#reflines.smooth"),
     ("bpy.types.reflinesstripes.*", "#stripes"),
     ("bpy.types.reflinessetups.*", "#stripes"),

@@ -38,6 +38,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.operator("reflines.install_matcap", icon='MATSPHERE')
         layout.operator("reflines.resolve", icon='FILE_REFRESH')
         layout.operator("reflines.store_result", icon='SPREADSHEET')
+        layout.operator("reflines.check", icon='CHECKMARK')
 
 
 def draw_drags(layout: bpy.types.UILayout) -> None:

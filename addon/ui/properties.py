@@ -10,6 +10,7 @@ from ..bridge import light_angles, modifiers, scene_objects, units
 from ..model.gain import Gain
 from ..model.solution import Solution
 from .automatic_values import shown_property, switch_property
+from .check_properties import ReflinesCheck, ReflinesMarks
 from .handle_properties import ReflinesHandles
 from .stripe_properties import ReflinesSetups, ReflinesStripes
 from .tool_properties import (ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesUntwist, ReflinesWarp,
@@ -153,6 +154,7 @@ class ReflinesObject(bpy.types.PropertyGroup):
                            description="The mesh that this lattice warps")
     center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
     run: PointerProperty(type=ReflinesRun)
+    check: PointerProperty(type=ReflinesCheck)
     handles: PointerProperty(type=ReflinesHandles)
     camera: PointerProperty(name="View Camera", type=bpy.types.Object,
                             description="That the panel was last worked on with")
@@ -234,6 +236,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     pattern: PointerProperty(type=ReflinesPattern)
     curve: PointerProperty(type=bpy.types.NodeTree, description="Holds the artist's own fall-off curve")
     stripes: PointerProperty(type=ReflinesStripes)
+    marks: PointerProperty(type=ReflinesMarks)
     setups: PointerProperty(type=ReflinesSetups)
 
     def missing(self) -> str:

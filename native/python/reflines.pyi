@@ -206,6 +206,45 @@ def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np
     """Does what smooth_panel does for the cage of a subdivision surface: flaws are looked for in the surface, and the cage's
     vertices move. The arguments are those of CageOptimizer and smooth_panel. Returns the cage's positions (#V x 3)."""
 
+class CheckRow:
+    """One line of a check: the largest value along the seams, or the deviation."""
+    name: str            # "border gap", "border angle", "border curvature", "crease angle", "crease curvature", "deviation",
+                         # "deviation of 95 %"
+    unit: str            # "length" (that of V), "degrees", "percent"
+    before: float
+    after: float
+    mark: float | None   # of a crease that for the change
+    passes: bool
+    place: np.ndarray    # 3: where it is worst
+
+class PanelCheck:
+    """The result of `check`; see native/include/reflines/check_panel.h."""
+    edges: np.ndarray           # #E x 2: the seams
+    kind: list[str]             # #E: "border", "crease", "open" (nothing on the other side: not judged)
+    gap_before: np.ndarray      # #E, units of V
+    gap_after: np.ndarray
+    angle_before: np.ndarray    # #E, degrees
+    angle_after: np.ndarray
+    curvature_before: np.ndarray  # #E, percent
+    curvature_after: np.ndarray
+    passes: np.ndarray          # #E bool
+    deviation: np.ndarray       # #V: distance from the surface before
+    largest_deviation: float
+    deviation_95: float         # not exceeded by 95 % of the region's vertices
+    rows: list[CheckRow]
+    all_pass: bool
+
+def check(before: np.ndarray, after: np.ndarray, F: np.ndarray, region: np.ndarray, *, crease_rule: CreaseRule = "automatic",
+          marked_creases: np.ndarray = ..., crease_angle: float = 0.5236, reach: float = 0.1,
+          gap: float = 2e-5,                # pass marks: in units of V, 0.02 mm where that is a metre;
+          angle: float = 0.1,               # degrees;
+          curvature: float = 5.0,           # percent;
+          deviation: float | None = None    # in units of V
+          ) -> PanelCheck:
+    """Measures a changed panel: gap, angle and curvature along the borders and creases of the triangles `region` (#F bool) against
+    their other side, before and after, with pass marks; and its distance from the surface before. `before` and `after` are #V x 3
+    with the neighbours of the region (three rings or more), F #F x 3. Raises InvalidInput."""
+
 class CageOptimizer(ShapeOptimizer):
     """The optimizer of a region of a subdivision surface whose unknowns are the heights of its cage; see
     native/include/reflines/cage_optimizer.h. The surface, cut into triangles, is the region of ShapeOptimizer: every builder

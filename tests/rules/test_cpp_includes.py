@@ -17,6 +17,7 @@ PUBLIC = {
     "minimizer_options": "optimization", "report": "optimization",
     "shape_optimizer": "solver", "cage_optimizer": "solver",
     "smooth_panel": "restoration",
+    "check_panel": "inspection",
 }
 
 # Room -> the rooms it may include besides itself. `geometry` and `optimization` meet only in `solver`.
@@ -34,7 +35,8 @@ MAY_INCLUDE = {
     "solver/coarse": SOLVER,
     "solver": SOLVER | {"solver/coarse"},
     "restoration": SOLVER | {"solver"},
-    "python": SOLVER | {"targets", "solver", "restoration"},
+    "inspection": BASE | {"geometry"},
+    "python": SOLVER | {"targets", "solver", "restoration", "inspection"},
     "examples": SOLVER | {"targets", "solver"},
 }
 

@@ -29,7 +29,9 @@ MAY_IMPORT = {
     "overlay.stripe_scene": {"overlay.stripes", "bridge"},
     "overlay.shown_objects": {"overlay.stripes", "bridge", "model", "state"},
     "overlay.draw_cage": {"overlay.stripes", "overlay.stripe_scene", "bridge", "model"},
-    "overlay.draw_borders": {"overlay.draw_cage", "bridge", "model"},
+    "overlay.surface_lines": {"overlay.draw_cage"},
+    "overlay.draw_borders": {"overlay.surface_lines", "bridge", "model"},
+    "overlay.draw_check": {"overlay.surface_lines", "overlay.handle_marks", "state"},
     "overlay.draw": {"overlay.stripes", "overlay.draw_cage", "overlay.legend",
                      "overlay.shader", "overlay.fitted_normals", "overlay.solve_maps",
                      "overlay.limit_surface", "overlay.stripe_scene", "overlay.shown_objects", "native", "bridge",
@@ -39,8 +41,10 @@ MAY_IMPORT = {
     "ui.automatic_values": {"bridge"},
     "ui.tool_properties": {"bridge", "ui.rows"},
     "ui.handle_properties": {"model"},
-    "ui.properties": {"bridge", "model", "ui.automatic_values", "ui.handle_properties", "ui.tool_properties",
-                      "ui.stripe_properties"},
+    "ui.check_properties": {"bridge", "model"},
+    "ui.check_panel": {"ui.panels"},
+    "ui.properties": {"bridge", "model", "ui.check_properties", "ui.automatic_values", "ui.handle_properties",
+                      "ui.tool_properties", "ui.stripe_properties"},
     "ui.session_properties": {"native", "bridge", "state", "interactive", "overlay.shown_objects"},
     "ui.panels": {"ui.automatic_values", "ui.manual_links", "ui.rows"},
     "ui.stripe_presets": set(),
@@ -69,7 +73,7 @@ PURE = {"native", "model", "targets", "solver", "interactive.drag_handles", "ove
 FORBIDDEN_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
 OWNERS_OF_STATE = {"state.last_panels", "state.optimizer_cache", "state.solve_history", "interactive.drag",
                    "interactive.live_warp_handlers", "interactive.background_thread", "overlay.draw",
-                   "overlay.draw_borders"}
+                   "overlay.draw_borders", "overlay.draw_check", "state.last_checks"}
 
 
 def module_name(file: Path) -> str:

@@ -1,0 +1,56 @@
+"""Reads what a check compares: the mesh, or the surface of its cage, before and after the last solve."""
+import bpy
+import numpy as np
+
+from .. import native
+from ..model.cage import CagePatch
+from ..model.checked_surface import CheckedSurface
+from ..model.patch import Patch
+from . import read_mesh
+
+
+def read_checked_surface(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> CheckedSurface:
+    """Reads the surface with the patch as it was and at `positions` (#V x 3, world space), and all around it.
+    """
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    return build_cage_surface(patch, positions) if isinstance(patch, CagePatch) else read_mesh_surface(
+        ob, patch, positions)
+
+
+def read_mesh_surface(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> CheckedSurface:
+    F, face = read_mesh.read_triangles(ob.data)
+    if np.linalg.det(patch.matrix[:3, :3]) < 0.0:
+        F = F[:, ::-1]
+    before = patch.to_world(read_mesh.read_coordinates(ob, patch.key))
+    before[patch.index] = patch.V
+    after = before.copy()
+    after[patch.index] = positions
+    creases = patch.creases.build_arguments()
+    creases["marked_creases"] = patch.index[creases["marked_creases"]].reshape(-1, 2)
+    return CheckedSurface(before, after, np.ascontiguousarray(F), patch.faces[face], creases)
+
+
+def build_cage_surface(patch: CagePatch, positions: np.ndarray) -> CheckedSurface:
+    """Subdivides the whole cage before and after; the image of a Mirror modifier follows the mesh's own half."""
+    cage, arguments = patch.cage, patch.cage.build_arguments(True)
+    names = ("face_offsets", "face_vertices", "creases", "crease_sharpness", "corners", "corner_sharpness", "level",
+             "limit", "boundary")
+    subdivision = native.reflines.Subdivision(**{name: arguments[name] for name in names}, vertices=len(cage.V))
+    F = subdivision.faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return CheckedSurface(subdivision.positions(cage.V), subdivision.positions(move_cage(patch, positions)), F,
+                          np.repeat(cage.region[subdivision.face_parent], 2), patch.creases.build_cage_arguments())
+
+
+def move_cage(patch: CagePatch, positions: np.ndarray) -> np.ndarray:
+    """Returns the cage's vertices after a solve that moved the patch's to `positions`."""
+    cage, move = patch.cage, positions - patch.V
+    result = cage.V.copy()
+    result[patch.index] += move
+    image = cage.partner[patch.index]
+    added = (image >= 0) & ~np.isin(image, patch.index)
+    if added.any():
+        linear = patch.matrix[:3, :3]
+        mirror = linear @ np.diag(np.where(np.arange(3) == patch.mirror_axis, -1.0, 1.0)) @ np.linalg.inv(linear)
+        result[image[added]] += move[added] @ mirror.T
+    return result

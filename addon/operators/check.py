@@ -1,0 +1,106 @@
+"""Check Panel, and Export Check."""
+from pathlib import Path
+
+import bpy
+import numpy as np
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ..bridge import read_checked, read_mesh, read_patch
+from ..model import check_table
+from ..model.check_table import TableRow
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..solver import live_optimizer, panel_check
+from ..solver.panel_check import Checked
+from ..state import last_checks, solve_history
+from ..state.last_checks import DrawnCheck
+
+
+class REFLINES_OT_check(bpy.types.Operator):
+    """Measure gap, angle and curvature along borders and creases, and the deviation, before and after the last run, and
+hold them against the marks; without a run the selected faces as they are"""
+    bl_idname = "reflines.check"
+    bl_label = "Check Panel"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = context.view_layer.objects.active
+        cls.poll_message_set("Make a panel's mesh active, in Edit Mode or Object Mode")
+        return ob is not None and ob.type == 'MESH' and ob.mode in {'EDIT', 'OBJECT'}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob, settings = context.view_layer.objects.active, context.scene.reflection_lines.marks
+        try:
+            patch, positions, own = self.find_subject(ob)
+            marks = panel_check.Marks(settings.gap, settings.angle, settings.curvature, find_limit(own))
+            with live_optimizer.convert_native_errors(patch):
+                surface = read_checked.read_checked_surface(ob, patch, positions)
+                found = panel_check.check_surface(surface, marks)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        stored = ob.reflection_lines.check
+        stored.fill([*found.rows, *own], len(found.passes), int((~found.passes).sum()))
+        last_checks.remember_check(ob.name, build_drawn(ob, found))
+        self.report({'INFO'}, f"{ob.name}: {stored.headline()}")
+        return {'FINISHED'}
+
+    def find_subject(self, ob: bpy.types.Object) -> tuple[Patch, np.ndarray, list[TableRow]]:
+        """Returns the patch, its positions now, and the lines of the table that tell of the last run."""
+        if ob.mode == 'EDIT':
+            ob.update_from_editmode()
+        last = solve_history.find_last_solve(ob.name)
+        if last is not None and read_mesh.read_shape_before(ob, last.patch, last.positions) is not None:
+            report = ob.reflection_lines.report
+            score = report.score_before, report.score_after
+            return last.patch, last.positions, check_table.describe_solve(score, report.largest_move,
+                                                                          report.automatic_limit or None)
+        patch = read_patch.gather_mesh_patch(ob, or_all=True, shared=True)
+        return patch, patch.V, []
+
+
+def find_limit(rows: list[TableRow]) -> float | None:
+    """Returns the limit of the last run, which is the mark of its deviation, too; None where there is none."""
+    return next((row.mark for row in rows if row.name == "move along the view"), None)
+
+
+def build_drawn(ob: bpy.types.Object, found: Checked) -> DrawnCheck:
+    """Takes to object space what is drawn of a check."""
+    inverse = np.linalg.inv(np.array(ob.matrix_world, dtype=np.float64))
+    segments, worst = (points @ inverse[:3, :3].T + inverse[:3, 3] for points in (found.segments, found.worst))
+    return DrawnCheck(segments, found.passes, worst, read_mesh.read_shown_coordinates(ob))
+
+
+class REFLINES_OT_export_check(ExportHelper, bpy.types.Operator):
+    """Write the table of the last check to a file: .csv for tables, .json for programs"""
+    bl_idname = "reflines.export_check"
+    bl_label = "Export Check"
+
+    filename_ext = ".csv"
+    check_extension = None  # the artist's own ending says which
+    filter_glob: StringProperty(default="*.csv;*.json", options={'HIDDEN'})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = context.view_layer.objects.active
+        cls.poll_message_set("Make a panel active that was checked")
+        return ob is not None and ob.type == 'MESH' and len(ob.reflection_lines.check.rows) > 0
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob, path = context.view_layer.objects.active, Path(self.filepath)
+        rows = ob.reflection_lines.check.to_rows()
+        kinds = {".json": check_table.format_json(ob.name, rows), ".csv": check_table.format_csv(rows)}
+        try:
+            if path.suffix.lower() not in kinds:
+                raise Refusal(f"{path.name or 'The file'} has neither of the endings .csv and .json: add one")
+            path.write_text(kinds[path.suffix.lower()], encoding="utf-8")
+        except (Refusal, OSError) as error:
+            self.report({'ERROR'}, str(error))
+            return {'CANCELLED'}
+        self.report({'INFO'}, f"{ob.name}: {len(rows)} lines written to {path.name}")
+        return {'FINISHED'}
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_check, REFLINES_OT_export_check])

@@ -1,0 +1,83 @@
+"""Draws the last check of the active object: seams that pass green, others red, and a dot at each worst place."""
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+from ..state import last_checks
+from ..state.last_checks import DrawnCheck
+from . import handle_marks, surface_lines
+from .surface_lines import SurfaceLines
+
+PASS_COLOR, FAIL_COLOR = (0.15, 0.8, 0.3), (1.0, 0.15, 0.1)  # sRGB
+DOT_RADIUS, DOT_RIM = 6.0, 2.0  # pixels, times the interface's scale
+DOT_RIM_COLOR = (1.0, 1.0, 1.0, 1.0)
+
+
+@dataclass
+class CheckCache:
+    """The lines of the check drawn last."""
+    check: DrawnCheck | None = None
+    lines: SurfaceLines = surface_lines.NOTHING
+    handles: list = field(default_factory=list)
+
+
+_cache = CheckCache()
+
+
+def find_drawn(context: bpy.types.Context) -> tuple[bpy.types.Object, DrawnCheck] | None:
+    """Returns the active object and its check; None where nothing of it is drawn in this view."""
+    ob = context.view_layer.objects.active
+    if ob is None or not context.space_data.overlay.show_overlays or not ob.visible_get(viewport=context.space_data):
+        return None
+    check = last_checks.find_check(ob.name)
+    return None if check is None else (ob, check)
+
+
+def draw_seams() -> None:
+    """Draws the seams in a viewport (POST_VIEW), after the stripes."""
+    found = find_drawn(bpy.context)
+    if found is None:
+        return
+    ob, check = found
+    if _cache.check is not check:
+        _cache.lines = surface_lines.build_lines({PASS_COLOR: check.segments[check.passes].reshape(-1, 3),
+                                                  FAIL_COLOR: check.segments[~check.passes].reshape(-1, 3)})
+        _cache.check = check
+    surface_lines.draw_lines(bpy.context, ob, _cache.lines)
+
+
+def draw_worst() -> None:
+    """Draws the dots at the worst places in a viewport (POST_PIXEL)."""
+    context, found = bpy.context, find_drawn(bpy.context)
+    if found is None:
+        return
+    ob, check = found
+    scale, matrix = context.preferences.system.ui_scale, np.array(ob.matrix_world)
+    for point in check.worst @ matrix[:3, :3].T + matrix[:3, 3]:
+        place = location_3d_to_region_2d(context.region, context.region_data, point.tolist())
+        if place is not None:
+            handle_marks.draw_disc(place, scale * (DOT_RADIUS + DOT_RIM), DOT_RIM_COLOR)
+            handle_marks.draw_disc(place, scale * DOT_RADIUS, (*FAIL_COLOR, 1.0))
+
+
+@bpy.app.handlers.persistent
+def clear_cache(*_: object) -> None:
+    _cache.check, _cache.lines = None, surface_lines.NOTHING
+
+
+def register() -> None:
+    if bpy.app.background:
+        return
+    bpy.app.handlers.load_post.append(clear_cache)
+    for draw, kind in ((draw_seams, 'POST_VIEW'), (draw_worst, 'POST_PIXEL')):
+        _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), 'WINDOW', kind))
+
+
+def unregister() -> None:
+    while _cache.handles:
+        bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
+    if clear_cache in bpy.app.handlers.load_post:
+        bpy.app.handlers.load_post.remove(clear_cache)
+    clear_cache()

@@ -1,0 +1,36 @@
+"""The check of a panel against pass marks."""
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from .. import native
+from ..model.check_table import TableRow
+from ..model.checked_surface import CheckedSurface
+
+
+@dataclass(frozen=True)
+class Marks:
+    """The pass marks, by the names of the arguments of reflines.check."""
+    gap: float               # world units
+    angle: float             # degrees
+    curvature: float         # percent
+    deviation: float | None  # world units
+
+
+@dataclass(frozen=True)
+class Checked:
+    """The result of a check, in world space."""
+    rows: list[TableRow]
+    segments: np.ndarray  # #E x 2 x 3: the edges that were judged
+    passes: np.ndarray    # #E, bool
+    worst: np.ndarray     # #W x 3: the worst place of each line of the table that fails
+
+
+def check_surface(surface: CheckedSurface, marks: Marks) -> Checked:
+    """Measures gap, angle, curvature and deviation; raises the native module's errors."""
+    found = native.reflines.check(surface.before, surface.after, surface.F, surface.region, **surface.creases,
+                                  **asdict(marks))
+    rows = [TableRow(row.name, row.unit, row.before, row.after, row.mark, row.passes) for row in found.rows]
+    judged = np.array([kind != "open" for kind in found.kind], dtype=bool)
+    worst = np.array([row.place for row in found.rows if not row.passes]).reshape(-1, 3)
+    return Checked(rows, surface.after[found.edges[judged]], found.passes[judged], worst)

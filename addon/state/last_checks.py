@@ -1,0 +1,58 @@
+"""The last check of each object as far as it is drawn: its seams, green or red, and the worst places."""
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..bridge import read_mesh
+
+
+@dataclass(frozen=True)
+class DrawnCheck:
+    """Seams and places in object space."""
+    segments: np.ndarray  # #E x 2 x 3
+    passes: np.ndarray    # #E, bool
+    worst: np.ndarray     # #W x 3: the worst place of each line of the table that fails
+    shape: np.ndarray     # #vertices x 3 float32: the whole mesh, of which alone all this is true
+
+
+_checks: dict[str, DrawnCheck] = {}  # by the name of the object
+
+
+def remember_check(name: str, check: DrawnCheck) -> None:
+    _checks[name] = check
+
+
+def find_check(name: str) -> DrawnCheck | None:
+    """Returns the last check of the object with this name, None where there is none of its present shape."""
+    return _checks.get(name)
+
+
+@bpy.app.handlers.persistent
+def forget_changed(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Forgets the checks of meshes that have changed; a new selection or attribute is told as a change, too."""
+    for update in depsgraph.updates if _checks else ():
+        if isinstance(update.id, bpy.types.Object) and update.is_updated_geometry and update.id.name in _checks:
+            shape = read_mesh.read_shown_coordinates(update.id.original)
+            if not np.array_equal(shape, _checks[update.id.name].shape):
+                del _checks[update.id.name]
+
+
+@bpy.app.handlers.persistent
+def forget_all(*_: object) -> None:
+    _checks.clear()
+
+
+HANDLERS = (("depsgraph_update_post", forget_changed), ("undo_post", forget_all), ("redo_post", forget_all),
+            ("load_pre", forget_all))
+
+
+def register() -> None:
+    for name, handler in HANDLERS:
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unregister() -> None:
+    for name, handler in HANDLERS:
+        getattr(bpy.app.handlers, name).remove(handler)
+    forget_all()

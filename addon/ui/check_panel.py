@@ -1,0 +1,33 @@
+"""The panel of the check in the sidebar tab."""
+import bpy
+
+from .panels import ReflinesPanel, draw_paragraph
+
+
+class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
+    bl_label = "Check"
+    bl_order = 2  # after the result
+    bl_options = {'DEFAULT_CLOSED'}
+    manual = "reflines.check"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, marks = self.layout, context.scene.reflection_lines.marks
+        layout.use_property_split, layout.use_property_decorate = True, False
+        column = layout.column(align=True)
+        for name in ("gap", "angle", "curvature"):
+            column.prop(marks, name)
+        layout.operator("reflines.check", icon='CHECKMARK')
+        ob = context.view_layer.objects.active
+        if ob is not None and ob.type == 'MESH' and len(ob.reflection_lines.check.rows):
+            self.draw_table(layout, context, ob.reflection_lines.check)
+
+    def draw_table(self, layout: bpy.types.UILayout, context: bpy.types.Context,
+                   check: bpy.types.PropertyGroup) -> None:
+        for row in check.rows:
+            line = layout.column(align=True)
+            line.alert = not row.passes
+            draw_paragraph(line, context, row.describe(), 'CHECKMARK' if row.passes else 'CANCEL')
+        layout.operator("reflines.export_check", icon='EXPORT')
+
+
+register, unregister = bpy.utils.register_classes_factory([VIEW3D_PT_reflines_check])

@@ -1,0 +1,71 @@
+"""Properties of the check: the pass marks of the scene, and the table of an object's last check."""
+from collections.abc import Sequence
+
+import bpy
+from bpy.props import (BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty)
+
+from ..bridge import units
+from ..model.check_table import TableRow
+
+NO_MARK = -1.0
+
+
+class ReflinesMarks(bpy.types.PropertyGroup):
+    gap: FloatProperty(name="Gap", unit='LENGTH', default=2e-5, min=0.0, soft_max=0.01, precision=6,
+                       description="Largest gap to a neighbouring sheet")
+    angle: FloatProperty(name="Angle", default=0.1, min=0.0, soft_max=10.0, precision=3,
+                         description="Largest angle between the normals of both sides, degrees")
+    curvature: FloatProperty(name="Curvature", subtype='PERCENTAGE', default=5.0, min=0.0, soft_max=100.0, precision=1,
+                             description="Largest difference of the curvatures across the border, of the larger one")
+
+
+class ReflinesCheckRow(bpy.types.PropertyGroup):
+    """One line of the table, see model/check_table.py; its name is Blender's own property `name`."""
+    unit: StringProperty(name="Unit")
+    before: FloatProperty(name="Before")
+    after: FloatProperty(name="After")
+    mark: FloatProperty(name="Mark", default=NO_MARK)
+    passes: BoolProperty(name="Passes")
+
+    def to_row(self) -> TableRow:
+        return TableRow(self.name, self.unit, self.before, self.after, None if self.mark < 0.0 else self.mark,
+                        self.passes)
+
+    def describe(self) -> str:
+        """Describes the line in the scene's units."""
+        values = " \u2192 ".join(self.format_value(value) for value in (self.before, self.after))
+        return f"{self.name[:1].upper()}{self.name[1:]}: {values}"
+
+    def format_value(self, value: float) -> str:
+        if self.unit == "length":
+            return units.format_length(value, bpy.context.scene, 3)
+        return f"{value:.3g}{chr(0xb0) if self.unit == 'degrees' else ' %'}"
+
+
+class ReflinesCheck(bpy.types.PropertyGroup):
+    """The table of the last check."""
+    rows: CollectionProperty(type=ReflinesCheckRow)
+    seams: IntProperty(name="Seams", description="Edges that were judged")
+    failed: IntProperty(name="Failed", description="Those of them that do not pass")
+
+    def fill(self, rows: Sequence[TableRow], seams: int, failed: int) -> None:
+        self.rows.clear()
+        for row in rows:
+            stored = self.rows.add()
+            for name in ("name", "unit", "before", "after", "passes"):
+                setattr(stored, name, getattr(row, name))
+            stored.mark = NO_MARK if row.mark is None else row.mark
+        self.seams, self.failed = seams, failed
+
+    def to_rows(self) -> list[TableRow]:
+        return [row.to_row() for row in self.rows]
+
+    def headline(self) -> str:
+        """Says in a sentence whether all passes."""
+        wrong = [row.name for row in self.rows if not row.passes]
+        if wrong:
+            return f"Does not pass: {', '.join(wrong)}"
+        return f"Passes: {len(self.rows)} lines, {self.seams} edges of borders and creases"
+
+
+register, unregister = bpy.utils.register_classes_factory([ReflinesMarks, ReflinesCheckRow, ReflinesCheck])

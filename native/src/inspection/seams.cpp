@@ -1,0 +1,64 @@
+#include "inspection/seams.h"
+
+#include "geometry/crease.h"
+#include "geometry/mesh.h"
+#include "geometry/nearest_surface.h"
+
+namespace reflines {
+namespace {
+
+std::vector<int> list_triangles(const Mask& wanted) {
+  std::vector<int> result;
+  for (int t = 0; t < wanted.size(); ++t) {
+    if (wanted(t)) result.push_back(t);
+  }
+  return result;
+}
+
+// Marks the creases within the region (#F x 3). The rule sees the region alone, as the solver does.
+EdgeMask find_creases(const Positions& V, const Triangles& F, const std::vector<int>& own,
+                      const CreaseOptions& options) {
+  const Triangles region = F(own, Eigen::all);
+  const EdgeMask marked = crease_edges(V, region, edge_neighbors(region), options);
+  EdgeMask result = EdgeMask::Constant(F.rows(), 3, false);
+  for (size_t k = 0; k < own.size(); ++k) result.row(own[k]) = marked.row(static_cast<int>(k));
+  return result;
+}
+
+// Finds the sheet that lies beside an edge where the region's own ends.
+int find_beside(const Positions& V, const NearestSurface& outside, const Seam& seam, double reach) {
+  const Vector3 a = V.row(seam.first), b = V.row(seam.second);
+  return outside.find(0.5 * (a + b), reach * (b - a).norm()).triangle;
+}
+
+}  // namespace
+
+Seams find_seams(const Positions& before, const Triangles& F, const Mask& region, const CheckOptions& options) {
+  const std::vector<int> own = list_triangles(region);
+  const NearestSurface outside(before, F, list_triangles(!region));
+  const EdgeMask creases = find_creases(before, F, own, options.creases);
+  Seams seams{{}, edge_neighbors(F)};
+  const Triangles neighbors = seams.neighbors;
+  for (const int t : own) {
+    for (int i = 0; i < 3; ++i) {
+      const int other = neighbors(t, i);
+      Seam seam{F(t, (i + 1) % 3), F(t, (i + 2) % 3), t, other, SeamKind::kBorder, other >= 0};
+      if (other < 0) {
+        seam.other = find_beside(before, outside, seam, options.reach);
+        if (seam.other < 0) seam.kind = SeamKind::kOpen;
+      } else if (region(other)) {
+        if (!creases(t, i)) continue;
+        seam.kind = SeamKind::kCrease;
+      }
+      seams.neighbors(t, i) = -1;
+      if (seam.kind == SeamKind::kCrease && other < t) continue;  // told from the first of its triangles
+      for (int j = 0; seam.kind == SeamKind::kBorder && other >= 0 && j < 3; ++j) {
+        if (neighbors(other, j) == t) seams.neighbors(other, j) = -1;
+      }
+      seams.list.push_back(seam);
+    }
+  }
+  return seams;
+}
+
+}  // namespace reflines

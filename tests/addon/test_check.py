@@ -1,0 +1,122 @@
+"""Check Panel in Blender: its table, what it says of a run, its files, and what it refuses."""
+import csv
+import json
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+
+
+def rows(ob: bpy.types.Object) -> dict[str, bpy.types.PropertyGroup]:
+    return {row.name: row for row in ob.reflection_lines.check.rows}
+
+
+def check(ob: bpy.types.Object) -> dict[str, bpy.types.PropertyGroup]:
+    before = scenes.fingerprint(ob)
+    assert bpy.ops.reflines.check('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert scenes.fingerprint(ob) == before
+    return rows(ob)
+
+
+def solved_panel(**settings: object) -> bpy.types.Object:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit_inner(ob, margin=2)
+    assert scenes.smooth(**settings) == {'FINISHED'}
+    return ob
+
+
+def test_a_clean_panel_passes_without_a_run() -> None:
+    ob = scenes.panel(height=scenes.crown)
+    scenes.edit_inner(ob, margin=3)
+    table = check(ob)
+    assert set(table) == {"border gap", "border angle", "border curvature", "deviation", "deviation of 95 %"}
+    assert all(row.passes for row in table.values())
+    assert table["border angle"].after < 1e-3
+    assert ob.reflection_lines.check.seams == 4 * 10
+    assert ob.reflection_lines.check.headline().startswith("Passes")
+
+
+@pytest.mark.parametrize("name", scenes.TRANSFORMS)
+def test_a_run_is_told_before_and_after(name: str) -> None:
+    ob = solved_panel(length=0.6)
+    scenes.object_mode()
+    scenes.transformed(ob, scenes.TRANSFORMS[name])
+    scenes.edit(ob)
+    assert scenes.smooth(length=0.3) == {'FINISHED'}
+    table, report = check(ob), ob.reflection_lines.report
+    assert table["move along the view"].after == pytest.approx(report.largest_move)
+    assert table["move along the view"].mark == pytest.approx(report.automatic_limit)
+    assert table["wobble of the lines"].before == pytest.approx(report.score_before)
+    assert 0.0 < table["deviation"].after <= report.largest_move * (1.0 + 1e-5)
+    assert table["deviation of 95 %"].after <= table["deviation"].after
+    assert table["border curvature"].after != table["border curvature"].before
+    assert table["border gap"].after == 0.0
+
+
+def test_the_marks_of_the_scene_decide() -> None:
+    ob = solved_panel(length=0.6)
+    marks = bpy.context.scene.reflection_lines.marks
+    marks.curvature = 0.1
+    assert not check(ob)["border curvature"].passes
+    assert "border curvature" in ob.reflection_lines.check.headline()
+    assert ob.reflection_lines.check.failed > 0
+    marks.curvature = 1e4
+    assert check(ob)["border curvature"].passes
+
+
+def test_after_a_change_the_shape_is_checked_as_it_is() -> None:
+    ob = solved_panel(length=0.6)
+    scenes.object_mode()
+    ob.data.vertices[144].co.z += 0.01
+    assert "wobble of the lines" not in check(ob)
+
+
+def test_a_cage_is_checked_on_its_surface() -> None:
+    ob = scenes.panel(height=scenes.rippled, cells=12)
+    ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+    scenes.look_from_above()
+    scenes.edit_inner(ob, cells=12, margin=3)
+    assert scenes.smooth(length=0.6) == {'FINISHED'}
+    table, report = check(ob), ob.reflection_lines.report
+    assert 0.0 < table["deviation"].after <= report.largest_move * (1.0 + 1e-5)
+    assert ob.reflection_lines.check.seams == 4 * 6 * 4  # the surface has four edges for each of the cage's
+    assert table["border angle"].after < 0.1
+
+
+def test_the_table_is_written_as_csv_and_json(tmp_path: Path) -> None:
+    ob = solved_panel(length=0.6)
+    table = check(ob)
+    for name in ("table.csv", "table.JSON"):
+        assert bpy.ops.reflines.export_check(filepath=str(tmp_path / name)) == {'FINISHED'}
+    with (tmp_path / "table.csv").open(newline="") as file:
+        lines = list(csv.DictReader(file))
+    assert [line["name"] for line in lines] == list(table)
+    told = json.loads((tmp_path / "table.JSON").read_text())
+    assert told["object"] == ob.name and told["passes"] == all(row.passes for row in table.values())
+    for line, own in zip(lines, told["rows"], strict=True):
+        assert np.isclose(float(line["after"]), own["after"], rtol=1e-6)
+        assert (line["mark"] == "") == (own["mark"] is None)
+
+
+@pytest.mark.parametrize(("name", "said"), [("table.txt", "neither of the endings"),
+                                            ("none/table.csv", "No such file")])
+def test_files_that_cannot_be_written_are_told(tmp_path: Path, name: str, said: str) -> None:
+    ob = scenes.panel()
+    scenes.edit_inner(ob)
+    check(ob)
+    with pytest.raises(RuntimeError, match=said):
+        bpy.ops.reflines.export_check(filepath=str(tmp_path / name))
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_faces_are_refused_in_a_sentence() -> None:
+    ob = scenes.panel()
+    scenes.edit(ob)
+    scenes.select_faces(ob, lambda _: False)
+    with pytest.raises(RuntimeError, match="select the faces of the panel"):
+        bpy.ops.reflines.check()
+    assert not len(ob.reflection_lines.check.rows)

@@ -1,0 +1,62 @@
+"""reflines.check: what a solve leaves at its border, and what is refused."""
+import numpy as np
+import pytest
+import reflines
+from sample_panels import LINE, VIEW, panel
+
+
+def region_of(V: np.ndarray, F: np.ndarray) -> np.ndarray:
+    return (np.abs(V[F].mean(axis=1)[:, :2]) < (0.5, 0.4)).all(axis=1)
+
+
+def solve(border: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    V, F = panel(jitter=0.0)
+    region = region_of(V, F)
+    used, own = np.unique(F[region], return_inverse=True)
+    solver = reflines.ShapeOptimizer(V[used], own.reshape(-1, 3), view_direction=VIEW, line_direction=LINE,
+                                     border=border)
+    assert solver.solve(reflines.Target(8.0 * solver.field())).largest_move > 1e-5
+    after = V.copy()
+    after[used] = solver.positions
+    return V, after, F, region
+
+
+@pytest.mark.parametrize("border", ["clamped", "fixed"])
+def test_the_border_that_was_asked_for_is_measured(border: str) -> None:
+    """A fixed border lets the slope go, a clamped one the curvature."""
+    before, after, F, region = solve(border)
+    check = reflines.check(before, after, F, region)
+    rows = {row.name: row for row in check.rows}
+    assert rows["border angle"].before < 0.01 and rows["border curvature"].before < 2.0
+    assert rows["border gap"].after == 0.0
+    assert (rows["border angle"].after > 0.3) == (border == "fixed")
+    assert rows["border curvature"].after > 20.0 and not check.all_pass
+    worst = check.curvature_after.argmax()
+    assert np.allclose(rows["border curvature"].place, after[check.edges[worst]].mean(axis=0))
+    assert 0.0 < check.deviation_95 < check.largest_deviation <= np.linalg.norm(after - before, axis=1).max()
+    assert set(check.kind) == {"border"} and len(check.edges) == len(check.passes)
+
+
+def test_marks_decide_what_passes() -> None:
+    before, after, F, region = solve("fixed")
+    far = np.linalg.norm(after - before, axis=1).max()
+    assert reflines.check(before, after, F, region, angle=90.0, curvature=1e6, deviation=far).all_pass
+    assert not reflines.check(before, after, F, region, angle=90.0, curvature=1e6, deviation=0.1 * far).all_pass
+
+
+@pytest.mark.parametrize(("change", "said"), [
+    ({"after": np.zeros((3, 3))}, "vertices before and 3 after"),
+    ({"region": np.ones(3, bool)}, "mask has 3 entries"),
+    ({"region": None}, "no face"),
+    ({"gap": -1.0}, "mark for the gap"),
+    ({"angle": float("nan")}, "mark for the angle"),
+    ({"deviation": -0.1}, "mark for the deviation"),
+    ({"crease_rule": "some"}, "'some'"),
+])
+def test_unusable_input_gets_one_sentence(change: dict, said: str) -> None:
+    V, F = panel(8)
+    arguments = {"before": V, "after": V, "F": F, "region": region_of(V, F)} | change
+    if arguments["region"] is None:
+        arguments["region"] = np.zeros(len(F), bool)
+    with pytest.raises(reflines.InvalidInput, match=said):
+        reflines.check(**arguments)

@@ -1,0 +1,58 @@
+"""The last check is drawn: seams that pass green, others red, and gone when the mesh changes."""
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+import scenes
+import window
+from picture import CELLS, Steps, fresh_panel, pixels, prepare
+
+INNER = 10  # rings of faces outside the region
+
+
+def count_colors(driver: window.Window, ob: bpy.types.Object) -> Steps:
+    """Returns the shares of the border's edges that are green and red."""
+    pictures = []
+    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_VIEW')
+    driver.redraw()
+    yield 0.5
+    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+    picture, found = pictures[-1][:, :, :3].astype(float), []
+    V = scenes.world(ob).reshape(CELLS + 1, CELLS + 1, 3)[INNER:-INNER, INNER]
+    for point in 0.5 * (V[1:-2] + V[2:-1]):
+        at = location_3d_to_region_2d(driver.region(), driver.region_3d(), point)
+        near = picture[int(at.y), int(at.x) - 3:int(at.x) + 4]
+        found.append(near[np.ptp(near, axis=1).argmax()])
+    red, green, _ = np.array(found).T
+    shares = (green > 1.5 * red).mean(), (red > 1.5 * green).mean()
+    print(f"green {shares[0]:.2f}, red {shares[1]:.2f}")
+    return shares
+
+
+def check(driver: window.Window, curvature: float) -> None:
+    marks = bpy.context.scene.reflection_lines.marks
+    marks.curvature, marks.angle = curvature, 90.0
+    with driver.override():
+        assert bpy.ops.reflines.check('EXEC_DEFAULT', True) == {'FINISHED'}
+
+
+def test_seams_are_green_or_red(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Checked")
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit_inner(ob, CELLS, INNER)
+        check(driver, 1e4)
+    assert (yield from count_colors(driver, ob)) == (1.0, 0.0)
+    check(driver, 0.0)
+    assert (yield from count_colors(driver, ob)) == (0.0, 1.0)
+    with driver.override():
+        bpy.ops.mesh.select_all(action='DESELECT')
+    assert (yield from count_colors(driver, ob))[1] == 1.0  # a selection is no change of the shape
+    with driver.override():
+        bpy.ops.mesh.select_all(action='SELECT')
+        bpy.ops.transform.translate(value=(0.0, 0.0, 0.001))
+        bpy.ops.mesh.select_all(action='DESELECT')
+    assert (yield from count_colors(driver, ob)) == (0.0, 0.0)
+
+
+window.run(test_seams_are_green_or_red)
