@@ -16,6 +16,7 @@ from . import library_copy
 if TYPE_CHECKING:
     from .reflines import CageOptimizer as CageOptimizer
     from .reflines import Handle as Handle
+    from .reflines import HandleFollower as HandleFollower
     from .reflines import HandleReach as HandleReach
     from .reflines import LineHandles as LineHandles
     from .reflines import NormalFit as NormalFit

@@ -59,7 +59,8 @@ class LineDrag(Drag):
     def update_request(self, context: bpy.types.Context, *, final: bool = False) -> None:
         self.tool.handles = line_handle.encode_handles(self.handles)
         super().update_request(context, final=final)
-        self.request = replace(self.request, lines=not final)
+        if not final:
+            self.request = replace(self.request, lines=True, follows=tuple(each.follow for each in self.request.builds))
 
     def take_gain(self, outcome: SolveOutcome) -> None:
         """Takes the lines, which a session shows instead of the gain."""

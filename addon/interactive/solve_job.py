@@ -5,7 +5,7 @@ follows the mouse, warm-started from its last solution, which takes a few back s
 The final result is solved by the first from the start, so it does not depend on the path of the mouse.
 """
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +28,10 @@ from ..state import optimizer_cache
 MEASURE_BUDGET = 0.03
 
 
+# Moves the second optimizer as the targets of the first want it, without a solve; returns False where it cannot.
+Follow = Callable[..., bool]
+
+
 @dataclass(frozen=True)
 class SolveRequest:
     """The wanted target of each patch."""
@@ -37,6 +41,7 @@ class SolveRequest:
     measure: bool = False  # only the gain of the last solution is wanted
     press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds
     lines: bool = False    # whether the outcome has the lines, instead of the gain
+    follows: tuple[Follow, ...] = ()  # ways to follow each patch's target; empty: by solves alone
 
 
 @dataclass(frozen=True)
@@ -120,18 +125,31 @@ class SolveJob:
         """Solves warm-started from the last solution, to the targets' tolerance."""
         self.stage = "Following"
         positions = []
-        every = zip(self.patches, self.starts, self.followers, request.builds, strict=True)
-        for patch, start, follower, build in every:
+        for which, (patch, start, follower) in enumerate(zip(self.patches, self.starts, self.followers, strict=True)):
             with live_optimizer.convert_native_errors(patch):
-                wanted = live_optimizer.build_targets(start, build, request.settings)
-                self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings))
-                if request.lines:
-                    wanted.measure(follower)  # for the numbers of each handle
+                if not self.follow_without_solve(request, which):
+                    wanted = live_optimizer.build_targets(start, request.builds[which], request.settings)
+                    self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings))
+                    if request.lines:
+                        wanted.measure(follower)  # for the numbers of each handle
                 positions.append(choose_formulation(patch, start.view).read_positions(follower))
         if request.lines:
             return SolveOutcome(request, tuple(positions), lines=self.read_lines())
         gain = self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
         return SolveOutcome(request, tuple(positions), gain=gain)
+
+    def follow_without_solve(self, request: SolveRequest, which: int) -> bool:
+        """Follows a patch's target in the request's own way; returns False where there is none, or it cannot."""
+        if not request.follows:
+            return False
+        start, follower, settings = self.starts[which], self.followers[which], request.settings
+        if not request.follows[which](start.optimizer, follower, keep_crossed=settings.build_crossed is not None):
+            return False
+        limit = choose_limit(start.patch, settings)
+        largest = float(np.abs(follower.heights - start.optimizer.heights).max())
+        if largest > limit:
+            follower.scale_move(limit / largest)
+        return True
 
     def read_lines(self) -> tuple[LineState, ...]:
         """Reads the lines that are followed, and once those of the start."""

@@ -19,7 +19,7 @@ from ..model.solution import Solution
 from ..solver.formulation import choose_formulation
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
-from ..targets.line_handles import HandleTargets
+from ..targets.line_handles import HandleBuild, HandleTargets
 from ..ui.tool_properties import PullSettings
 from .dragged_tool import DraggedTool
 
@@ -72,13 +72,13 @@ where a line was pulled to; Enter applies them all"""
         if not handles and not self.in_session:
             raise Refusal(f"{patch.name}: no line is pulled; press Pull Line in a 3D view and drag a line")
         formulation = choose_formulation(patch, facing.read_patch_view(context.scene, patch))
-        if formulation.image_sign is not None:
-            handles = line_handle.mirror_handles(handles, formulation.image_sign)
+        images, handles = (handles if sign is None else line_handle.mirror_handles(handles, sign)
+                           for sign in (formulation.follow_sign, formulation.image_sign))
         if self.pinned is None:
             self.pinned = pinned_faces.read_pinned_faces(ob), pinned_faces.find_face_of_triangles(ob, patch)
         faces, face_of_triangle = self.pinned
         choose_pinned = partial(formulation.choose_triangles, chosen=faces, face_of_triangle=face_of_triangle)
-        return partial(self.builder.build, handles=handles, matrix=patch.matrix, choose_pinned=choose_pinned)
+        return HandleBuild(self.builder, handles, images, patch.matrix, choose_pinned)
 
     def begin(self, context: bpy.types.Context, *, in_session: bool) -> None:
         """Begins a run: what it keeps for itself, beside the properties."""

@@ -48,6 +48,11 @@ class Formulation:
         """
         return None
 
+    @property
+    def follow_sign(self) -> np.ndarray | None:
+        """Returns these signs for handles that are followed without targets, and so need both halves."""
+        return self.image_sign
+
     def choose_directions(self) -> dict[str, np.ndarray]:
         """Returns the directions as arguments of the native constructors: the lines', and those that cross them."""
         return {"view_direction": self.view.view_direction, "line_direction": self.view.both_directions}
@@ -156,6 +161,10 @@ class JoinedFormulation(Formulation):
     @property
     def is_symmetric(self) -> bool:
         return True
+
+    @property
+    def follow_sign(self) -> np.ndarray | None:
+        return self.patch.mirror.sign
 
     def join(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Returns positions (world space), triangles, and mirror images of both halves."""

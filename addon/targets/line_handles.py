@@ -1,5 +1,6 @@
 """The targets of handles on lines."""
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -27,6 +28,7 @@ class HandleTargets:
         self.line_step = line_step
         self.optimizer: native.ShapeOptimizer | None = None
         self.lines: native.LineHandles | None = None
+        self.follower: native.HandleFollower | None = None
         self.conflicts: tuple[str, ...] = ()  # sentences about the last handles that were built
         self.reached: list[native.HandleReach] = []  # of those that were last measured
         self.missed: tuple[str, ...] = ()     # sentences about those that were not reached when last measured
@@ -36,17 +38,37 @@ class HandleTargets:
         """Builds the targets for an optimizer, which has the heights of the start whenever this is called. `matrix` (4
         x 4) takes the handles to world space; `choose_pinned` returns the numbers of triangles whose lines stay.
         """
+        wanted = self.begin(optimizer, handles, matrix, choose_pinned)
+        if not wanted:
+            return native.reflines.Target(optimizer.field())
+        return JointTargets(self.lines.build(wanted), partial(self.measure, handles=wanted), FOLLOW_TOLERANCE)
+
+    def follow(self, optimizer: "native.ShapeOptimizer", other: "native.ShapeOptimizer", *, handles: Handles,
+               matrix: np.ndarray, choose_pinned: ChooseTriangles, keep_crossed: bool) -> bool:
+        """Moves the other optimizer of the region to where the lines meet the handles, and measures them. Returns False
+        where that takes a solve.
+        """
+        wanted = self.begin(optimizer, handles, matrix, choose_pinned)
+        if not wanted or not self.follower.follow(wanted, other, keep_others=keep_crossed):
+            return False
+        self.measure(other, wanted)
+        return True
+
+    def begin(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray,
+              choose_pinned: ChooseTriangles) -> "list[native.Handle]":
+        """Returns the handles that count, as the native module's; none where no line is pulled."""
         if self.optimizer is not optimizer:
             self.optimizer, self.lines = optimizer, native.reflines.LineHandles(optimizer)
+            self.follower = native.reflines.HandleFollower(optimizer, self.lines)
         used = [each for each in handles if not each.muted]
         self.conflicts, self.missed, self.reached = (), (), []
-        if all(each.is_pin for each in used):  # no line is pulled
-            return native.reflines.Target(optimizer.field())
+        if all(each.is_pin for each in used):
+            return []
         wanted = [self.convert(each, str(number + 1), matrix) for number, each in enumerate(used)]
         pinned = choose_pinned(optimizer)
         wanted += [native.reflines.Handle(triangles=pinned, name="Pin Lines")] if len(pinned) else []
         self.conflicts = tuple(self.lines.find_conflicts(wanted))
-        return JointTargets(self.lines.build(wanted), partial(self.measure, handles=wanted), FOLLOW_TOLERANCE)
+        return wanted
 
     def measure(self, optimizer: "native.ShapeOptimizer", handles: "list[native.Handle]") -> float:
         """Returns the root mean square of the distances between handles and their lines, radians of theta."""
@@ -65,6 +87,26 @@ class HandleTargets:
         radius = max(handle.radius, ROOM * float(np.linalg.norm(end - start)))
         return native.reflines.Handle(end, value=float(self.lines.read_theta(start)[0]), radius=radius, centre=start,
                                       name=name)
+
+
+@dataclass(frozen=True)
+class HandleBuild:
+    """The build of one set of handles, and the way to follow them without one."""
+    builder: HandleTargets
+    handles: Handles
+    images: Handles  # with their mirror images, where the region is followed with its own
+    matrix: np.ndarray
+    choose_pinned: ChooseTriangles
+
+    def __call__(self, optimizer: "native.ShapeOptimizer") -> "native.Target | JointTargets":
+        return self.builder.build(optimizer, self.handles, self.matrix, self.choose_pinned)
+
+    def follow(self, optimizer: "native.ShapeOptimizer", other: "native.ShapeOptimizer", *, keep_crossed: bool) -> bool:
+        """Follows the handles; False where that takes a solve, as for pinned faces that have an image."""
+        if len(self.images) != len(self.handles) and len(self.choose_pinned(optimizer)):
+            return False
+        return self.builder.follow(optimizer, other, handles=self.images, matrix=self.matrix,
+                                   choose_pinned=self.choose_pinned, keep_crossed=keep_crossed)
 
 
 def project(plane: np.ndarray, points: np.ndarray) -> np.ndarray:

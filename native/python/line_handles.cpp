@@ -8,6 +8,7 @@
 
 #include "python/bind.h"
 #include "python/exclusive_use.h"
+#include "reflines/handle_follower.h"
 #include "reflines/shape_optimizer.h"
 
 namespace py = pybind11;
@@ -29,7 +30,7 @@ std::unique_ptr<LineHandles> make_line_handles(ShapeOptimizer& optimizer, int fa
 std::vector<HandleReach> measure(const LineHandles& line_handles, const std::vector<Handle>& handles,
                                  ShapeOptimizer& optimizer, double line_step) {
   const NativeCall call(optimizer);
-  return line_handles.measure(handles, optimizer.region_field(line_handles.family()), line_step);
+  return line_handles.measure(handles, optimizer.vertex_field(line_handles.family()), line_step);
 }
 
 std::vector<Target> handles(ShapeOptimizer& optimizer, const std::vector<Handle>& handles, int family) {
@@ -39,7 +40,12 @@ std::vector<Target> handles(ShapeOptimizer& optimizer, const std::vector<Handle>
 
 Vector read_vertex_theta(ShapeOptimizer& optimizer, int family) {
   const NativeCall call(optimizer);
-  return optimizer.region_field(family).vertex_theta;
+  return optimizer.vertex_field(family).vertex_theta;
+}
+
+bool follow(HandleFollower& follower, const std::vector<Handle>& handles, ShapeOptimizer& optimizer, bool keep_others) {
+  const NativeCall call(optimizer);
+  return follower.follow(handles, optimizer, keep_others);
 }
 
 }  // namespace
@@ -59,6 +65,10 @@ void bind_line_handles(py::module_& module) {
       .def("find_conflicts", release_gil(&LineHandles::find_conflicts), py::arg("handles"))
       .def("read_theta", release_gil(&LineHandles::read_theta), py::arg("points"))
       .def("measure", &measure, py::arg("handles"), py::arg("optimizer"), py::kw_only(), py::arg("line_step"));
+  py::class_<HandleFollower>(module, "HandleFollower", py::module_local())
+      .def(py::init<const ShapeOptimizer&, const LineHandles&>(), py::arg("start"), py::arg("lines"),
+           py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
+      .def("follow", &follow, py::arg("handles"), py::arg("optimizer"), py::kw_only(), py::arg("keep_others") = true);
   module.def("handles", &handles, py::arg("optimizer"), py::arg("handles"), py::kw_only(), py::arg("family") = 0);
   module.def("vertex_theta", &read_vertex_theta, py::arg("optimizer"), py::kw_only(), py::arg("family") = 0);
 }

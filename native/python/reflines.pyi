@@ -347,6 +347,14 @@ class LineHandles:
     def measure(self, handles: Sequence[Handle], optimizer: ShapeOptimizer, *, line_step: float) -> list[HandleReach]:
         """Measures at the optimizer's present heights; `line_step` is the step of theta from line to line, radians."""
 
+class HandleFollower:
+    """Follows handles without a solve, in a time that hardly depends on the size of the mesh; see
+    native/include/reflines/handle_follower.h. `start` stays at its heights."""
+    def __init__(self, start: ShapeOptimizer, lines: LineHandles) -> None: ...
+    def follow(self, handles: Sequence[Handle], optimizer: ShapeOptimizer, *, keep_others: bool = True) -> bool:
+        """Moves another optimizer of the region to where the lines meet the handles, by smooth motions. Returns False, and
+        changes nothing, where the solve is to be used: cages, few vertices, handles on several pieces."""
+
 def handles(optimizer: ShapeOptimizer, handles: Sequence[Handle], *, family: int = 0) -> list[Target]:
     """Builds the targets of handles on the present lines: LineHandles(optimizer).build(handles)."""
 

@@ -14,7 +14,7 @@ from dataclasses import asdict
 from datetime import date
 from pathlib import Path
 
-from bench import design_tools, live, restoration
+from bench import design_tools, handle_steps, live, restoration
 from bench.row import Row
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -47,6 +47,8 @@ REACH = {
     "restoration_ripple_given": (0.4, True), "restoration_ripple_crossed": (0.5, True),
     "restoration_noise_given": (0.4, True), "restoration_noise_crossed": (0.5, True), "restoration_move": (0.05, True),
     "restoration_cage_move": (3.0, True), "two_lights_over_one": (1.6, True),
+    "handle_step_ms_10k": (16.0, True), "handle_step_ms_100k": (60.0, True),
+    "handle_first_ms_10k": (100.0, True), "handle_first_ms_100k": (500.0, True),
     "tools_crossed": (1.0, True), "tools_move": (5.0, True), "tools_turned": (0.0, True),
 }
 
@@ -206,7 +208,7 @@ def main() -> None:
     cages = medians(run("bench_solve", "^(cage_solve|dense_solve|cage_warm_step)", REPETITIONS)[0])
     bounded, _ = run("bench_solve", "^bounded", REPETITIONS)
     rows = [*solve_rows(times), *bounded_rows(bounded), *cgal_rows(times), *strategy_rows(sizes), *cage_rows(cages),
-            *restoration.rows(), *design_tools.rows()]
+            *restoration.rows(), *design_tools.rows(), *handle_steps.rows()]
     if not quick:
         rows += [*million_rows(times), *live.rows()]
     values = [asdict(row) for row in rows]

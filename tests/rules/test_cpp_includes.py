@@ -18,6 +18,7 @@ PUBLIC = {
     "shape_optimizer": "solver", "cage_optimizer": "solver",
     "smooth_panel": "restoration",
     "check_panel": "inspection",
+    "handle_follower": "following",
 }
 
 # Room -> the rooms it may include besides itself. `geometry` and `optimization` meet only in `solver`.
@@ -36,7 +37,8 @@ MAY_INCLUDE = {
     "solver": SOLVER | {"solver/coarse"},
     "restoration": SOLVER | {"solver"},
     "inspection": BASE | {"geometry"},
-    "python": SOLVER | {"targets", "solver", "restoration", "inspection"},
+    "following": SOLVER | {"solver", "solver/coarse", "targets"},
+    "python": SOLVER | {"targets", "solver", "restoration", "inspection", "following"},
     "examples": SOLVER | {"targets", "solver"},
 }
 

@@ -258,6 +258,19 @@ def test_a_cage_follows(driver: window.Window) -> Steps:
     assert np.abs(shown(driver) - before).max() > 1e-4
 
 
+def test_a_large_panel_follows_without_a_solve(driver: window.Window) -> Steps:
+    """By smooth motions of the heights within the radius; what Enter keeps is the solve, which is near it."""
+    before = yield from start(driver, cells=80)
+    yield from pull(driver, MIDDLE, UP)
+    assert missed() < 0.01, session().texts
+    followed = shown(driver) - before
+    assert np.abs(followed).max() > 1e-4
+    driver.key('RET')
+    yield from ended(driver)
+    kept = shown(driver) - before
+    assert 0.0 < np.abs(kept - followed).max() < 0.3 * np.abs(kept).max()
+
+
 def test_a_press_with_the_tool_of_the_toolbar_pulls_at_once(driver: window.Window) -> Steps:
     panel(driver, cells=24)
     before = shown(driver)
@@ -282,4 +295,4 @@ window.run(test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed, test_
            test_a_pinned_line_stays_beside_a_pull,
            test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before,
            test_a_handle_that_is_refused_says_why_and_loses_no_other, test_a_cage_follows,
-           test_a_press_with_the_tool_of_the_toolbar_pulls_at_once)
+           test_a_large_panel_follows_without_a_solve, test_a_press_with_the_tool_of_the_toolbar_pulls_at_once)

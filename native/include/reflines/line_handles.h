@@ -61,6 +61,14 @@ class LineHandles {
   std::vector<std::string> find_conflicts(const std::vector<Handle>& handles) const;
 
   int family() const;
+  const RegionField& field() const { return *field_; }  // as it was when this was made
+
+  // These are the parts that `build` puts together, for those who follow handles otherwise: the places of each handle,
+  // the vertices (#V) whose lines may change, and the weight of the values in a triangle beyond these or around a pull.
+  using Places = std::vector<std::vector<HandlePlace>>;
+  Places find_places(const std::vector<Handle>& handles) const;
+  Mask find_part(const std::vector<Handle>& handles, const Places& places) const;
+  double weigh_values(const std::vector<Handle>& handles, const Mask& part, int triangle) const;
 
   // Returns theta of the line through each point (#P), radians in [-pi, pi]. Throws InvalidInput as `build` does.
   Vector read_theta(const PlanePositions& points) const;
@@ -70,15 +78,12 @@ class LineHandles {
   std::vector<HandleReach> measure(const std::vector<Handle>& handles, const RegionField& now, double line_step) const;
 
  private:
-  using Places = std::vector<std::vector<HandlePlace>>;  // of each handle
-
-  Places find_places(const std::vector<Handle>& handles) const;
-  Mask find_part(const std::vector<Handle>& handles, const Places& places) const;
   Vector compute_change(const std::vector<Handle>& handles, const Places& places, double radius);
-  void weight_places(const std::vector<Handle>& handles, const Places& places, double scale, Vector& weight) const;
+  void weight_places(const std::vector<Handle>& handles, const Places& places, Vector& weight) const;
 
   std::unique_ptr<const RegionField> field_;
-  Mask movable_;  // #V: vertices whose lines can change
+  Mask movable_;              // #V: vertices whose lines can change
+  double value_scale_ = 0.0;  // factor of weights that the energy multiplies values by
   SpdFactorize factorize_;
   std::unique_ptr<const LineReader> reader_;
   std::unique_ptr<const Incidence> triangles_of_vertex_;

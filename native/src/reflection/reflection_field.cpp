@@ -26,6 +26,15 @@ ReflectionField reflection_field(const ReflectionFunction& reflection, const Tri
   return field;
 }
 
+PlaneVectors gradient_field(const ReflectionFunction& reflection, const TriangleDerivatives& u) {
+  PlaneVectors gradient(u.rows(), 2);
+#pragma omp parallel for schedule(static) if (u.rows() > kWorthThreads)
+  for (int t = 0; t < static_cast<int>(u.rows()); ++t) {
+    gradient.row(t) = theta_gradient(reflection.derivatives(u(t, 0), u(t, 1), 1), u.row(t));
+  }
+  return gradient;
+}
+
 Vector visibility_weights(const ReflectionFunction& reflection, const TriangleDerivatives& u) {
   Vector weight(u.rows());
 #pragma omp parallel for schedule(static) if (u.rows() > kWorthThreads)

@@ -14,6 +14,9 @@ struct ReflectionField {
 
 ReflectionField reflection_field(const ReflectionFunction& reflection, const TriangleDerivatives& u);
 
+// Returns the gradient alone, in two thirds of the time.
+PlaneVectors gradient_field(const ReflectionFunction& reflection, const TriangleDerivatives& u);
+
 // Returns the weight of each triangle (#T): 1 where the reflected ray is well away from the lines (visibility 0.05 and
 // more), 0 where it is parallel to them and theta is undefined: there grad theta has a pole, and one triangle would
 // outweigh the panel.

@@ -98,6 +98,14 @@ void PieceProblem::pull_to(const Vector& z, const Vector& weight) {
 
 void PieceProblem::scale_move(double share) { set_heights(map_.start() + share * (x_ - map_.start())); }
 
+void PieceProblem::set_move(const Vector& move) {
+  Vector x = map_.start();
+  for (int v = 0; v < move.size(); ++v) {
+    if (map_.moving_index()[v] >= 0) x(map_.moving_index()[v]) += move(v);
+  }
+  set_heights(x);
+}
+
 void PieceProblem::reset() {
   set_heights(map_.start());
   energy_.pull_as_built(piece_.field.z);
@@ -129,14 +137,15 @@ void PieceProblem::add_vertex_field(RegionField& region) const {
   const HeightField& field = piece_.field;
   TriangleDerivatives u;
   apply_stencils(stencils_, z_, u);
-  const ReflectionField own = reflection_field(families_[region.family], u);
+  const PlaneVectors own = gradient_field(families_[region.family], u);
+#pragma omp parallel for schedule(static) if (field.vertex_count() > kWorthThreads)
   for (int v = 0; v < field.vertex_count(); ++v) {
     Vector2 slope = Vector2::Zero(), gradient = Vector2::Zero();
     double area = 0;
     for (int k = field.triangles_of_vertex.begin(v); k < field.triangles_of_vertex.end(v); ++k) {
       const int t = field.triangles_of_vertex.items[k];
       slope += field.area(t) * slope_at(t, v, u);
-      gradient += field.area(t) * own.gradient.row(t).transpose();
+      gradient += field.area(t) * own.row(t).transpose();
       area += field.area(t);
     }
     slope /= area;

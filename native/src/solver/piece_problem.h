@@ -37,11 +37,16 @@ class PieceProblem : public Problem {
   const Stencils& stencils() const { return stencils_; }
   const Vector& heights() const { return z_; }  // #V of the piece
   int hidden_count() const { return hidden_count_; }
+  const std::vector<ReflectionFunction>& families() const { return families_; }  // the last one crosses the first
+  const std::vector<Vector>& trust() const { return visible_; }                  // #T for each family
+  double pull_density() const { return energy_.pull_density(); }
+  LinearSolverKind solver() const { return solver_; }
 
   void set_heights(const Vector& x);
   void rest_at(const Vector& x);                        // sets the heights, and the rest of the proximity term
   void pull_to(const Vector& z, const Vector& weight);  // pull until reset, #V of the piece; see Energy
   void scale_move(double share);                        // of the unknowns from the start
+  void set_move(const Vector& move);                    // of the free vertices from the start: #V of the piece
   void reset();  // restores the state as built, so that later solves give the same bits
   const Vector& unknowns() const { return x_; }
   bool moves_vertices() const {

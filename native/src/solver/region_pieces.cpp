@@ -150,6 +150,18 @@ RegionField RegionPieces::region_field(int family, double feature_length) {
   return result;
 }
 
+RegionField RegionPieces::vertex_field(int family) const {
+  RegionField result;
+  result.xy = xy();
+  result.F = F_;
+  result.vertex_theta = Vector::Zero(vertex_count());
+  result.vertex_gradient = PlaneVectors::Zero(vertex_count(), 2);
+  result.vertex_slope = PlaneVectors::Zero(vertex_count(), 2);
+  result.family = family;
+  for (const auto& piece : pieces_) piece->add_vertex_field(result);
+  return result;
+}
+
 void RegionPieces::read_lines(const Vector& heights, const Vector& weight, Target& target, Vector& theta) const {
   const Vector now = this->heights();
   for (const auto& piece : pieces_) {

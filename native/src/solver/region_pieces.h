@@ -44,6 +44,7 @@ class RegionPieces {
   PlaneVectors field(int family) const;                                 // #F x 2
   PlaneVectors smooth_field(const SmoothOptions& options, int family);  // #F x 2
   RegionField region_field(int family, double feature_length);
+  RegionField vertex_field(int family) const;  // see ShapeOptimizer
 
   // Reads the lines of a piecewise surface with other heights (#V); weight 0 (#V) marks unknown heights. Rows of
   // triangles that depend on an unknown height keep their lines and have weight 0.

@@ -187,7 +187,7 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
   if (limit.exists()) reflines::check(limit, pieces_->vertex_count());
   const MoveLimit limit_before = pieces_->limit();
   pieces_->set_limit(limit.exists() && is_infinite(limit) ? MoveLimit::none() : limit);
-  region_field_.reset();
+  forget_lines();
   std::vector<Vector> before;
   for (const auto& piece : pieces_->pieces()) before.push_back(piece->unknowns());
   const auto restore = [&] {
@@ -244,20 +244,31 @@ SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, Hessian
 
 void ShapeOptimizer::scale_move(double share) {
   if (!(share >= 0 && share <= 1)) throw InvalidInput("The share of the move must lie between 0 and 1.");
-  region_field_.reset();
+  forget_lines();
   for (const auto& piece : pieces_->pieces()) piece->scale_move(share);
+}
+
+void ShapeOptimizer::set_move(const Vector& move) {
+  if (!free_unknowns_.empty()) throw InvalidInput("The vertices of a cage's surface do not move one by one.");
+  if (move.size() != pieces_->vertex_count() || !move.allFinite()) {
+    throw InvalidInput("The move needs one finite number for each of the " + std::to_string(pieces_->vertex_count()) +
+                       " vertices.");
+  }
+  pieces_->set_limit(MoveLimit::none());
+  forget_lines();
+  for (const auto& piece : pieces_->pieces()) piece->set_move(move(piece->vertices()));
 }
 
 void ShapeOptimizer::reset() {
   pieces_->set_limit(MoveLimit::none());
-  region_field_.reset();
+  forget_lines();
   for (const auto& piece : pieces_->pieces()) piece->reset();
 }
 
 const Vector& ShapeOptimizer::unknowns() const { return pieces_->pieces().front()->unknowns(); }
 
 void ShapeOptimizer::rest_at(const Vector& unknowns) {
-  region_field_.reset();
+  forget_lines();
   pieces_->pieces().front()->rest_at(unknowns);
 }
 
@@ -313,6 +324,18 @@ const RegionField& ShapeOptimizer::region_field(int family) {
   check_family(family);
   if (!region_field_ || region_field_->family != family) region_field_ = pieces_->region_field(family, feature_length_);
   return *region_field_;
+}
+
+const RegionField& ShapeOptimizer::vertex_field(int family) {
+  check_family(family);
+  if (!vertex_field_ || vertex_field_->family != family) vertex_field_ = pieces_->vertex_field(family);
+  return *vertex_field_;
+}
+
+// Drops what was read at other heights.
+void ShapeOptimizer::forget_lines() {
+  region_field_.reset();
+  vertex_field_.reset();
 }
 
 ShapeOptimizer::Lines ShapeOptimizer::evaluate_lines(const Vector& heights, const Vector& weight, int family) {

@@ -46,9 +46,8 @@ TargetTerms::TargetTerms(const HeightField& field, const Quadrature& quadrature,
                          int row_count)
     : field_(field), quadrature_(quadrature), families_(families), trust_(trust), row_count_(row_count) {}
 
-EnergyTerm TargetTerms::build_term(const Target& target) const {
+EnergyTerm TargetTerms::build_term(const Target& target, bool by_value) const {
   EnergyTerm term{families_[target.family], {}, {}, Vector(row_count_)};
-  const bool by_value = target.theta.size() > 0;
   term.gradient.resize(by_value ? 0 : row_count_, 2);
   term.theta.resize(by_value ? row_count_ : 0);
   const double scale = by_value ? value_scale(field_) : 1.0;
@@ -72,7 +71,7 @@ EnergyTerm TargetTerms::build_companion(const Target& target) const {
                        std::to_string(target.gradient.rows() - good) + " of its " +
                        std::to_string(target.gradient.rows()) + " rows; give numbers, or 0 rows for none.");
   }
-  EnergyTerm result = build_term({target.gradient, target.weight, {}, target.family});
+  EnergyTerm result = build_term(target, false);
   const double scale = kValueCompanion * value_scale(field_);
   for (int k = 0; k < row_count_; ++k) result.weight(k) *= scale * field_.area(quadrature_.triangle_of(k));
   return result;
@@ -109,7 +108,7 @@ TargetTerms::Misfit TargetTerms::measure(const std::vector<Target>& targets, con
 std::vector<EnergyTerm> TargetTerms::build(const std::vector<Target>& targets) const {
   std::vector<EnergyTerm> terms;
   for (const Target& target : targets) {
-    terms.push_back(build_term(target));
+    terms.push_back(build_term(target, target.theta.size() > 0));
     if (target.theta.size() > 0 && target.gradient.rows() == target.theta.size())
       terms.push_back(build_companion(target));
   }

@@ -32,7 +32,7 @@ class TargetTerms {
   Misfit measure(const std::vector<Target>& targets, const TriangleDerivatives& u) const;
 
  private:
-  EnergyTerm build_term(const Target& target) const;
+  EnergyTerm build_term(const Target& target, bool by_value) const;
   EnergyTerm build_companion(const Target& target) const;
 
   const HeightField& field_;

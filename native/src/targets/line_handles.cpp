@@ -124,17 +124,12 @@ Location locate(const LineReader& reader, const Vector2& point, const Handle& ha
                      " lies off the region's lines (beside it, or on a fillet or fold); move it onto the panel.");
 }
 
-// Adds the weights of the values (#F) that round the lines at pulls.
-void add_rounding(const RegionField& field, const std::vector<Handle>& handles, double scale, Vector& weight) {
+double find_largest_radius(const std::vector<Handle>& handles) {
+  double radius = 0;
   for (const Handle& handle : handles) {
-    if (handle.kind != HandleKind::kPull) continue;
-    const double reach = kRound * handle.radius, most = kRoundWeight * scale / (handle.radius * handle.radius);
-    for (int t = 0; t < field.F.rows(); ++t) {
-      if (!field.active(t) || field.feature(t)) continue;
-      const double share = measure_distance(field.center.row(t), handle.points) / reach;
-      if (share < 1) weight(t) = std::max(weight(t), most * std::pow(1 - share * share, 2));
-    }
+    if (handle.kind == HandleKind::kPull) radius = std::max(radius, handle.radius);
   }
+  return radius;
 }
 
 }  // namespace
@@ -142,6 +137,7 @@ void add_rounding(const RegionField& field, const std::vector<Handle>& handles, 
 LineHandles::LineHandles(RegionField field, const Mask& changeable, SpdFactorize factorize)
     : field_(std::make_unique<const RegionField>(std::move(field))),
       movable_(find_movable(*field_, changeable)),
+      value_scale_(compute_value_scale(*field_)),
       factorize_(std::move(factorize)),
       reader_(std::make_unique<const LineReader>(*field_)),
       triangles_of_vertex_(
@@ -211,8 +207,7 @@ Vector LineHandles::compute_change(const std::vector<Handle>& handles, const Pla
 }
 
 // Adds the weights of the values (#F) around the handles' places and in pinned triangles.
-void LineHandles::weight_places(const std::vector<Handle>& handles, const Places& places, double scale,
-                                Vector& weight) const {
+void LineHandles::weight_places(const std::vector<Handle>& handles, const Places& places, Vector& weight) const {
   for (size_t k = 0; k < handles.size(); ++k) {
     std::vector<int> around(handles[k].triangles.begin(), handles[k].triangles.end());
     for (const HandlePlace& place : places[k]) {
@@ -229,33 +224,43 @@ void LineHandles::weight_places(const std::vector<Handle>& handles, const Places
     // A pinned area weighs as the places that it has room for.
     const double room = handles[k].triangles.size() > 0 ? area / std::pow(kPlaceEdges * mean_edge(*field_), 2) : 0.0;
     const double count = std::max({1.0, static_cast<double>(places[k].size()), room});
-    for (const int t : around) weight(t) = std::max(weight(t), kPlaceWeight * scale * count / area);
+    for (const int t : around) weight(t) = std::max(weight(t), kPlaceWeight * value_scale_ * count / area);
   }
 }
 
-std::vector<Target> LineHandles::build(const std::vector<Handle>& handles) {
-  double radius = 0;
-  for (const Handle& handle : handles) {
-    if (handle.kind == HandleKind::kPull) radius = std::max(radius, handle.radius);
+double LineHandles::weigh_values(const std::vector<Handle>& handles, const Mask& part, int triangle) const {
+  double weight = 0;
+  if (!part(field_->F.row(triangle)).any()) {
+    const double radius = find_largest_radius(handles);
+    weight = kStayWeight * value_scale_ / (radius * radius);
   }
+  for (const Handle& handle : handles) {
+    if (handle.kind != HandleKind::kPull || field_->feature(triangle)) continue;
+    const double share = measure_distance(field_->center.row(triangle), handle.points) / (kRound * handle.radius);
+    if (share >= 1) continue;
+    const double most = kRoundWeight * value_scale_ / (handle.radius * handle.radius);
+    weight = std::max(weight, most * std::pow(1 - share * share, 2));
+  }
+  return weight;
+}
+
+std::vector<Target> LineHandles::build(const std::vector<Handle>& handles) {
+  const double radius = find_largest_radius(handles);
   const Places places = find_places(handles);
   if (!(radius > 0)) throw InvalidInput("There is no handle that pulls a line; give at least one.");
   const Vector c = compute_change(handles, places, radius);
   Target gradient{field_->gradient, {}, {}, field_->family, true};
   Target value{field_->gradient, Vector::Zero(field_->F.rows()), field_->theta, field_->family};
-  const double scale = compute_value_scale(*field_);
   for (int t = 0; t < field_->F.rows(); ++t) {
     if (!field_->active(t)) continue;
+    value.weight(t) = weigh_values(handles, change_->part(), t);
     const int a = field_->F(t, 0), b = field_->F(t, 1), d = field_->F(t, 2);
-    if (!change_->part()(field_->F.row(t)).any()) {
-      value.weight(t) = kStayWeight * scale / (radius * radius);
-    } else if (c(a) != 0 || c(b) != 0 || c(d) != 0) {
+    if (c(a) != 0 || c(b) != 0 || c(d) != 0) {
       gradient.gradient.row(t) += linear_gradient(field_->xy, field_->F.row(t), c(b) - c(a), c(d) - c(a)).transpose();
       value.theta(t) = wrap_angle(field_->theta(t) + (c(a) + c(b) + c(d)) / 3);
     }
   }
-  add_rounding(*field_, handles, scale, value.weight);
-  weight_places(handles, places, scale, value.weight);
+  weight_places(handles, places, value.weight);
   value.gradient = gradient.gradient;
   return {std::move(gradient), std::move(value)};
 }

@@ -6,6 +6,7 @@
 
 #include "geometry/height_field.h"
 #include "reflines/types.h"
+#include "solver/coarse/knot_grid.h"
 
 namespace reflines {
 
@@ -20,13 +21,6 @@ struct SplineSample {
 struct SplineCell {
   int begin = 0, end = 0;
   std::array<int, 16> mode;  // or -1 where a spline is left out
-};
-
-// The grid of knots, one cell apart; splines are numbered row by row.
-struct KnotGrid {
-  Vector2 origin;
-  double step = 0;            // width of a cell
-  int columns = 0, rows = 0;  // numbers of splines; cells are three fewer in each direction
 };
 
 struct SplineBasis {
@@ -47,9 +41,5 @@ struct SplineBasis {
 // not free is left out, so that borders keep their position and tangent; so is one that hardly moves any. The basis may
 // be empty.
 SplineBasis build_spline_basis(const HeightField& field, double spacing);
-
-// Returns the value, f_x, f_y, f_xx, f_xy, f_yy of a cell's 16 splines at a place of it, one a column.
-using SplineDerivatives = Eigen::Matrix<double, 6, 16>;
-SplineDerivatives spline_derivatives(const Vector2& place, double step);
 
 }  // namespace reflines
