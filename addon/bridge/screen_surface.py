@@ -39,6 +39,12 @@ class ScreenSurface:
         pixels, self.depth = project_points(matrix, self.surface.start.V)
         self.triangles = PlaneTriangles(pixels, self.surface.F)
 
+    def measure_pixel(self, point: np.ndarray) -> float:
+        """Returns the length of a pixel across the view at a point (3), world units."""
+        matrix = compute_pixel_matrix(self.area)
+        across = np.linalg.norm(matrix[:2, :3], axis=1).mean()
+        return float(matrix[3] @ np.append(point, 1.0)) / across
+
     def find_pixels(self, points: np.ndarray) -> np.ndarray:
         """Returns where points (#P x 3) are seen, in pixels of the window: #P x 2, NaN behind the viewer."""
         region = view_region.find_view_region(self.area)

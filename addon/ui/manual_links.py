@@ -20,6 +20,7 @@ SETTINGS = (
     *((f"bpy.types.reflinesscene.{name}", "#region") for name in ("border", "show_borders", "solve_for", "result")),
     ("bpy.types.reflinesobject.crease*", "#region"),
     ("bpy.types.reflinespull.*", "#reflines.pull_line"),
+    ("bpy.types.reflinesbrush.*", "#reflines.fair_brush"),
     ("bpy.types.reflineshandles.*", "#reflines.pull_line"),
     ("bpy.types.reflinesmarks.*", "#reflines.check"),
     ("bpy.types.reflinesscene.*", "#reflines.smooth"),

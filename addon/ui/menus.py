@@ -6,7 +6,8 @@ DRAGGED = (
     ("reflines.smooth", 'MOD_SMOOTH'), ("reflines.direction", 'ALIGN_JUSTIFY'), ("reflines.untwist", 'LOOP_BACK'),
     ("reflines.warp", 'MOD_LATTICE'), ("reflines.pattern", 'IMAGE_DATA'),
 )
-TOOLS = (*DRAGGED, ("reflines.pull_line", 'VIEW_PAN'), ("reflines.fit", 'MOD_SHRINKWRAP'))
+TOOLS = (*DRAGGED, ("reflines.pull_line", 'VIEW_PAN'), ("reflines.fair_brush", 'BRUSH_DATA'),
+         ("reflines.fit", 'MOD_SHRINKWRAP'))
 SETUP = (
     ("reflines.camera_from_view", 'VIEW_CAMERA'), ("reflines.add_view_camera", 'CAMERA_DATA'),
     ("reflines.look_through", 'HIDE_OFF'), ("reflines.add_light_direction", 'EMPTY_SINGLE_ARROW'),
@@ -42,11 +43,12 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
 
 
 def draw_drags(layout: bpy.types.UILayout) -> None:
-    """Draws an entry for each tool that starts its drag, and Pull Line, which is always dragged."""
+    """Draws an entry for each tool that starts its drag, and those that are always dragged."""
     for name, icon in DRAGGED:
         label = getattr(bpy.ops.reflines, name.partition(".")[2]).get_rna_type().name
         layout.operator(name, text=f"Drag {label}", icon=icon).follow_mouse = True
     layout.operator("reflines.pull_line", icon='VIEW_PAN')
+    layout.operator("reflines.fair_brush", icon='BRUSH_DATA')
 
 
 class VIEW3D_MT_reflines_drag(bpy.types.Menu):

@@ -195,6 +195,24 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
             layout.operator("reflines.delete_handles", icon='X')
 
 
+class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):
+    bl_label = "Fair Brush"
+    manual = "reflines.fair_brush"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
+        own = settings.brush
+        layout.prop(own, "size")
+        layout.prop(own, "strength")
+        automatic_values.draw_value(layout, settings, "length")
+        layout.prop(settings, "lights")
+        automatic_values.draw_value(layout, settings, "limit")
+        border = layout.row(align=True)
+        border.use_property_split = False
+        border.prop(own, "border", expand=True)
+        layout.operator("reflines.fair_brush", icon='BRUSH_DATA')
+
+
 class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
     bl_label = "Direction and Density"
     manual = "reflines.direction"
@@ -333,6 +351,6 @@ class VIEW3D_PT_reflines_numbers(ReflinesPanel, bpy.types.Panel):
 
 register, unregister = bpy.utils.register_classes_factory([
     VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_pull,
-    VIEW3D_PT_reflines_direction,
+    VIEW3D_PT_reflines_brush, VIEW3D_PT_reflines_direction,
     VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
     VIEW3D_PT_reflines_numbers])

@@ -13,8 +13,8 @@ from .automatic_values import shown_property, switch_property
 from .check_properties import ReflinesCheck, ReflinesMarks
 from .handle_properties import ReflinesHandles
 from .stripe_properties import ReflinesSetups, ReflinesStripes
-from .tool_properties import (ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesUntwist, ReflinesWarp,
-                              SmoothSettings)
+from .tool_properties import (ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesUntwist,
+                              ReflinesWarp, SmoothSettings)
 
 KINDS = (
     ('CAGE', "Cage", "Below a Subdivision Surface: move the cage so that the subdivided surface reflects well"),
@@ -231,6 +231,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     pull: PointerProperty(type=ReflinesPull)
+    brush: PointerProperty(type=ReflinesBrush)
     warp: PointerProperty(type=ReflinesWarp)
     live: PointerProperty(type=ReflinesLive)
     pattern: PointerProperty(type=ReflinesPattern)

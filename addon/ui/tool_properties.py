@@ -184,6 +184,14 @@ class PullSettings:
                           "at most half its width")
 
 
+class BrushSettings:
+    border: border_property()
+    size: IntProperty(name="Size", default=60, min=2, soft_max=500, max=5000, subtype='PIXEL', **SAVED,
+                      description="Radius of the brush on the screen")
+    strength: FloatProperty(name="Strength", default=0.5, min=0.0, max=1.0, subtype='FACTOR', **SAVED,
+                            description="How far one dab brings the lines in its middle to smooth ones")
+
+
 class ReflinesDirection(DirectionSettings, bpy.types.PropertyGroup):
     """The scene's settings of Direction and Density."""
 
@@ -194,6 +202,10 @@ class ReflinesUntwist(UntwistSettings, bpy.types.PropertyGroup):
 
 class ReflinesPull(PullSettings, bpy.types.PropertyGroup):
     """The scene's settings of Pull Line."""
+
+
+class ReflinesBrush(BrushSettings, bpy.types.PropertyGroup):
+    """The scene's settings of Fair Brush."""
 
 
 def is_lattice(_: object, ob: bpy.types.Object) -> bool:
@@ -212,4 +224,4 @@ class ReflinesPattern(PatternSettings, bpy.types.PropertyGroup):
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    ReflinesDirection, ReflinesUntwist, ReflinesPull, ReflinesWarp, ReflinesPattern])
+    ReflinesDirection, ReflinesUntwist, ReflinesPull, ReflinesBrush, ReflinesWarp, ReflinesPattern])

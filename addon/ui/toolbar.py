@@ -1,16 +1,19 @@
-"""The tool in the toolbar of the 3D view: its gizmos, its settings in the header, and its keys."""
+"""The tools in the toolbar of the 3D view: gizmos, settings in the header, and keys. Each is there in Edit Mode and in
+Object Mode.
+"""
 import bpy
 
+from ..overlay import brush_circle
 from . import gizmos
 
-IDNAME = "reflection_lines.tool"
-LOOK_THROUGH = ("reflines.look_through", {"type": 'NUMPAD_0', "value": 'PRESS'}, None)  # of all tools of the add-on
+LOOK_THROUGH = ("reflines.look_through", {"type": 'NUMPAD_0', "value": 'PRESS'}, None)  # of all tools
+PRESS = {"type": 'LEFTMOUSE', "value": 'PRESS'}
+SETTINGS = "scene.reflection_lines.brush"
 
 
 class ReflectionLinesTool:
-    """The tool in one mode. While it is active, Numpad 0 looks through the view camera; clicks select as always."""
-    bl_space_type = 'VIEW_3D'
-    bl_idname = IDNAME
+    """The tool with gizmos. While it is active, Numpad 0 looks through the view camera; clicks select as always."""
+    bl_idname = "reflection_lines.tool"
     bl_label = "Reflection Lines"
     bl_description = ("Drag the arrow beside the panel to smooth its lines, and the ring to turn the light.\n"
                       "Numpad 0 looks through the view camera")
@@ -28,22 +31,72 @@ class ReflectionLinesTool:
         layout.menu("VIEW3D_MT_reflines_drag", icon='ARROW_LEFTRIGHT')
 
 
-class EditModeTool(ReflectionLinesTool, bpy.types.WorkSpaceTool):
-    bl_context_mode = 'EDIT_MESH'
+class PullLineTool:
+    """The tool whose press on the panel begins a session by pulling the line there."""
+    bl_idname = "reflection_lines.pull_line"
+    bl_label = "Pull Line"
+    bl_description = ("Drag a reflection line: the panel follows. Further presses take other lines.\n"
+                      "Alt click pins a line, Enter applies, Esc takes all back")
+    bl_icon = "ops.transform.push_pull"
+    bl_keymap = (("reflines.pull_line", PRESS, None), ("reflines.pull_line", {**PRESS, "alt": True}, None),
+                 LOOK_THROUGH)
+
+    @staticmethod
+    def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, _tool: object) -> None:
+        """Draws the settings that new handles get, in the header and in the tab Tool."""
+        settings = context.scene.reflection_lines.pull
+        layout.prop(settings, "radius")
+        layout.prop(settings, "border")
 
 
-class ObjectModeTool(ReflectionLinesTool, bpy.types.WorkSpaceTool):
-    bl_context_mode = 'OBJECT'
+class FairBrushTool:
+    """The tool that paints smoother lines."""
+    bl_idname = "reflection_lines.fair_brush"
+    bl_label = "Fair Brush"
+    bl_description = ("Paint over flaws: the lines under the brush become smoother, the rest stays.\n"
+                      "F changes the size, Shift F the strength, Shift paints with less")
+    bl_icon = "brush.sculpt.smooth"
+    bl_cursor = 'CROSSHAIR'
+    bl_keymap = (("reflines.fair_brush", PRESS, None), ("reflines.fair_brush", {**PRESS, "shift": True}, None),
+                 ("wm.radial_control", {"type": 'F', "value": 'PRESS'},
+                  {"properties": [("data_path_primary", f"{SETTINGS}.size")]}),
+                 ("wm.radial_control", {"type": 'F', "value": 'PRESS', "shift": True},
+                  {"properties": [("data_path_primary", f"{SETTINGS}.strength")]}), LOOK_THROUGH)
+
+    @staticmethod
+    def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, _tool: object) -> None:
+        """Draws the settings of the brush, in the header and in the tab Tool."""
+        settings = context.scene.reflection_lines
+        layout.prop(settings.brush, "size")
+        layout.prop(settings.brush, "strength")
+        layout.prop(settings, "length")
+
+    @staticmethod
+    def draw_cursor(context: bpy.types.Context, _tool: object, place: tuple[int, int]) -> None:
+        """Draws the brush around the mouse."""
+        brush_circle.draw_brush(place, context.scene.reflection_lines.brush.size)
 
 
-TOOLS = (EditModeTool, ObjectModeTool)
+def add_modes(tool: type) -> list[type]:
+    """Returns a tool's class for each mode that it is used in."""
+    return [type(f"{name}{tool.__name__}", (tool, bpy.types.WorkSpaceTool),
+                 {"bl_space_type": 'VIEW_3D', "bl_context_mode": mode})
+            for name, mode in (("EditMode", 'EDIT_MESH'), ("ObjectMode", 'OBJECT'))]
+
+
+TOOLS = [add_modes(tool) for tool in (ReflectionLinesTool, PullLineTool, FairBrushTool)]
 
 
 def register() -> None:
-    for tool in TOOLS:
-        bpy.utils.register_tool(tool, after={"builtin.measure"}, separator=True)
+    """Registers the tools one below the other, after Blender's."""
+    above = "builtin.measure"
+    for modes in TOOLS:
+        for tool in modes:
+            bpy.utils.register_tool(tool, after={above}, separator=modes is TOOLS[0])
+        above = modes[0].bl_idname
 
 
 def unregister() -> None:
-    for tool in reversed(TOOLS):
-        bpy.utils.unregister_tool(tool)
+    for modes in reversed(TOOLS):
+        for tool in reversed(modes):
+            bpy.utils.unregister_tool(tool)

@@ -17,6 +17,7 @@ MAY_IMPORT = {
                     "overlay.handle_marks"},
     "operators": {"model", "targets", "bridge", "solver", "state", "interactive", "ui.properties",
                   "ui.automatic_values", "ui.tool_properties"},
+    "overlay.brush_circle": set(),
     "overlay.falloff_circle": set(),
     "overlay.handle_marks": set(),
     "overlay.stripes": set(),
@@ -51,10 +52,9 @@ MAY_IMPORT = {
     "ui.stripes_panel": {"ui.panels", "ui.rows", "ui.stripe_presets"},
     "ui.gizmos": {"bridge", "interactive.drag", "state.last_panels"},
     "ui.menus": set(),
-    "ui.pull_line_tool": {"ui.toolbar"},
     "ui.keymaps": set(),
     "ui.manual_links": set(),
-    "ui.toolbar": {"ui.gizmos"},
+    "ui.toolbar": {"ui.gizmos", "overlay.brush_circle"},
     "ui.preferences": {"native", "ui.keymaps", "ui.manual_links"},
 }
 # Registration sees everything.

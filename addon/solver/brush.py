@@ -1,0 +1,116 @@
+"""Dabs of Fair Brush: smoother lines within a circle of the image plane, with the rest of the region held."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import native
+from ..model.border import CODES
+from ..model.patch import Patch
+from ..model.view import View
+from . import live_optimizer
+from .formulation import Formulation, choose_formulation
+
+CONTEXT, FEWEST_EDGES = 0.25, 4.0  # of the radius, and mean edges: what the filter sees beyond the circle
+FEWEST_FREE = 8  # vertices within a circle that can be smoothed
+LONGEST = 2.0    # length of the filter, relative to the radius: what is longer than the circle is no flaw in it
+TOLERANCE = 1e-3
+
+
+@dataclass(frozen=True)
+class Brush:
+    """The settings of a dab, world units."""
+    radius: float
+    strength: float  # share of the way to smooth lines in the middle, 0 to 1
+    length: float    # detail finer than this goes
+    limit: float     # largest move along the view since the stroke began
+    families: int    # 2: the crossed lines are smoothed as well
+
+
+class BrushedPatch:
+    """A patch under a brush: its moves along the view since the stroke began, which dabs add to."""
+
+    def __init__(self, patch: Patch, view: View, border: str) -> None:
+        """Takes the border of the region, which holds below the brush, too. A seam of a Mirror modifier is clamped."""
+        codes = Formulation(patch, view).choose_border(border)
+        self.patch, self.view = patch, view
+        self.border = np.full(len(patch.V), CODES[codes]) if isinstance(codes, str) else codes
+        self.frame = live_optimizer.compute_image_frame(patch, view)
+        self.xy = patch.V @ self.frame[:2].T
+        self.move = np.zeros(len(patch.V))
+        corners = self.xy[patch.F]
+        self.edge = float(np.sqrt(np.mean(np.sum((corners - np.roll(corners, 1, axis=1))**2, axis=2))))
+        symmetric = patch.mirror is not None and not patch.mirror.image and choose_formulation(patch, view).is_symmetric
+        self.partner = patch.mirror.partner if symmetric else None
+
+    @property
+    def positions(self) -> np.ndarray:
+        """The present positions: #V x 3, world space."""
+        return self.patch.V + self.move[:, None] * self.frame[2]
+
+    def dab(self, point: np.ndarray, brush: Brush) -> bool:
+        """Smooths the lines around a point (3, world space), on both sides where the patch stays symmetric. Returns
+        False where the circle has too few vertices that can move.
+        """
+        found = self.solve(self.frame[:2] @ point, brush)
+        if found is None:
+            return False
+        added = np.zeros(len(self.move))
+        added[found[0]] = found[1]
+        if self.partner is not None:
+            image = added[self.partner]
+            added = np.where((added != 0.0) & (image != 0.0), 0.5, 1.0) * (added + image)
+        self.move = np.clip(self.move + added, -brush.limit, brush.limit)
+        return True
+
+    def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
+        """Solves around a place of the image plane; returns the vertices and their further moves."""
+        apart = np.linalg.norm(self.xy - place, axis=1)
+        near = apart < brush.radius + max(CONTEXT * brush.radius, FEWEST_EDGES * self.edge)
+        corners = self.patch.F[near[self.patch.F].all(axis=1)]
+        vertices = np.flatnonzero(np.bincount(corners.ravel(), minlength=len(near)))
+        held = apart[vertices] >= brush.radius
+        if np.count_nonzero(~held) < FEWEST_FREE:
+            return None
+        number = np.zeros(len(near), dtype=np.int64)
+        number[vertices] = np.arange(len(vertices))
+        try:
+            return vertices, self.solve_window(vertices, number[corners], held, place, brush)
+        except native.InvalidInput:  # no vertex of the circle is free
+            return None
+
+    def solve_window(self, vertices: np.ndarray, F: np.ndarray, held: np.ndarray, place: np.ndarray,
+                     brush: Brush) -> np.ndarray:
+        """Solves for smooth lines in a window of the patch; returns the further moves of its vertices."""
+        before = self.move[vertices]
+        optimizer = native.reflines.ShapeOptimizer(
+            self.patch.V[vertices] + before[:, None] * self.frame[2], F, view_direction=self.view.view_direction,
+            line_direction=self.view.both_directions, fixed=held, border=np.where(held, CODES["fixed"],
+                                                                                 self.border[vertices]),
+            **self.choose_creases(vertices))
+        targets = [build_dab_target(optimizer, place, brush, family) for family in range(brush.families)]
+        start = optimizer.heights
+        optimizer.solve(targets, gradient_tolerance=TOLERANCE)
+        move = optimizer.heights - start
+        if np.abs(before + move).max() > brush.limit:
+            optimizer.reset()
+            ends = np.minimum(-brush.limit - before, 0.0), np.maximum(brush.limit - before, 0.0)
+            optimizer.solve(targets, gradient_tolerance=TOLERANCE, limit=np.column_stack(ends))
+            move = optimizer.heights - start
+        return move
+
+    def choose_creases(self, vertices: np.ndarray) -> dict[str, str | np.ndarray]:
+        """Returns the arguments of creases for a window of the patch."""
+        number = np.full(len(self.move), -1)
+        number[vertices] = np.arange(len(vertices))
+        marked = number[self.patch.creases.marked]
+        return {"crease_rule": self.patch.creases.rule, "marked_creases": marked[(marked >= 0).all(axis=1)]}
+
+
+def build_dab_target(optimizer: "native.ShapeOptimizer", place: np.ndarray, brush: Brush,
+                     family: int) -> "native.Target":
+    """Builds the target of lines that are smoothed most in the middle of the circle, and not at its rim."""
+    own = optimizer.field(family)
+    smooth = native.reflines.smooth(optimizer, length=min(brush.length, LONGEST * brush.radius), family=family)
+    squared = np.minimum(np.sum((optimizer.centers - place)**2, axis=1) / brush.radius**2, 1.0)
+    share = brush.strength * (1.0 - squared)**2
+    return native.reflines.Target(own + share[:, None] * (smooth.gradient - own), family=family)

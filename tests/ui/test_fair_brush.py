@@ -1,0 +1,138 @@
+"""Fair Brush in a real window: strokes smooth what they pass over, each is one undo step, and Escape takes it back."""
+import os
+from collections.abc import Generator
+
+import bpy
+import numpy as np
+
+import scenes
+import window
+from dragging import panel, shown, undone_and_redone
+
+Steps = Generator[float, None, None]
+CELLS = 48
+LEFT, RIGHT = (250, 290), (390, 290)  # pixels
+
+
+def settings() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines.brush
+
+
+def begin(driver: window.Window, **panel_settings: int) -> Generator[float, None, np.ndarray]:
+    """A fresh panel with the tool at hand; returns its positions."""
+    panel(driver, **{"cells": CELLS, **panel_settings})
+    settings().size, settings().strength = 50, 0.8
+    driver.move(*LEFT)
+    with driver.override():
+        assert bpy.ops.wm.tool_set_by_id(name="reflection_lines.fair_brush") == {'FINISHED'}
+    driver.redraw()
+    yield 0.3
+    return shown(driver)
+
+
+def end(driver: window.Window) -> None:
+    with driver.override():
+        bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+
+
+def paint(driver: window.Window, first: tuple[int, int], last: tuple[int, int], *, hold: bool = False,
+          **modifiers: bool) -> Steps:
+    driver.move(*first)
+    yield 0.1
+    driver.event('LEFTMOUSE', 'PRESS', **modifiers)
+    yield 0.2
+    for share in (0.25, 0.5, 0.75, 1.0):
+        driver.x, driver.y = (base + int(a + share * (b - a)) for base, a, b in
+                              zip((driver.region().x, driver.region().y), first, last, strict=True))
+        driver.event('MOUSEMOVE', **modifiers)
+        yield 0.2
+    if not hold:
+        driver.event('LEFTMOUSE', 'RELEASE')
+        yield 0.3
+
+
+def picture(driver: window.Window, name: str) -> Steps:
+    if "REFLINES_PICTURES" in os.environ:
+        driver.redraw()
+        yield 0.3
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{name}.png"))
+        yield 0.3
+
+
+def test_a_stroke_smooths_what_it_passes_over_in_one_undo_step(driver: window.Window) -> Steps:
+    before = yield from begin(driver)
+    yield from picture(driver, "fair_brush_before")
+    yield from paint(driver, LEFT, RIGHT, hold=True)
+    yield from picture(driver, "fair_brush")
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.3
+    after = shown(driver)
+    moved = np.abs(after - before).max(axis=1) > 0.0
+    assert 50 < moved.sum() < 0.5 * len(moved) and np.ptp(before[moved, 0]) > 1.5 * np.ptp(before[moved, 1])
+    assert bpy.context.window_manager.operators[-1].bl_idname == "REFLINES_OT_fair_brush"
+    yield from undone_and_redone(driver, before, after)
+    end(driver)
+
+
+def test_strokes_add_up_and_shift_paints_with_less(driver: window.Window) -> Steps:
+    before = yield from begin(driver)
+    yield from paint(driver, LEFT, RIGHT, shift=True)
+    weak = shown(driver)
+    yield from paint(driver, LEFT, RIGHT)
+    both = shown(driver)
+    least, most = (np.abs(each - before).max() for each in (weak, both))
+    assert 0.0 < least < 0.6 * most, (least, most)
+    yield from undone_and_redone(driver, weak, both)
+    end(driver)
+
+
+def test_escape_restores_every_bit(driver: window.Window) -> Steps:
+    yield from begin(driver)
+    before = scenes.fingerprint(bpy.data.objects["Panel"])
+    yield from paint(driver, LEFT, RIGHT, hold=True)
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) != before
+    driver.key('ESC')
+    yield 0.3
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.2
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
+    end(driver)
+
+
+def test_f_changes_the_size(driver: window.Window) -> Steps:
+    yield from begin(driver)
+    driver.key('F')
+    yield 0.3
+    driver.x += 60
+    driver.event('MOUSEMOVE')
+    yield 0.2
+    driver.event('LEFTMOUSE', 'PRESS')
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.3
+    assert settings().size > 80, settings().size
+    end(driver)
+
+
+def test_a_stroke_beside_the_panel_and_one_on_a_cage_change_nothing(driver: window.Window) -> Steps:
+    before = yield from begin(driver)
+    yield from paint(driver, (10, 20), (40, 20))
+    assert np.array_equal(shown(driver), before)
+    before = yield from begin(driver, cells=16, levels=2)
+    yield from paint(driver, LEFT, RIGHT)
+    assert np.array_equal(shown(driver), before)
+    end(driver)
+
+
+def test_the_button_takes_the_tool(driver: window.Window) -> Steps:
+    panel(driver)
+    with driver.override():
+        assert bpy.ops.reflines.fair_brush('INVOKE_DEFAULT', True) == {'CANCELLED'}
+        yield 0.3
+        tool = bpy.context.workspace.tools.from_space_view3d_mode('EDIT_MESH')
+    assert tool.idname == "reflection_lines.fair_brush"
+    end(driver)
+
+
+window.run(test_a_stroke_smooths_what_it_passes_over_in_one_undo_step, test_strokes_add_up_and_shift_paints_with_less,
+           test_escape_restores_every_bit, test_f_changes_the_size,
+           test_a_stroke_beside_the_panel_and_one_on_a_cage_change_nothing, test_the_button_takes_the_tool)
