@@ -12,6 +12,7 @@ from dragging import ended, panel, settled, shown, undone_and_redone
 
 Steps = Generator[float, None, None]
 MIDDLE, UP = (330, 290), (330, 312)  # pixels; the lines run from left to right
+BESIDE = (330, 315)  # where a pull at MIDDLE still bends the lines; 20 pixels further the bend changes its sign
 
 
 def session() -> object:
@@ -186,22 +187,21 @@ def test_a_pinned_line_stays_beside_a_pull(driver: window.Window) -> Steps:
     for pinned in (False, True):
         yield from start(driver, cells=48)
         if pinned:
-            yield from move(driver, 330, 335)
+            yield from move(driver, *BESIDE)
             driver.event('LEFTMOUSE', 'PRESS', alt=True)
             driver.event('LEFTMOUSE', 'RELEASE', alt=True)
             yield 0.2
             yield from settled(driver)
             assert [each.is_pin for each in session().handles] == [True]
         line = session()
-        place = line.screen.find_place(driver.region().x + 330, driver.region().y + 335)
+        place = line.screen.find_place(driver.region().x + BESIDE[0], driver.region().y + BESIDE[1])
         yield from pull(driver, MIDDLE, (330, 300))
         theta = [line.surface.read_theta(place, state) for state in (line.surface.start, line.state)]
         changes.append(abs(theta[1] - theta[0]) / (2.0 * np.pi / bpy.context.scene.reflection_lines.stripes.count))
         yield from picture("pin_line")
         driver.key('ESC')
         yield 0.3
-    # A thousandth of the spacing cannot be seen: with another Blender's view the place may lie on a line that stays.
-    assert changes[1] < 0.02 and changes[1] < max(0.2 * changes[0], 1e-3), changes
+    assert changes[1] < 0.02 and changes[1] < 0.2 * changes[0], changes
 
 
 def test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before(driver: window.Window) -> Steps:
