@@ -10,6 +10,7 @@
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/restoration.h"
+#include "restoration/used_vertices.h"
 #include "threads/abandonable_work.h"
 
 namespace reflines {
@@ -48,19 +49,25 @@ SmoothPanelResult run_press(const std::shared_ptr<Progress>& progress,
   return std::move(*result);
 }
 
-Mask find_used(const Positions& V, const Triangles& F) {
-  Mask used = Mask::Constant(V.rows(), false);
-  for (const int v : F.reshaped()) used(v) = true;
-  return used;
+std::vector<Border> gather(const std::vector<Border>& border, const std::vector<int>& index) {
+  std::vector<Border> result;
+  for (const int v : index) result.push_back(border[v]);
+  return result;
 }
 
-// Puts vertices in no face on one that is in a face: they may be anywhere, and no number either, but are part of no
-// size and no symmetry.
-Positions gather_unused(const Positions& V, const Triangles& F, const Mask& used) {
-  Positions result = V;
-  for (Eigen::Index v = 0; v < V.rows() && F.rows() > 0; ++v) {
-    if (!used(v)) result.row(v) = V.row(F(0, 0));
-  }
+// Presses the vertices that are in faces; the others keep their bits.
+SmoothPanelResult press_used_vertices(const Positions& V, const UsedVertices& used, const Vector3& view_direction,
+                                      const Vector3& line_direction, const SmoothPanelOptions& options) {
+  ShapeOptions shape;
+  if (!options.border.empty()) shape.border = gather(options.border, used.index);
+  if (options.held.size() > 0) shape.held = options.held(used.index);
+  set_restoration_rules(options, kMeshProximity, shape);
+  MeshSurface surface(V(used.index, Eigen::all), used.F, view_direction,
+                      make_families(view_direction, line_direction, options.lights), shape);
+  SmoothPanelResult result = Restoration(surface, options).run();
+  Positions all = V;
+  all(used.index, Eigen::all) = result.positions;
+  result.positions = std::move(all);
   return result;
 }
 
@@ -69,20 +76,10 @@ Positions gather_unused(const Positions& V, const Triangles& F, const Mask& used
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options) {
   check(options, V.rows());
-  check_indices(V, F);
+  check_surface(V, F);
   return run_press(options.progress, [=] {
-    ShapeOptions shape;
-    shape.border = options.border;
-    shape.held = options.held;
-    set_restoration_rules(options, kMeshProximity, shape);
-    const Mask used = find_used(V, F);
-    MeshSurface surface(gather_unused(V, F, used), F, view_direction,
-                        make_families(view_direction, line_direction, options.lights), shape);
-    SmoothPanelResult result = Restoration(surface, options).run();
-    for (Eigen::Index v = 0; v < V.rows(); ++v) {
-      if (!used(v)) result.positions.row(v) = V.row(v);
-    }
-    return result;
+    const UsedVertices used = find_used_vertices(F, static_cast<int>(V.rows()));
+    return press_used_vertices(V, used, view_direction, line_direction, options);
   });
 }
 

@@ -1,0 +1,19 @@
+// The vertices of a mesh that are in faces, numbered anew. Those in none may be anywhere, and no number either: they
+// are part of no size, no symmetry and no system of equations.
+#pragma once
+
+#include <vector>
+
+#include "reflines/types.h"
+
+namespace reflines {
+
+struct UsedVertices {
+  std::vector<int> index;  // ascending, in the given mesh
+  Triangles F;             // #F x 3, into `index`
+};
+
+// F (#F x 3) must have passed check_indices against `vertex_count`.
+UsedVertices find_used_vertices(const Triangles& F, int vertex_count);
+
+}  // namespace reflines
