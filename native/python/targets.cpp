@@ -49,7 +49,7 @@ Target turn(ShapeOptimizer& optimizer, double angle, const Maybe& influence, con
 
 Target keep(ShapeOptimizer& optimizer, int family) {
   const NativeCall call(optimizer);
-  return build_kept_target(optimizer.region_field(family));
+  return build_kept_target(optimizer.field(family), family);
 }
 
 Vector falloff_at(ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {

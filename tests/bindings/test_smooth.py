@@ -166,3 +166,18 @@ def test_turning_the_object_with_view_and_light_turns_the_result():
         results.append(((solver.positions - V @ Q.T) @ Q, solver.region.creases))
     assert all(creases == results[0][1] for _, creases in results)
     assert max(np.abs(move - results[0][0]).max() for move, _ in results) < 1e-8
+
+
+@pytest.mark.parametrize("directional", [False, True])
+def test_the_systems_of_both_lights_are_kept(directional):
+    """A drag smooths the lines of both lights in turn at each step: nothing is built or factored again for it."""
+    start, triangles = panel()
+    solver = reflines.ShapeOptimizer(start, triangles, view_direction=VIEW, line_direction=[LINE, np.cross(VIEW, LINE)])
+    stages = []
+    for strength in (0.5, 1.0):
+        progress = reflines.Progress()
+        solver.watch(progress)
+        for family in (0, 1):
+            reflines.smooth(solver, length=LENGTH, strength=strength, directional=directional, family=family)
+        stages.append(progress.stage)
+    assert stages == ["smoothing", ""]

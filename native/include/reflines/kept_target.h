@@ -1,8 +1,8 @@
 // The target of the lines as they are, which a solve for other lines keeps as far as these allow.
 #pragma once
 
-#include "reflines/region_field.h"
 #include "reflines/target.h"
+#include "reflines/types.h"
 
 namespace reflines {
 
@@ -13,7 +13,7 @@ namespace reflines {
 // untwisted moves by 71 instead of 29 mm to keep what nobody looks at.
 inline constexpr double kKeptWeight = 0.01;
 
-// Builds the target of the current field with the weight kKeptWeight on every triangle.
-Target build_kept_target(const RegionField& field);
+// Builds the target of a family's current gradient (#F x 2) with the weight kKeptWeight on every triangle.
+Target build_kept_target(const PlaneVectors& gradient, int family);
 
 }  // namespace reflines

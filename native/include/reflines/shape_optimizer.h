@@ -2,8 +2,8 @@
 // families of parallel light lines. It is expensive to build and cheap to solve again.
 #pragma once
 
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,8 +78,8 @@ class ShapeOptimizer {
   Vector theta(int family) const;        // #F, radians
   PlaneVectors field(int family) const;  // #F x 2, grad theta
 
-  // Returns the input of the builders in targets/ at the current heights; valid until a solve, a reset, or a call for
-  // another family.
+  // Returns the input of the builders in targets/ at the current heights; valid until a solve, a reset, or a move that
+  // is scaled.
   const RegionField& region_field(int family);
 
   // Returns that input with the values at the vertices alone, which is ten times faster; valid as long.
@@ -157,7 +157,7 @@ class ShapeOptimizer {
   std::shared_ptr<Progress> progress_;
   std::vector<int> free_unknowns_;
   bool sampled_ = false;  // some triangles have the quadrature weight 0
-  std::optional<RegionField> region_field_, vertex_field_;
+  std::map<int, RegionField> region_fields_, vertex_fields_;  // of the families asked for, at the current heights
 };
 
 }  // namespace reflines

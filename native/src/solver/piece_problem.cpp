@@ -61,6 +61,7 @@ PieceProblem::PieceProblem(Piece piece, AffineMap map, StencilKind stencil, std:
       solver_(solver),
       // The surface of a cage has no thin triangles with wrong gradients: its dents bend as strongly as they appear.
       smoother_(piece_.field, stencils_, families_, visible_, map_.is_selection(), solver),
+      lines_(families_.size()),
       x_(map_.start()),
       z_(piece_.field.z) {
   find_hidden();
@@ -82,7 +83,7 @@ void PieceProblem::find_hidden() {
 void PieceProblem::set_heights(const Vector& x) {
   x_ = x;
   map_.apply(x_, z_);
-  kept_field_.family = -1;
+  lines_.assign(families_.size(), std::nullopt);
 }
 
 void PieceProblem::rest_at(const Vector& x) {
@@ -129,8 +130,8 @@ bool PieceProblem::depends_only_on(int triangle, const Vector& known) const {
 }
 
 const ReflectionField& PieceProblem::lines(int family) {
-  if (kept_field_.family != family) kept_field_ = {family, evaluate_lines(z_, family)};
-  return kept_field_.field;
+  if (!lines_[family]) lines_[family] = evaluate_lines(z_, family);
+  return *lines_[family];
 }
 
 void PieceProblem::add_vertex_field(RegionField& region) const {

@@ -66,7 +66,7 @@ class PieceProblem : public Problem {
   double move(int v) const;  // along the view, from the start; within the limit to the last bit
   int limited(int v) const;  // -1 or 1 where the vertex lies at its lowest or highest move, else 0
 
-  // Returns the lines at the current heights; valid until these change or another family is asked for.
+  // Returns the lines at the current heights; valid until these change.
   const ReflectionField& lines(int family);
 
   // Fills the piece's rows of vertex_theta and vertex_gradient: theta of the mean slopes around a vertex.
@@ -92,10 +92,6 @@ class PieceProblem : public Problem {
   std::unique_ptr<CoarseProblem> coarse(const Vector& x, const Vector& gradient) override;
 
  private:
-  struct KeptField {
-    int family = -1;  // none
-    ReflectionField field;
-  };
   Bounds bounds() const;
   void find_hidden();
   HessianAssembly& assembly();
@@ -118,12 +114,12 @@ class PieceProblem : public Problem {
   LinearSolverKind solver_;
   MoveLimit limit_;  // #V of the piece
   PieceSmoother smoother_;
-  KeptField kept_field_;
-  std::optional<FieldAverage> average_;  // built on first use
-  Vector height_rounding_;               // of the moving vertices: the diagonal of their own Hessian
-  int hidden_count_ = 0;                 // triangles with less than full weight
-  Vector x_, z_;                         // current unknowns and heights
-  Vector trial_z_, gradient_z_;          // work space
+  std::vector<std::optional<ReflectionField>> lines_;  // of each family at the current heights, once asked for
+  std::optional<FieldAverage> average_;                // built on first use
+  Vector height_rounding_;                             // of the moving vertices: the diagonal of their own Hessian
+  int hidden_count_ = 0;                               // triangles with less than full weight
+  Vector x_, z_;                                       // current unknowns and heights
+  Vector trial_z_, gradient_z_;                        // work space
 };
 
 }  // namespace reflines

@@ -26,12 +26,13 @@ PieceSmoother::PieceSmoother(const HeightField& field, const Stencils& stencils,
       families_(families),
       trust_(trust),
       limit_outliers_(limit_outliers),
-      solver_(solver) {}
+      solver_(solver),
+      isotropic_(families.size()),
+      directional_(families.size()),
+      features_(families.size()) {}
 
-bool PieceSmoother::Cache::serves(const SmoothOptions& options, const PlaneVectors& wanted_along,
-                                  int wanted_family) const {
-  return smoother && length == options.length && family == wanted_family && wanted_along.rows() == along.rows() &&
-         wanted_along == along;
+bool PieceSmoother::Cache::serves(const SmoothOptions& options, const PlaneVectors& wanted_along) const {
+  return smoother && length == options.length && wanted_along.rows() == along.rows() && wanted_along == along;
 }
 
 const PlaneVectors& PieceSmoother::Cache::smooth(const PlaneVectors& gradient) {
@@ -43,13 +44,13 @@ const PlaneVectors& PieceSmoother::Cache::smooth(const PlaneVectors& gradient) {
 
 PlaneVectors PieceSmoother::smooth(const PlaneVectors& gradient, const SmoothOptions& options, int family) {
   const PlaneVectors& isotropic =
-      update(isotropic_, {options.length, false}, PlaneVectors(0, 2), family).smooth(gradient);
-  return options.directional ? update(directional_, options, isotropic, family).smooth(gradient) : isotropic;
+      update(isotropic_[family], {options.length, false}, PlaneVectors(0, 2), family).smooth(gradient);
+  return options.directional ? update(directional_[family], options, isotropic, family).smooth(gradient) : isotropic;
 }
 
 PieceSmoother::Cache& PieceSmoother::update(Cache& cache, const SmoothOptions& options, const PlaneVectors& along,
                                             int family) {
-  if (cache.serves(options, along, family)) return cache;
+  if (cache.serves(options, along)) return cache;
   enter(0.0, "finding features");
   const Mask& held = features(options.length, family);
   enter(0.1, "assembling the smoothing");
@@ -57,7 +58,7 @@ PieceSmoother::Cache& PieceSmoother::update(Cache& cache, const SmoothOptions& o
   limited.longest = longest_gradient(family);
   auto smoother = std::make_unique<LineSmoother>(field_, stencils_, limited, along, trust_[family], held,
                                                  [this](const SparseMatrix& matrix) { return factorize(matrix); });
-  cache = {std::move(smoother), options.length, along, family, {}, {}};
+  cache = {std::move(smoother), options.length, along, {}, {}};
   return cache;
 }
 
@@ -72,10 +73,9 @@ SpdSolve PieceSmoother::factorize(const SparseMatrix& matrix) const {
 }
 
 const Mask& PieceSmoother::features(double length, int family) {
-  if (features_.family != family || features_.length != length) {
-    features_ = {family, length, strong_features(field_, start_gradient(family), length)};
-  }
-  return features_.mask;
+  Features& features = features_[family];
+  if (features.length != length) features = {length, strong_features(field_, start_gradient(family), length)};
+  return features.mask;
 }
 
 PlaneVectors PieceSmoother::start_gradient(int family) const {

@@ -27,27 +27,25 @@ class PieceSmoother {
   // Cancelled.
   PlaneVectors smooth(const PlaneVectors& gradient, const SmoothOptions& options, int family);
 
-  // Returns the strong_features (#T) at `length` of the field that the piece started with; valid until the next call
-  // with other arguments.
+  // Returns the strong_features (#T) at `length` of the field that the piece started with; valid until the family is
+  // asked for at another length.
   const Mask& features(double length, int family);
 
   PlaneVectors start_gradient(int family) const;  // #T x 2, of the field that the piece started with
 
  private:
-  // The last system and the last field that it smoothed: while the strength is dragged, the same field is asked for
-  // again.
+  // The last system of a family and the last field that it smoothed: while the strength is dragged, the same fields are
+  // asked for again, those of the families in turn.
   struct Cache {
     std::unique_ptr<LineSmoother> smoother;
     double length = 0.0;
     PlaneVectors along;
-    int family = 0;
     PlaneVectors input, output;
-    bool serves(const SmoothOptions& options, const PlaneVectors& wanted_along, int wanted_family) const;
+    bool serves(const SmoothOptions& options, const PlaneVectors& wanted_along) const;
     const PlaneVectors& smooth(const PlaneVectors& gradient);
   };
   struct Features {
-    int family = -1;  // none
-    double length = 0.0;
+    double length = -1.0;  // none
     Mask mask;
   };
 
@@ -63,8 +61,8 @@ class PieceSmoother {
   bool limit_outliers_;
   LinearSolverKind solver_;
   Progress* progress_ = nullptr;
-  Cache isotropic_, directional_;
-  Features features_;
+  std::vector<Cache> isotropic_, directional_;  // one for each family
+  std::vector<Features> features_;              // likewise
 };
 
 }  // namespace reflines

@@ -322,20 +322,22 @@ PlaneVectors ShapeOptimizer::field(int family) const {
 
 const RegionField& ShapeOptimizer::region_field(int family) {
   check_family(family);
-  if (!region_field_ || region_field_->family != family) region_field_ = pieces_->region_field(family, feature_length_);
-  return *region_field_;
+  const auto kept = region_fields_.find(family);
+  if (kept != region_fields_.end()) return kept->second;
+  return region_fields_.emplace(family, pieces_->region_field(family, feature_length_)).first->second;
 }
 
 const RegionField& ShapeOptimizer::vertex_field(int family) {
   check_family(family);
-  if (!vertex_field_ || vertex_field_->family != family) vertex_field_ = pieces_->vertex_field(family);
-  return *vertex_field_;
+  const auto kept = vertex_fields_.find(family);
+  if (kept != vertex_fields_.end()) return kept->second;
+  return vertex_fields_.emplace(family, pieces_->vertex_field(family)).first->second;
 }
 
 // Drops what was read at other heights.
 void ShapeOptimizer::forget_lines() {
-  region_field_.reset();
-  vertex_field_.reset();
+  region_fields_.clear();
+  vertex_fields_.clear();
 }
 
 ShapeOptimizer::Lines ShapeOptimizer::evaluate_lines(const Vector& heights, const Vector& weight, int family) {

@@ -2,8 +2,8 @@
 
 namespace reflines {
 
-Target build_kept_target(const RegionField& field) {
-  return {field.gradient, Vector::Constant(field.F.rows(), kKeptWeight), {}, field.family, false};
+Target build_kept_target(const PlaneVectors& gradient, int family) {
+  return {gradient, Vector::Constant(gradient.rows(), kKeptWeight), {}, family, false};
 }
 
 }  // namespace reflines
