@@ -128,10 +128,12 @@ SmoothPanelResult Restoration::run() {
   // waves that is symmetric but for its phase, every other wave went, and the press was refused.
   if (find_worse_light() >= 0 && report_.mirrored > 0) {
     use_symmetry_ = false;
+    flawless_.reset();
     move = attempt();
   }
   if (find_worse_light() >= 0 && report_.bumps > 0) {
     use_bumps_ = false;
+    flawless_.reset();
     move = attempt();
   }
   return judge(move);
@@ -147,6 +149,7 @@ Vector Restoration::attempt() {
     if (count == 0) break;
     report_.held_faces += count;
     surface_.hold(turned);
+    flawless_.reset();
     move = restore();
   }
   measure_result(move);
@@ -159,9 +162,7 @@ Vector Restoration::attempt() {
 
 // Returns the moves of the control vertices (#C).
 Vector Restoration::restore() {
-  report_.mirrored = 0;
-  partner_.resize(0);
-  const Vector flawless = remove_all_bumps(options_.symmetric && use_symmetry_ ? use_symmetry(start_) : start_);
+  const Vector& flawless = find_flawless();
   if (!use_smoothing_ && flawless == start_) {
     report_.limited = 0;
     return Vector::Zero(surface_.control_positions().rows());
@@ -171,6 +172,15 @@ Vector Restoration::restore() {
   unlimited_ = average_partners(surface_.control_move());
   report_.limited = static_cast<int>((unlimited_.array().abs() > report_.limit).count());
   return options_.strength * (report_.limited == 0 ? unlimited_ : restore_within_limit(targets));
+}
+
+// Returns the heights of the start without bumps and the halves' differences, which are looked for once.
+const Vector& Restoration::find_flawless() {
+  if (flawless_) return *flawless_;
+  report_.mirrored = 0;
+  partner_.resize(0);
+  flawless_ = remove_all_bumps(options_.symmetric && use_symmetry_ ? use_symmetry(start_) : start_);
+  return *flawless_;
 }
 
 void Restoration::solve(const std::vector<Target>& targets, const MoveLimit& limit) {

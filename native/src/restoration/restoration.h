@@ -1,6 +1,7 @@
 // The steps of one press of Smooth, for meshes and cages alike: see smooth_panel.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ class Restoration {
   Progress* progress() const { return options_.progress.get(); }
   Vector attempt();
   Vector restore();
+  const Vector& find_flawless();
   void solve(const std::vector<Target>& targets, const MoveLimit& limit);
   Vector restore_within_limit(const std::vector<Target>& targets);
   Vector scale_to_limit() const;
@@ -57,6 +59,7 @@ class Restoration {
   Vector creases_;                                      // weights of the inner edges, of the start
   bool use_smoothing_ = true;                           // false once the lines turn out to have no noise
   bool use_symmetry_ = true, use_bumps_ = true;         // false once they have made the lines less even
+  std::optional<Vector> flawless_;                      // #V, see find_flawless; none once it holds no more
   std::vector<double> typical_before_, typical_after_;  // medians of the lines' stray, for each light
   IndexVector partner_;                                 // #C, see MirrorEvidence; empty: no symmetry
   Vector unlimited_;                                    // #C, the move of the last solve
