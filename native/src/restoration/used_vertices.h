@@ -1,5 +1,5 @@
-// The vertices of a mesh that are in faces, numbered anew. Those in none may be anywhere, and no number either: they
-// are part of no size, no symmetry and no system of equations.
+// The vertices of a mesh that are in faces, numbered anew. The others may be anywhere, and be no number either: they are
+// part of no size, no symmetry and no system of equations.
 #pragma once
 
 #include <vector>
