@@ -4,34 +4,43 @@ import numpy as np
 Mesh = tuple[np.ndarray, np.ndarray]
 
 
-def cut_squares(cells: int, rising: np.ndarray, *, jitter: float = 0.0, seed: int = 1) -> Mesh:
-    """cells x cells squares, each cut along the diagonal that `rising` (cells x cells) says; inner points are moved by
-    up to `jitter` cells."""
-    i, j = np.meshgrid(np.arange(cells + 1), np.arange(cells + 1))
-    points = np.column_stack([i.ravel(), j.ravel()]) / cells - 0.5
-    inner = ((i > 0) & (i < cells) & (j > 0) & (j < cells)).ravel()
-    points[inner] += np.random.default_rng(seed).uniform(-jitter, jitter, (inner.sum(), 2)) / cells
-    a = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
-    b, c, d = a + 1, a + cells + 2, a + cells + 1
+def cut_rectangles(rising: np.ndarray, *, jitter: float = 0.0, seed: int = 1) -> Mesh:
+    """Rectangles in rows and columns, each cut along the diagonal that `rising` (rows x columns) says; inner points are
+    moved by up to `jitter` cells."""
+    rows, columns = rising.shape
+    i, j = np.meshgrid(np.arange(columns + 1), np.arange(rows + 1))
+    points = np.column_stack([i.ravel() / columns, j.ravel() / rows]) - 0.5
+    inner = ((i > 0) & (i < columns) & (j > 0) & (j < rows)).ravel()
+    points[inner] += np.random.default_rng(seed).uniform(-jitter, jitter, (inner.sum(), 2)) / [columns, rows]
+    a = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    b, c, d = a + 1, a + columns + 2, a + columns + 1
     up = rising.ravel()
     first = np.column_stack([a, b, np.where(up, c, d)])
     second = np.column_stack([np.where(up, a, b), c, d])
     return points, np.concatenate([first, second])
 
 
+def stretched(columns: int, rows: int, kind: str) -> Mesh:
+    """Stretched cells: "regular", "jittered" (points moved by up to a fifth of a cell), "random" (cut at random), or
+    "irregular" (both)."""
+    at_random = np.random.default_rng(2).random((rows, columns)) < 0.5
+    rising = at_random if kind in ("random", "irregular") else np.full((rows, columns), True)
+    return cut_rectangles(rising, jitter=0.2 if kind in ("jittered", "irregular") else 0.0)
+
+
 def regular(cells: int) -> Mesh:
-    return cut_squares(cells, np.full((cells, cells), True))
+    return cut_rectangles(np.full((cells, cells), True))
 
 
 def four_eight(cells: int) -> Mesh:
     """Vertices of valence four and eight by turns."""
     i, j = np.meshgrid(np.arange(cells), np.arange(cells))
-    return cut_squares(cells, (i + j) % 2 == 0)
+    return cut_rectangles((i + j) % 2 == 0)
 
 
 def irregular(cells: int) -> Mesh:
     """Points moved by up to a fifth of a cell, squares cut at random."""
-    return cut_squares(cells, np.random.default_rng(2).random((cells, cells)) < 0.5, jitter=0.2)
+    return cut_rectangles(np.random.default_rng(2).random((cells, cells)) < 0.5, jitter=0.2)
 
 
 def valence_three(cells: int) -> Mesh:

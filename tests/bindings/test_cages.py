@@ -19,18 +19,37 @@ def test_a_dent_goes_when_the_clean_lines_are_asked_for(name: str) -> None:
     assert np.abs(solver.cage_positions - clean[0]).max() < 0.01 * DENT
 
 
-@pytest.mark.parametrize(("name", "border"), [("hood", "clamped"), ("roof", "fixed")])
-def test_smoothing_alone_brings_the_lines_back(name: str, border: str) -> None:
-    """At the length that the add-on takes unasked, a sixth of the diagonal. With a clamped border only 20 vertices of
-    the roof are free, and their dents are lost among its own lines."""
-    make, view, line = PANELS[name]
-    clean = make()
+def turn_between(one: reflines.CageOptimizer, other: reflines.CageOptimizer) -> float:
+    """The difference of theta, root mean square over the area, degrees."""
+    difference = (one.theta() - other.theta() + np.pi) % (2 * np.pi) - np.pi
+    weight = one.area * one.active
+    return float(np.degrees(np.sqrt(weight @ difference**2 / weight.sum())))
+
+
+def test_smoothing_alone_brings_the_lines_back() -> None:
+    """At the length that the add-on takes unasked, a sixth of the diagonal."""
+    clean = hood()
     length = np.linalg.norm(np.ptp(clean[0], axis=0)) / 6.0
-    solver = optimizer(dented(clean, view, line, border=border), view, line, border=border)
-    wanted, before = optimizer(clean, view, line, border=border).score(length), solver.score(length)
+    solver = optimizer(dented(clean, VIEW, LINE))
+    wanted, before = optimizer(clean).score(length), solver.score(length)
     assert before > 2.5 * wanted
     assert solver.solve(reflines.smooth(solver, length=length)).converged
     assert solver.score(length) < 1.1 * wanted
+
+
+@pytest.mark.parametrize(("name", "border"), [("hood", "clamped"), ("roof", "fixed")])
+def test_smoothed_lines_are_nearer_to_the_clean_ones(name: str, border: str) -> None:
+    """The score is no judge of the roof, where rims own it: it fell by two thirds while the lines went from 2.17
+    degrees off the clean ones to 2.37, before stencils fitted its stretched faces. With a clamped border only 20 of its
+    vertices are free, and their dents are lost among its own lines."""
+    make, view, line = PANELS[name]
+    clean = make()
+    length = np.linalg.norm(np.ptp(clean[0], axis=0)) / 6.0
+    wanted = optimizer(clean, view, line, border=border)
+    solver = optimizer(dented(clean, view, line, border=border), view, line, border=border)
+    before = turn_between(solver, wanted)
+    assert solver.solve(reflines.smooth(solver, length=length)).converged
+    assert turn_between(solver, wanted) < before
 
 
 @pytest.mark.parametrize("region", [None, "inner"])

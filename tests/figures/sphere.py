@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import reflines
 from matplotlib import pyplot
-from meshes import KINDS
+from meshes import KINDS, Mesh
 
 RADIUS = 2.0
 VIEW = np.array([0.0, 0.0, 1.0])
@@ -54,7 +54,11 @@ def optimizer(points: np.ndarray, heights: np.ndarray, triangles: np.ndarray, st
 
 
 def recover(mesh: str, stencil: str, cells: int) -> Recovery:
-    points, triangles = KINDS[mesh](cells)
+    return recover_on(KINDS[mesh](cells), mesh, stencil, cells)
+
+
+def recover_on(points_and_triangles: Mesh, mesh: str, stencil: str, cells: int) -> Recovery:
+    points, triangles = points_and_triangles
     exact = height(*points.T)
     depth = float(np.ptp(exact))
     try:

@@ -45,8 +45,4 @@ HessianStencil ring_hessian(const HeightField& field, int t);
 // six-point stencils do not move; a ring would reach free heights beyond, all on one side, and is of first order only.
 Mask held_at_border(const HeightField& field);
 
-// Returns the paper's measure of instability: the largest |weight| times l_max^2, l_max the longest edge of the
-// six-point stencil.
-double stencil_magnitude(const HeightField& field, const HessianStencil& stencil);
-
 }  // namespace reflines

@@ -1,5 +1,5 @@
-// The vertices of a mesh that are in faces, numbered anew. The others may be anywhere, and be no number either: they are
-// part of no size, no symmetry and no system of equations.
+// The vertices of a mesh that are in faces, numbered anew. The others may be anywhere, and be no number either: they
+// are part of no size, no symmetry and no system of equations.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct UsedVertices {
   Triangles F;             // #F x 3, into `index`
 };
 
-// F (#F x 3) must have passed check_indices against `vertex_count`.
+// Finds the vertices of F (#F x 3), which must have passed check_indices against `vertex_count`.
 UsedVertices find_used_vertices(const Triangles& F, int vertex_count);
 
 }  // namespace reflines

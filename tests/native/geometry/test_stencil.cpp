@@ -5,6 +5,7 @@
 
 #include "geometry/derivatives.h"
 #include "geometry/stencil.h"
+#include "geometry/stencil_quality.h"
 #include "reflines/errors.h"
 #include "tests/native/sample_meshes.h"
 
