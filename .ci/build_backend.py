@@ -29,7 +29,7 @@ def prepare_metadata_for_build_wheel(metadata_directory: str, config_settings: S
     python, platform = tag()
     folder = Path(metadata_directory, f"reflines-{version()}.dist-info")
     folder.mkdir()
-    for name, content in about_files(f"{python}-{python}-{platform}").items():
+    for name, content in about_files(f"{python}-{python}-{platform}", version()).items():
         (folder / name).write_bytes(content)
     return folder.name
 
@@ -53,7 +53,7 @@ def build_sdist(sdist_directory: str, config_settings: Settings = None) -> str:
     with tarfile.open(Path(sdist_directory, f"{folder}.tar.gz"), "w:gz", format=tarfile.PAX_FORMAT) as archive:
         for name in sorted(filter(None, listing.split("\0"))):
             archive.add(ROOT / name, f"{folder}/{name}")
-        about = metadata().encode()
+        about = metadata(version()).encode()
         entry = tarfile.TarInfo(f"{folder}/PKG-INFO")
         entry.size = len(about)
         archive.addfile(entry, BytesIO(about))

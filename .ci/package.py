@@ -1,13 +1,17 @@
-"""Makes the one zip that a user installs: build/package/reflection_lines-VERSION.zip.
+"""Makes what a user installs, in build/package: reflection_lines-VERSION.zip, wheels, and the folder of the extension.
 
 The zip has one top-level folder, so that Blender 3.4 takes it as a legacy add-on and 4.2 and later as an extension,
-with the native module once for each Python side by side. Headers of the Pythons come from the Debian suites that have
-them; one compiler and one C library, those of this machine, serve all. SuiteSparse, METIS, OpenBLAS, OpenSubdiv and
-libstdc++ are inside the module and show no symbol outside, so that they cannot meet Blender's own copies. libgomp
-stays outside: two OpenMP runtimes in one process fight over the cores, and Blender's own libraries bring it.
+with the native module once for each Python side by side. The folder of the extension has the module as wheels instead,
+as Blender wants it from 4.2 on; `./run release` makes a repository of it. Headers of the Pythons come from the Debian
+suites that have them; no suite has those of 3.10, which Blender 3.4 to 4.0 from blender.org embed: they are taken from
+a python3.10 of this machine where there is one. One compiler and one C library, those of this machine, serve all.
+SuiteSparse, METIS, OpenBLAS, OpenSubdiv and libstdc++ are inside the module and show no symbol outside, so that they
+cannot meet Blender's own copies. libgomp stays outside: two OpenMP runtimes in one process fight over the cores, and
+Blender's own libraries bring it.
 """
 import os
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -15,12 +19,14 @@ from pathlib import Path
 
 from debian import CACHE, Suite, Unavailable, output
 from static_libraries import static_libraries
-from wheel import version, write_zip
+from wheel import version, write_wheel, write_zip
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build/package"
 NAME = "reflection_lines"
 SUITES = ("bookworm", "trixie", "sid")  # Blender 3.4, 4.3, 5.2
+NEWEST_GLIBC = 28  # 2.28, which Blender's own builds need
+PLATFORM = f"manylinux_2_{NEWEST_GLIBC}_x86_64"
 CHOLMOD = ("cholmod", "metis", "amd", "camd", "ccolamd", "colamd", "suitesparseconfig")  # in the order of linking
 NO_ARCHIVE = 75  # the exit code that says so, "try again later"
 ALLOWED = {"libm.so.6", "libc.so.6", "libgomp.so.1", "ld-linux-x86-64.so.2"}
@@ -41,6 +47,16 @@ def headers(suite: Suite) -> str:
     return "|".join([version.replace(".", ""), *map(str, own)])
 
 
+def headers_of_python_3_10() -> list[str]:
+    """The same of a python3.10 of this machine; none where there is none."""
+    try:
+        folder = output("python3.10", "-c", "import sysconfig; print(sysconfig.get_path('include'))").strip()
+    except (OSError, Unavailable):
+        print("no python3.10 on this machine: Blender 3.4 to 4.0 from blender.org are left out")
+        return []
+    return ["|".join(["310", folder, str(CACHE / "python" / SUITES[0] / "usr/include")])]
+
+
 def configure(pythons: list[str], prefix: Path) -> None:
     lib = prefix / "lib"
     cholmod = ";".join(str(lib / f"lib{name}.a") for name in CHOLMOD)
@@ -53,20 +69,26 @@ def configure(pythons: list[str], prefix: Path) -> None:
     output("cmake", "-S", ROOT, "-B", BUILD / "cmake", "-G", "Ninja", *given)
 
 
-def modules() -> list[Path]:
+def modules(pythons: list[str]) -> list[Path]:
+    """Builds the module for each set of headers; one of an earlier run for another Python is left out."""
     subprocess.run(["cmake", "--build", BUILD / "cmake"], check=True)
-    return sorted((BUILD / "cmake").rglob("reflines.cpython-*.so"))
+    tags = {python.split("|")[0] for python in pythons}
+    built = sorted((BUILD / "cmake").rglob("reflines.cpython-*.so"))
+    return [path for path in built if path.name.split("-")[1] in tags]
 
 
 def check(module: Path) -> str:
     """What the module asks of the machine it runs on; refuses one that asks for more than it may."""
+    newest = max(int(minor) for minor in re.findall(r"GLIBC_2\.(\d+)", output("readelf", "-V", module)))
     needed = set(re.findall(r"NEEDED.*\[(.*)\]", output("readelf", "-d", module)))
     shown = {line.split()[-1] for line in output("nm", "-D", "--defined-only", module).splitlines()}
     if needed - ALLOWED or shown != {"PyInit_reflines"}:
         sys.exit(f"{module.name} needs {needed - ALLOWED} and shows {sorted(shown)[:5]}")
-    versions = re.findall(r"GLIBC_2\.(\d+)", output("readelf", "-V", module))
+    if newest > NEWEST_GLIBC:
+        newer = re.findall(rf"GLIBC_2\.{newest}\S* +\S+", output("objdump", "-T", module))
+        sys.exit(f"{module.name} needs glibc 2.{newest}: {newer}; see .ci/package/older_glibc.c")
     size = module.stat().st_size / 1e6
-    return f"{module.name}: {size:.1f} MB, glibc 2.{max(map(int, versions))} or newer, {', '.join(sorted(needed))}"
+    return f"{module.name}: {size:.1f} MB, glibc 2.{newest} or newer, {', '.join(sorted(needed))}"
 
 
 def addon_files() -> list[Path]:
@@ -82,18 +104,47 @@ def make_zip(built: list[Path]) -> Path:
     return path
 
 
+def make_wheels(built: list[Path]) -> list[Path]:
+    folder = BUILD / "wheels"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    return [write_wheel(folder, module, f"cp{module.name.split('-')[1]}", PLATFORM) for module in built]
+
+
+def make_extension(wheels: list[Path]) -> Path:
+    """The folder that `blender --command extension build` takes: the add-on, the wheels, a manifest that names them."""
+    folder = BUILD / "extension"
+    shutil.rmtree(folder, ignore_errors=True)
+    for file in addon_files():
+        target = folder / file.relative_to(ROOT / "addon")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(file, target)
+    shutil.copy(ROOT / "LICENSE", folder)
+    (folder / "wheels").mkdir()
+    for wheel in wheels:
+        shutil.copy(wheel, folder / "wheels")
+    manifest = folder / "blender_manifest.toml"
+    rows = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
+    head, tables = manifest.read_text().split("\n[", maxsplit=1)
+    manifest.write_text(f"{head}\nwheels = [\n{rows}]\n\n[{tables}")
+    return folder
+
+
 def main() -> None:
     start = time.monotonic()
     os.environ.setdefault("CCACHE_NOHASHDIR", "1")
     try:
-        configure([headers(Suite(name)) for name in SUITES], static_libraries())
+        pythons = [headers(Suite(name)) for name in SUITES]
+        pythons += headers_of_python_3_10()
+        configure(pythons, static_libraries())
     except Unavailable as reason:
         print(f"no package, Debian's archive cannot be had: {reason}")
         sys.exit(NO_ARCHIVE)
-    built = modules()
+    built = modules(pythons)
     for module in built:
         print(check(module))
     path = make_zip(built)
+    print(f"{make_extension(make_wheels(built)).relative_to(ROOT)}: for ./run release")
     print(f"{path.relative_to(ROOT)}: {path.stat().st_size / 1e6:.1f} MB, {time.monotonic() - start:.0f} s")
 
 

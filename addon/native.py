@@ -129,6 +129,9 @@ def describe_failure(error: str) -> State:
                     "macOS": "Allow it in System Settings > Privacy & Security, then start Blender again."}
         return State(f"{SYSTEM} blocks the native solver: {error}.",
                      remedies.get(SYSTEM, "Install the add-on in a folder from which programs may run."))
+    if "libgomp" in error:
+        return State("The native solver needs the library libgomp, which this system does not have.",
+                     "Install its package: libgomp1 in Debian and Ubuntu, libgomp in Fedora, gcc-libs in Arch.")
     return State(f"The native solver cannot be loaded: {error}.",
                  "Install the missing library it names, or install the add-on's zip package again.")
 

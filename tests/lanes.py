@@ -151,8 +151,8 @@ def ui_lane() -> Counts:
         return sum(pool.map(window_counts, range(len(files)), files), Counts())
 
 
-def matrix_lane() -> Counts:
-    """Packs the add-on and tests the package in other Debians, which takes root."""
+def packed_lane(*script: str) -> Counts:
+    """Packs the add-on and runs a script that tests the package in other Debians, which takes root."""
     packed = subprocess.run(["./run", "package"], cwd=ROOT).returncode
     if packed == NO_ARCHIVE:
         return Counts(skipped=1)
@@ -161,7 +161,16 @@ def matrix_lane() -> Counts:
         return CRASHED
     cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     become_root = [] if os.geteuid() == 0 else ["sudo", f"XDG_CACHE_HOME={cache}"]
-    return run_reporting([*become_root, PYTHON, ".ci/matrix.py"], os.environ, 4500)
+    return run_reporting([*become_root, PYTHON, *script], os.environ, 4500)
+
+
+def matrix_lane() -> Counts:
+    return packed_lane(".ci/matrix.py")
+
+
+def release_lane() -> Counts:
+    """Makes the repository of extensions and installs from it in two Blenders, which takes root."""
+    return packed_lane(".ci/release.py", "--test")
 
 
 @dataclass(frozen=True)
@@ -184,6 +193,7 @@ LANES = {
     "addon": Lane(addon_lane, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
     "ui": Lane(ui_lane, True, ("addon/", "tests/ui/", *SHARED)),
     "matrix": Lane(matrix_lane, False, (), asked=True),
+    "release": Lane(release_lane, False, (), asked=True),
     "asan": Lane(lambda: sanitizers_lane("asan"), False, (), asked=True),
     "tsan": Lane(lambda: sanitizers_lane("tsan"), False, (), asked=True),
     "fuzz": Lane(lambda: sanitizers_lane("fuzz"), False, (), asked=True),
@@ -242,7 +252,7 @@ def main() -> int:
     parser.add_argument("lanes", nargs="*", metavar="LANE", help=", ".join(LANES))
     parser.add_argument("--changed", action="store_true", help="only the lanes that changes touch")
     parser.add_argument("--all", action="store_true", help="with the lanes that otherwise run only by name: matrix, "
-                                                              "asan, tsan, fuzz")
+                                                              "release, asan, tsan, fuzz")
     total = run_lanes(chosen_lanes(parser.parse_args()))
     print(total)
     return 0 if total.failed == 0 and total.passed + total.skipped > 0 else 1

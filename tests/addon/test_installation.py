@@ -124,7 +124,7 @@ def test_a_module_for_another_system(copy) -> None:
     ("DLL load failed while importing reflines: The specified module could not be found", False),
     ("dlopen(/x/reflines.so, 2): library load disallowed by system policy", True),
     ("/x/reflines.so: failed to map segment from shared object: Operation not permitted", True),
-    ("libgomp.so.1: cannot open shared object file: No such file or directory", False),
+    ("libother.so.1: cannot open shared object file: No such file or directory", False),
 ])
 def test_a_module_that_the_system_blocks(error: str, blocked: bool) -> None:
     """The sentences are those of Windows, macOS and Linux."""
@@ -132,6 +132,13 @@ def test_a_module_that_the_system_blocks(error: str, blocked: bool) -> None:
     assert ("blocks the native solver" in state.problem) == blocked
     assert error in state.problem
     assert ("may run" in state.remedy) == blocked
+
+
+def test_a_module_without_its_one_library() -> None:
+    error = "libgomp.so.1: cannot open shared object file: No such file or directory"
+    state = sys.modules[installation.NAME + ".native"].describe_failure(error)
+    assert "needs the library libgomp" in state.problem
+    assert "libgomp1 in Debian" in state.remedy
 
 
 def test_a_module_that_a_wheel_brought(copy, tmp_path, monkeypatch) -> None:

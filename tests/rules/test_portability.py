@@ -1,10 +1,11 @@
-"""The native code is one for Linux, Windows and macOS: what only one system has stands behind a guard."""
+"""The code is one for Linux, Windows and macOS, and for Python 3.10 on: what only one has stands behind a guard."""
+import ast
 import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tree import ROOT, cpp_files, files
+from tree import ROOT, cpp_files, files, python_files
 
 # Headers that only some systems have.
 OF_ONE_SYSTEM = re.compile(r"sys/|unistd\.h|dlfcn\.h|pthread\.h|sched\.h|malloc\.h|mach/|windows\.h|Windows\.h")
@@ -15,6 +16,9 @@ INSTEAD = {re.compile(r"\bM_PI\w*\b"): "std::numbers",
 GUARD = re.compile(r"defined\((__linux__|__GLIBC__|_WIN32|__APPLE__)\)")
 LITERAL = re.compile(r'"(?:\\.|[^"\\])*"|//.*$')
 PLACE = re.compile(r"(?<![\w.}])/(?:usr|proc|opt|home|root|tmp)\b")
+# What Python 3.11 and later brought, as far as an add-on could want it.
+NOT_IN_PYTHON_3_10 = {"tomllib", "StrEnum", "Self", "assert_never", "override", "batched", "UTC", "ExceptionGroup",
+                      "file_digest", "chdir", "TaskGroup"}
 
 
 def code_with_guards(file: Path) -> Iterator[tuple[int, str, bool]]:
@@ -57,3 +61,16 @@ def cmake_files() -> list[Path]:
 @pytest.mark.parametrize("file", cmake_files(), ids=str)
 def test_cmake_names_no_place_of_one_system(file: Path) -> None:
     assert not PLACE.findall((ROOT / file).read_text()), "let find_package look, or set it in a preset"
+
+
+def names(tree: ast.Module) -> set[str]:
+    imported = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom)
+                for alias in node.names}
+    return imported | {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+
+
+@pytest.mark.parametrize("file", python_files("addon/"), ids=str)
+def test_the_addon_runs_with_python_3_10(file: Path) -> None:
+    """Which Blender 3.4 to 4.0 from blender.org embed."""
+    tree = ast.parse((ROOT / file).read_text(), feature_version=(3, 10))
+    assert not names(tree) & NOT_IN_PYTHON_3_10
