@@ -2,6 +2,7 @@
 
 Solves, mesh and thread are those of drag.py; events are handled by operators/pull_line.py.
 """
+from collections.abc import Callable
 from dataclasses import replace
 
 import bpy
@@ -15,14 +16,16 @@ from ..model.patch import Patch
 from ..overlay import handle_marks
 from ..overlay.handle_marks import Curve, Dot, Marks
 from ..solver.formulation import choose_formulation
+from . import drag_handles, drawn_lines
 from .drag import Drag, DraggedOperator
 from .drag_handles import PRECISE_FACTOR
 from .solve_job import SolveOutcome
 
 GRASP = 12.0  # pixels from a dot within which the mouse takes it, times the interface's scale
 RADIUS_STEP, RADIUS_PIXELS = 1.1, 150.0  # factor of a notch of the wheel; pixels that double it
-KEYS_TEXT = ("Drag: pull a line   Alt click, P: pin it   X: delete   M: mute   Wheel, F: radius   Shift: finer   "
-             "Ctrl: back   Ctrl Z: undo   Enter: apply   Esc: cancel")
+KEYS_TEXT = ("Drag: pull a line   Alt click, P: pin it   D: draw one   S: straighten   E: follow edge   X: delete   "
+             "M: mute   Wheel, F, 0-9: radius   Shift: finer   Ctrl: back   Ctrl Z: undo   Enter: apply   Esc: cancel")
+STROKE_STEP = 4.0  # pixels between two points of a stroke
 
 
 class LineDrag(Drag):
@@ -36,6 +39,10 @@ class LineDrag(Drag):
         self.state: LineState | None = None      # what is shown
         self.held: int | None = None   # handle that the mouse drags
         self.near: int | None = None   # handle under the mouse
+        self.dot = 0                   # number of the dot of that handle
+        self.draws = tool.draws        # whether a press draws a line
+        self.stroke: list[Place] = []  # what is being drawn
+        self.typed = ""                # radius
         self.hover: Place | None = None  # place under the mouse
         self.sizing: tuple[float, float] | None = None  # where F was pressed, and the radius then
         self.pressed: tuple[float, float, bool] | None = None  # a press before the lines are there
@@ -97,6 +104,17 @@ class LineDrag(Drag):
             self.change_radius(self.sizing[1] * 2.0**((x - self.sizing[0]) / RADIUS_PIXELS))
         elif self.held is not None:
             self.pull_held(back=back)
+        elif self.stroke:
+            self.draw_on()
+
+    def draw_on(self) -> None:
+        """Draws on to the place under the mouse."""
+        place = self.screen.find_place(*self.mouse)
+        if place is None:
+            return
+        ends = [self.surface.read_point(each, self.surface.start) for each in (self.stroke[-1], place)]
+        if np.linalg.norm(np.subtract(*self.screen.find_pixels(np.array(ends)))) >= STROKE_STEP:
+            self.stroke.append(place)
 
     def pull_held(self, *, back: bool) -> None:
         """Moves the end of the held handle under the mouse."""
@@ -104,9 +122,12 @@ class LineDrag(Drag):
         place = None if back else self.screen.find_place(*self.mouse)
         if place is None and not back:
             return  # beside the panel
-        end = own.start if back else self.to_local(self.surface.read_point(place, self.surface.start))
+        if back:
+            end = self.history[-1][self.held].curve[self.dot] if own.curve else own.start
+        else:
+            end = self.to_local(self.surface.read_point(place, self.surface.start))
         if not own.is_pin:
-            self.replace_handle(self.held, replace(own, end=end))
+            self.replace_handle(self.held, own.move_dot(self.dot, end))
 
     def press(self, x: float, y: float, *, pins: bool) -> None:
         """Takes the handle under the mouse, or puts one on the line there; with `pins` holds that line."""
@@ -122,12 +143,21 @@ class LineDrag(Drag):
         if self.near is not None:
             self.held = self.near
             return
+        if self.draws and not pins:
+            self.stroke = [self.hover]
+            return
+        self.dot = 0
         made = self.make_pin(self.hover) if pins else self.make_pull(self.hover)
+        if self.add_handle(made) and not pins:
+            self.held = len(self.handles) - 1
+
+    def add_handle(self, made: LineHandle | None) -> bool:
+        """Adds a handle, for which history has a step; takes that back where there is none, or no room."""
         if made is None or len(self.handles) >= line_handle.MOST_HANDLES:
             self.history.pop()
-            return
+            return False
         self.set_handles((*self.handles, made))
-        self.held = None if pins else len(self.handles) - 1
+        return True
 
     def make_pull(self, place: Place) -> LineHandle:
         """Returns a handle at rest: the line of the start that is seen at a place now, pulled to where it is."""
@@ -151,7 +181,10 @@ class LineDrag(Drag):
 
     def release(self) -> None:
         """Lets the held handle go; a press that changed nothing leaves no step of history."""
-        if self.held is not None and self.history and self.history[-1] == self.handles:
+        if self.stroke:
+            self.add_handle(drawn_lines.draw_line(self, self.stroke))
+            self.stroke = []
+        elif self.held is not None and self.history and self.history[-1] == self.handles:
             self.history.pop()
         self.held = None
         self.looked = False
@@ -176,6 +209,38 @@ class LineDrag(Drag):
         if index is not None:
             self.keep_history()
             self.replace_handle(index, replace(self.handles[index], muted=not self.handles[index].muted))
+
+    def lay_line(self, make: Callable[["LineDrag", LineHandle, Place], LineHandle | None]) -> None:
+        """Lays the line of the handle under the mouse, else the line under it, along a curve that `make` returns."""
+        if self.surface is None:
+            return
+        self.look()
+        index, place = self.near, self.hover
+        if place is None:
+            return
+        self.keep_history()
+        own = self.make_pull(place) if index is None else self.handles[index]
+        made = None if own.is_pin else make(self, own, self.find_place(own.end) or place)
+        if index is None or made is None:
+            self.add_handle(made)
+        else:
+            self.replace_handle(index, made)
+
+    def type_radius(self, character: str) -> bool:
+        """Takes a character of a typed radius; returns whether it belongs to one, which begins with a digit."""
+        if self.find_active() is None or not (character in drag_handles.CHARACTERS if self.typed
+                                              else character.isdigit() or character == '.'):
+            return False
+        if not self.typed:
+            self.keep_history()
+        self.set_typed(self.typed + character)
+        return True
+
+    def set_typed(self, text: str) -> None:
+        self.typed = text
+        radius = units.parse_number(text, 'LENGTH', bpy.context.scene) if text else None
+        if radius is not None and radius > 0.0:
+            self.change_radius(radius)
 
     def turn_wheel(self, notches: int) -> None:
         index = self.find_active()
@@ -218,7 +283,7 @@ class LineDrag(Drag):
 
     def go_to(self, handles: Handles) -> None:
         self.held = self.near = self.sizing = None
-        self.looked = False
+        self.looked, self.typed, self.stroke = False, "", []
         self.set_handles(handles)
 
     # Drawing and texts
@@ -229,17 +294,24 @@ class LineDrag(Drag):
         if self.surface is None:
             return
         self.hover, self.near = self.screen.find_place(*self.mouse), None
-        ends = [self.find_dot(each) for each in self.handles]
-        if ends and self.hover is not None:
-            apart = np.linalg.norm(self.screen.find_pixels(np.array(ends)) - self.mouse, axis=1)
+        dots = self.list_dots()
+        if dots and self.hover is not None:
+            points = np.array([self.find_dot(self.handles[index].dots[number]) for index, number in dots])
+            apart = np.linalg.norm(self.screen.find_pixels(points) - self.mouse, axis=1)
             nearest = int(np.nanargmin(np.append(apart, np.inf)))
             grasp = GRASP * bpy.context.preferences.system.ui_scale
-            self.near = nearest if nearest < len(ends) and apart[nearest] < grasp else None
+            if nearest < len(dots) and apart[nearest] < grasp:
+                self.near, self.dot = dots[nearest]
 
-    def find_dot(self, handle: LineHandle) -> np.ndarray:
-        place = self.find_place(handle.end)
+    def list_dots(self) -> list[tuple[int, int]]:
+        """Returns each dot by its handle and its number there."""
+        return [(index, number) for index, each in enumerate(self.handles) for number in range(len(each.dots))]
+
+    def find_dot(self, dot: tuple[float, float, float]) -> np.ndarray:
+        """Returns where a dot of object space is shown, in world space."""
+        place = self.find_place(dot)
         return (self.surface.read_point(place, self.state) if place is not None
-                else self.patches[0].to_world(np.array(handle.end)))
+                else self.patches[0].to_world(np.array(dot)))
 
     def refresh_marks(self) -> None:
         """Finds what is under the mouse where it has moved, and draws it."""
@@ -247,11 +319,14 @@ class LineDrag(Drag):
             return
         self.look()
         curves = [curve for index in range(len(self.handles)) for curve in self.trace_handle(index)]
-        if self.held is None and self.near is None and self.hover is not None:
+        if self.stroke:
+            drawn = np.array([self.surface.read_point(each, self.state) for each in self.stroke])
+            curves.append(Curve(drawn, handle_marks.HOVER_COLOR))
+        elif self.held is None and self.near is None and self.hover is not None:
             value = self.surface.read_theta(self.hover, self.state)
             curves.append(Curve(self.surface.trace(self.hover, self.state, value), handle_marks.HOVER_COLOR))
-        dots = tuple(Dot(self.find_dot(each), choose_color(each), index in (self.near, self.held))
-                     for index, each in enumerate(self.handles))
+        dots = tuple(Dot(self.find_dot(self.handles[index].dots[number]), choose_color(self.handles[index]),
+                         index in (self.near, self.held) and number == self.dot) for index, number in self.list_dots())
         self.marks = Marks(tuple(curves), dots)
         self.area.tag_redraw()
 
@@ -291,7 +366,8 @@ class LineDrag(Drag):
         own, number = self.handles[index], index + 1
         if own.is_pin or own.muted:
             return f"{'Pin' if own.is_pin else 'Handle'} {number}{', muted' if own.muted else ''}"
-        radius = f"Radius: {units.format_length(own.radius, context.scene)}"
+        typed = f"[{self.typed}|] = " if self.typed else ""
+        radius = f"Radius: {typed}{units.format_length(own.radius, context.scene)}"
         place = sum(not each.muted for each in self.handles[:index])
         if place >= len(self.tool.builder.reached):
             return radius

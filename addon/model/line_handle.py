@@ -1,6 +1,6 @@
 """Handles on lines, as the artist places them on one object, and as text that is kept with it."""
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,13 +14,28 @@ MOST_POINTS = 64  # of a pinned line
 @dataclass(frozen=True)
 class LineHandle:
     """A pull: the line through `start` is to pass through `end`. With `pinned` points it is a pin of the line along
-    them instead, and `start` is where that was taken.
+    them instead, and `start` is where that was taken. With `curve` points the line is to run along the curve through
+    them, and `end` is the middle one.
     """
     start: tuple[float, float, float]  # object space; heights along the view do not matter
     end: tuple[float, float, float]    # likewise
     radius: float                      # world units
     pinned: tuple[tuple[float, float, float], ...] = ()
     muted: bool = False
+    curve: tuple[tuple[float, float, float], ...] = ()  # none, or two and more
+
+    @property
+    def dots(self) -> tuple[tuple[float, float, float], ...]:
+        """The points that the mouse can take."""
+        return self.curve or (self.end,)
+
+    def move_dot(self, number: int, to: tuple[float, float, float]) -> "LineHandle":
+        """Returns the handle with one of its dots elsewhere."""
+        return self.lay((*self.curve[:number], to, *self.curve[number + 1:])) if self.curve else replace(self, end=to)
+
+    def lay(self, curve: tuple[tuple[float, float, float], ...]) -> "LineHandle":
+        """Returns the handle with its line along a curve."""
+        return replace(self, curve=curve, end=curve[len(curve) // 2])
 
     @property
     def is_pin(self) -> bool:
@@ -33,7 +48,7 @@ Handles = tuple[LineHandle, ...]
 def encode_handles(handles: Handles) -> str:
     """Encodes handles as JSON; the numbers keep their bits."""
     return json.dumps([{"start": each.start, "end": each.end, "radius": each.radius, "pinned": each.pinned,
-                        "muted": each.muted} for each in handles]) if handles else ""
+                        "muted": each.muted, "curve": each.curve} for each in handles]) if handles else ""
 
 
 def decode_handles(text: str) -> Handles:
@@ -52,8 +67,12 @@ def decode_handle(stored: dict) -> LineHandle:
     pinned = stored["pinned"]
     if not isinstance(pinned, list) or len(pinned) > MOST_POINTS:
         raise ValueError("no pinned points")
+    curve = stored.get("curve", [])  # files of before have none
+    if not isinstance(curve, list) or len(curve) > MOST_POINTS or len(curve) == 1:
+        raise ValueError("no curve")
     return LineHandle(decode_point(stored["start"]), decode_point(stored["end"]), decode_number(stored["radius"]),
-                      tuple(decode_point(point) for point in pinned), stored["muted"] is True)
+                      tuple(decode_point(point) for point in pinned), stored["muted"] is True,
+                      tuple(decode_point(point) for point in curve))
 
 
 def decode_point(stored: list) -> tuple[float, float, float]:
@@ -73,7 +92,8 @@ def mirror_handles(handles: Handles, sign: np.ndarray) -> Handles:
     lies within a twentieth of its radius has none: both would pull one line.
     """
     images = (LineHandle(mirror_point(each.start, sign), mirror_point(each.end, sign), each.radius,
-                         tuple(mirror_point(point, sign) for point in each.pinned), each.muted) for each in handles)
+                         tuple(mirror_point(point, sign) for point in each.pinned), each.muted,
+                         tuple(mirror_point(point, sign) for point in each.curve)) for each in handles)
     return handles + tuple(image for own, image in zip(handles, images, strict=True)
                            if own.is_pin or np.linalg.norm(np.subtract(own.end, image.end)) > 0.05 * own.radius)
 

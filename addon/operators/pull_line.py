@@ -4,10 +4,10 @@ from functools import partial
 
 import bpy
 import numpy as np
-from bpy.props import StringProperty
+from bpy.props import BoolProperty, StringProperty
 
 from ..bridge import facing, pinned_faces, scene_objects
-from ..interactive import drag_input
+from ..interactive import drag_input, drawn_lines
 from ..interactive.drag_handles import Handle
 from ..interactive.line_drag import LineDrag
 from ..interactive.solve_job import SolveOutcome
@@ -24,6 +24,7 @@ from ..ui.tool_properties import PullSettings
 from .dragged_tool import DraggedTool
 
 APPLY_KEYS, DELETE_KEYS = {'RET', 'NUMPAD_ENTER'}, {'X', 'DEL'}
+LAID = {'S': drawn_lines.straighten_line, 'E': drawn_lines.follow_edge}  # how a key lays the line under the mouse
 
 
 class REFLINES_OT_pull_line(DraggedTool, PullSettings, bpy.types.Operator):
@@ -36,10 +37,13 @@ where a line was pulled to; Enter applies them all"""
     handles: StringProperty(name="Handles", options={'HIDDEN', 'SKIP_SAVE'},
                             description="As JSON, see model/line_handle.py; empty in Re-solve: those of the object")
 
+    draws: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Draw Highlight: a press draws a line")
+
     @classmethod
-    def description(cls, _context: bpy.types.Context, _properties: bpy.types.OperatorProperties) -> str:
-        """Returns the empty text, for the docstring."""
-        return ""
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Returns the tooltip of the button that draws; empty for the other, which has the docstring."""
+        return ("Draw how a reflection line is to run: the line at the start of the stroke is laid along it. Its dots "
+                "can be moved, Enter applies") if properties.draws else ""
 
     def draw(self, _context: bpy.types.Context) -> None:
         self.layout.use_property_split = True
@@ -126,15 +130,20 @@ where a line was pulled to; Enter applies them all"""
             return {'PASS_THROUGH'}
         if drag.keeping:
             return {'RUNNING_MODAL'}
-        if event.type in APPLY_KEYS and event.value == 'PRESS':
+        if event.type in APPLY_KEYS and event.value == 'PRESS' and not drag.typed:
             return self.apply(context)
         self.change_handles(event)
         drag.update_texts(context)
         return {'RUNNING_MODAL'}
 
     def take_back(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Takes back the pull or the radius that the mouse changes now, at the right button; else the whole session."""
+        """Ends a typed radius; takes back the pull or the radius that the mouse changes now, at the right button; else
+        the whole session.
+        """
         drag = self.drag
+        if drag.typed:
+            drag.typed = ""
+            return {'RUNNING_MODAL'}
         if event.type != 'ESC' and (drag.held is not None or drag.sizing is not None) and drag.history:
             drag.go_to(drag.history.pop())
             return {'RUNNING_MODAL'}
@@ -181,8 +190,19 @@ where a line was pulled to; Enter applies them all"""
 
     def press_key(self, event: bpy.types.Event) -> None:
         drag = self.drag
-        if event.type in DELETE_KEYS:
+        plain = not (event.ctrl or event.alt or event.oskey)
+        if drag.typed and event.type in APPLY_KEYS:
+            drag.typed = ""
+        elif drag.typed and event.type == 'BACK_SPACE':
+            drag.set_typed(drag.typed[:-1])
+        elif plain and drag.type_radius(drag_input.read_character(event)):
+            return
+        elif event.type in DELETE_KEYS:
             drag.delete_active()
+        elif plain and event.type in LAID:
+            drag.lay_line(LAID[event.type])
+        elif event.type == 'D':
+            drag.draws = not drag.draws
         elif event.type == 'M':
             drag.mute_active()
         elif event.type == 'P':

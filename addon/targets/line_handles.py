@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from .. import native
+from ..model import line_curve
 from ..model.line_handle import Handles, LineHandle
 from ..model.solution import JointTargets
 
@@ -84,6 +85,9 @@ class HandleTargets:
         if handle.is_pin:
             return native.reflines.Handle(project(plane, np.array(handle.pinned)), name=name)
         start, end = project(plane, np.array([handle.start])), project(plane, np.array([handle.end]))
+        if handle.curve:
+            return native.reflines.Handle(line_curve.sample_curve(project(plane, np.array(handle.curve))),
+                                          value=float(self.lines.read_theta(start)[0]), radius=handle.radius, name=name)
         radius = max(handle.radius, ROOM * float(np.linalg.norm(end - start)))
         return native.reflines.Handle(end, value=float(self.lines.read_theta(start)[0]), radius=radius, centre=start,
                                       name=name)

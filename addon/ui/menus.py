@@ -48,6 +48,7 @@ def draw_drags(layout: bpy.types.UILayout) -> None:
         label = getattr(bpy.ops.reflines, name.partition(".")[2]).get_rna_type().name
         layout.operator(name, text=f"Drag {label}", icon=icon).follow_mouse = True
     layout.operator("reflines.pull_line", icon='VIEW_PAN')
+    layout.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
     layout.operator("reflines.fair_brush", icon='BRUSH_DATA')
 
 

@@ -187,6 +187,7 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
         border.use_property_split = False
         border.prop(own, "border", expand=True)
         layout.operator("reflines.pull_line", icon='VIEW_PAN')
+        layout.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
         pins = layout.row(align=True)
         pins.operator("reflines.pin_lines", icon='PINNED')
         pins.operator("reflines.pin_lines", text="", icon='UNPINNED').unpin = True

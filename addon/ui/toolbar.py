@@ -49,13 +49,23 @@ class PullLineTool:
         layout.prop(settings, "border")
 
 
+class DrawHighlightTool(PullLineTool):
+    """The tool whose press on the panel begins a session by drawing a line there."""
+    bl_idname = "reflection_lines.draw_highlight"
+    bl_label = "Draw Highlight"
+    bl_description = ("Draw how a reflection line is to run: the line at the start of the stroke is laid along it.\n"
+                      "Its dots can be moved, Enter applies, Esc takes all back")
+    bl_icon = "ops.curve.draw"
+    bl_keymap = (("reflines.pull_line", PRESS, {"properties": [("draws", True)]}), LOOK_THROUGH)
+
+
 class FairBrushTool:
     """The tool that paints smoother lines."""
     bl_idname = "reflection_lines.fair_brush"
     bl_label = "Fair Brush"
     bl_description = ("Paint over flaws: the lines under the brush become smoother, the rest stays.\n"
                       "F changes the size, Shift F the strength, Shift paints with less")
-    bl_icon = "brush.sculpt.smooth"
+    bl_icon = "ops.sculpt.mesh_filter"
     bl_cursor = 'CROSSHAIR'
     bl_keymap = (("reflines.fair_brush", PRESS, None), ("reflines.fair_brush", {**PRESS, "shift": True}, None),
                  ("wm.radial_control", {"type": 'F', "value": 'PRESS'},
@@ -84,7 +94,7 @@ def add_modes(tool: type) -> list[type]:
             for name, mode in (("EditMode", 'EDIT_MESH'), ("ObjectMode", 'OBJECT'))]
 
 
-TOOLS = [add_modes(tool) for tool in (ReflectionLinesTool, PullLineTool, FairBrushTool)]
+TOOLS = [add_modes(tool) for tool in (ReflectionLinesTool, PullLineTool, DrawHighlightTool, FairBrushTool)]
 
 
 def register() -> None:

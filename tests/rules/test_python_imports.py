@@ -9,7 +9,7 @@ MAY_IMPORT = {
     "library_copy": set(),
     "native": {"library_copy"},
     "model": {"native"},
-    "targets": {"native", "model.line_handle", "model.solution"},
+    "targets": {"native", "model.line_curve", "model.line_handle", "model.solution"},
     "bridge": {"native", "model", "targets"},
     "solver": {"native", "model", "targets"},
     "state": {"bridge", "model", "solver"},

@@ -1,6 +1,4 @@
 """Pull Line in a real window: lines are pulled and pinned with the mouse, taken back, applied, and pulled again."""
-import os
-import sys
 from collections.abc import Generator
 
 import bpy
@@ -8,65 +6,11 @@ import numpy as np
 
 import scenes
 import window
-from dragging import ended, panel, settled, shown, undone_and_redone
+from dragging import panel, settled, shown, undone_and_redone
+from pulling import MIDDLE, UP, applied, begin, missed, move, picture, pull, session, start, taken_back
 
 Steps = Generator[float, None, None]
-MIDDLE, UP = (330, 290), (330, 312)  # pixels; the lines run from left to right
 BESIDE = (330, 315)  # where a pull at MIDDLE still bends the lines; 20 pixels further the bend changes its sign
-
-
-def session() -> object:
-    return sys.modules["reflection_lines"].interactive.drag._running[0]
-
-
-def begin(driver: window.Window) -> Steps:
-    driver.move(10, 20)
-    yield 0.1
-    with driver.override():
-        assert bpy.ops.reflines.pull_line('INVOKE_DEFAULT', True) == {'RUNNING_MODAL'}
-    yield 0.2
-    yield from settled(driver)
-
-
-def start(driver: window.Window, cells: int = 24, levels: int = 0) -> Generator[float, None, np.ndarray]:
-    """A session on a fresh panel; returns its positions. One that a failed test left is ended."""
-    if sys.modules["reflection_lines"].interactive.drag._running:
-        driver.key('ESC')
-        yield 0.5
-    panel(driver, cells=cells, levels=levels)
-    before = shown(driver)
-    yield from begin(driver)
-    return before
-
-
-def move(driver: window.Window, x: float, y: float, **modifiers: bool) -> Steps:
-    driver.x, driver.y = driver.region().x + int(x), driver.region().y + int(y)
-    driver.event('MOUSEMOVE', **modifiers)
-    yield 0.1
-
-
-def pull(driver: window.Window, first: tuple[int, int], last: tuple[int, int], *, hold: bool = False,
-         **modifiers: bool) -> Steps:
-    yield from move(driver, *first)
-    driver.event('LEFTMOUSE', 'PRESS')
-    yield 0.1
-    for share in (0.3, 0.7, 1.0):
-        yield from move(driver, *(a + share * (b - a) for a, b in zip(first, last, strict=True)), **modifiers)
-    if not hold:
-        driver.event('LEFTMOUSE', 'RELEASE')
-    yield 0.1
-    yield from settled(driver)
-
-
-def picture(name: str) -> Steps:
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{name}.png"))
-        yield 0.3
-
-
-def missed() -> float:
-    """How far the line of the handle in hand passes beside it, as a share of the spacing of the lines."""
-    return float(session().texts[0].split("Line ")[1].split("%")[0]) / 100.0
 
 
 def test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed(driver: window.Window) -> Steps:
@@ -76,8 +20,7 @@ def test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed(driver: windo
     assert len(session().handles) == 1 and missed() < 0.02, session().texts
     assert 1e-4 < session().largest_move < 0.05
     yield from picture("pull_line")
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
 
 
@@ -94,16 +37,14 @@ def test_the_line_under_the_mouse_is_shown(driver: window.Window) -> Steps:
     yield from move(driver, 10, 20)
     yield 0.2
     assert not session().marks.curves
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
 
 
 def test_enter_applies_in_one_undo_step_what_the_operator_makes(driver: window.Window) -> Steps:
     before = yield from start(driver)
     yield from pull(driver, MIDDLE, UP)
     yield from pull(driver, (280, 330), (280, 318))
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     kept, done = shown(driver), bpy.context.window_manager.operators[-1]
     assert done.bl_idname == "REFLINES_OT_pull_line" and np.abs(kept - before).max() > 1e-4
     handles = done.properties.handles
@@ -126,8 +67,7 @@ def test_undo_steps_from_handle_to_handle(driver: window.Window) -> Steps:
         yield from settled(driver)
         assert len(session().handles) == expected
         assert np.abs(shown(driver) - shapes[expected]).max() < 3e-6
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     assert np.array_equal(shown(driver), before)
 
 
@@ -147,8 +87,7 @@ def test_control_goes_back_to_the_old_line_and_shift_is_finer(driver: window.Win
     yield from pull(driver, MIDDLE, UP, shift=True)
     own = session().handles[0]
     assert 0.05 < np.linalg.norm(np.subtract(own.end, own.start)) / np.linalg.norm(coarse) < 0.15
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
 
 
 def test_handles_are_taken_again_muted_and_deleted_and_the_wheel_changes_their_radius(driver: window.Window) -> Steps:
@@ -207,22 +146,19 @@ def test_a_pinned_line_stays_beside_a_pull(driver: window.Window) -> Steps:
 def test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before(driver: window.Window) -> Steps:
     before = yield from start(driver)
     yield from pull(driver, MIDDLE, UP)
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     kept = shown(driver)
     yield from begin(driver)
     assert len(session().handles) == 1 and np.abs(shown(driver) - kept).max() < 3e-6
     yield from pull(driver, UP, (330, 304))
     assert len(session().handles) == 1 and np.abs(shown(driver) - kept).max() > 1e-4
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     assert np.array_equal(shown(driver), kept)
     yield from begin(driver)
     yield from move(driver, *UP)
     driver.key('X')
     yield from settled(driver)
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     assert np.abs(shown(driver) - before).max() < 1e-7
 
 
@@ -244,8 +180,7 @@ def test_a_handle_that_is_refused_says_why_and_loses_no_other(driver: window.Win
         yield 0.1
         yield from settled(driver)
     assert not session().handles and np.abs(shown(driver) - before).max() < 3e-6
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     assert np.array_equal(shown(driver), before)
 
 
@@ -253,8 +188,7 @@ def test_a_cage_follows(driver: window.Window) -> Steps:
     before = yield from start(driver, cells=16, levels=2)
     yield from pull(driver, MIDDLE, UP)
     assert missed() < 0.05, session().texts
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     assert np.abs(shown(driver) - before).max() > 1e-4
 
 
@@ -265,8 +199,7 @@ def test_a_large_panel_follows_without_a_solve(driver: window.Window) -> Steps:
     assert missed() < 0.01, session().texts
     followed = shown(driver) - before
     assert np.abs(followed).max() > 1e-4
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     kept = shown(driver) - before
     assert 0.0 < np.abs(kept - followed).max() < 0.3 * np.abs(kept).max()
 
@@ -281,8 +214,7 @@ def test_a_press_with_the_tool_of_the_toolbar_pulls_at_once(driver: window.Windo
     yield from pull(driver, MIDDLE, UP)
     assert len(session().handles) == 1 and np.abs(shown(driver) - before).max() > 1e-4
     yield from picture("tool")
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     assert np.array_equal(shown(driver), before)
     with driver.override():
         bpy.ops.wm.tool_set_by_id(name="builtin.select_box")

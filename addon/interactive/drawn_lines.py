@@ -1,0 +1,66 @@
+"""Lines that are laid along curves in a session with handles: drawn, straightened, or parallel to edges."""
+from typing import Protocol
+
+import numpy as np
+
+from ..bridge import read_edges
+from ..model import line_curve
+from ..model.line_handle import LineHandle
+from ..model.line_surface import LineState, LineSurface, Place
+from ..model.patch import Patch
+
+FEWEST = 3  # points of a stroke
+
+
+class Session(Protocol):
+    """The part of a session that is used here."""
+    surface: LineSurface
+    state: LineState
+    patches: list[Patch]
+    frame: np.ndarray
+
+    def to_local(self, point: np.ndarray) -> tuple[float, float, float]: ...
+    def choose_radius(self) -> float: ...
+
+
+def draw_line(session: Session, stroke: list[Place]) -> LineHandle | None:
+    """Returns the handle that lays the line at the start of a stroke along it; None for a stroke that is too short."""
+    if len(stroke) < FEWEST:
+        return None
+    points = np.array([session.surface.read_point(each, session.surface.start) for each in stroke])
+    source = session.surface.find_source(stroke[0], session.state)
+    start = session.to_local(session.surface.read_point(source, session.surface.start))
+    return lay(session, LineHandle(start, start, session.choose_radius()), line_curve.fit_curve(points))
+
+
+def lay(session: Session, handle: LineHandle, points: np.ndarray) -> LineHandle:
+    """Returns a handle whose line runs along the curve through points of world space (#P x 3)."""
+    return handle.lay(tuple(session.to_local(point) for point in points))
+
+
+def trace_line(session: Session, place: Place) -> np.ndarray:
+    """Returns the line that is seen at a place, as it runs now, without its ends: #P x 3, world space."""
+    value = session.surface.read_theta(place, session.state)
+    return line_curve.trim_line(session.surface.trace(place, session.state, value))
+
+
+def straighten_line(session: Session, handle: LineHandle, place: Place) -> LineHandle | None:
+    """Returns the handle with its line along the straight way between its two ends."""
+    line = trace_line(session, place)
+    return lay(session, handle, line_curve.straighten(line)) if len(line) >= FEWEST else None
+
+
+def follow_edge(session: Session, handle: LineHandle, place: Place) -> LineHandle | None:
+    """Returns the handle with its line parallel to the selected edges, else to the border or crease beside it."""
+    line, plane = trace_line(session, place), session.frame[:2]
+    if len(line) < FEWEST:
+        return None
+    at = plane @ session.surface.read_point(place, session.state)
+    edges = read_edges.read_selected_edges(session.patches[0]) @ plane.T
+    if not len(edges):
+        edges = read_edges.read_bounding_edges(session.patches[0]) @ plane.T
+        edges = line_curve.choose_loop(edges, at, plane @ (line[-1] - line[0]))
+    if not len(edges):
+        return None
+    points = line_curve.run_parallel(line @ plane.T, edges, at)
+    return lay(session, handle, line_curve.fit_curve(points) @ plane)
