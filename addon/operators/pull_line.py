@@ -217,7 +217,8 @@ where a line was pulled to; Enter applies them all"""
         return self.builder.conflicts + self.builder.missed
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
-        super().record_solution(ob, solution)
+        held = self.builder.missed and not solution.report.limited and self.border != 'free'
+        super().record_solution(ob, replace(solution, remedy="free") if held else solution)
         ob.reflection_lines.handles.keep(self.handles, ob.data)
 
     def end_drag(self, context: bpy.types.Context) -> None:

@@ -16,10 +16,14 @@ before that run, unless the mesh has been changed since"""
     bl_options = {'REGISTER', 'UNDO'}
 
     border: bpy.props.StringProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Another border than the last run's")
+    limit: bpy.props.FloatProperty(min=0.0, unit='LENGTH', options={'HIDDEN', 'SKIP_SAVE'},
+                                   description="Another limit than the last run's; 0: the same")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip with another border; empty without, for the docstring."""
+        """Returns the tooltip with another border or limit; empty without, for the docstring."""
+        if properties.limit:
+            return "Run the last tool again with twice the limit of the move, which held vertices back"
         return f"Run the last tool again with the border {properties.border.capitalize()}" if properties.border else ""
 
     @classmethod
@@ -58,9 +62,9 @@ before that run, unless the mesh has been changed since"""
         if not isinstance(kind, type) or not issubclass(kind, SolveTool):
             raise Refusal(f"{ob.name}: the stored run names no tool ({run.operator[:40]}): run a tool again")
         tool = getattr(bpy.ops.reflines, run.operator.split("_OT_")[1])
-        border = {"border": self.border} if self.border else {}
+        changed = {name: getattr(self, name) for name in ("border", "limit") if getattr(self, name)}
         try:
-            settings = {**json.loads(run.settings), **border, "anew": True, "shared": shared}
+            settings = {**json.loads(run.settings), **changed, "anew": True, "shared": shared}
             tool('EXEC_DEFAULT', **settings)
         except (TypeError, ValueError, RecursionError) as error:
             raise Refusal(f"{ob.name}: the stored settings of {kind.bl_label} cannot be used: run it again") from error

@@ -325,6 +325,10 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if report.remedy and run.operator:
             remedy = self.layout.operator("reflines.resolve", text=f"Solve with Border {report.remedy.capitalize()}")
             remedy.border = report.remedy
+        limit = 2.0 * (report.automatic_limit or run.read_length("limit"))
+        if report.limited and run.operator and limit:
+            shown = run.format_length(limit)
+            self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
         self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
         self.layout.operator("reflines.store_result", icon='GROUP_VERTEX')
 

@@ -16,6 +16,7 @@ from .stripe_properties import ReflinesSetups, ReflinesStripes
 from .tool_properties import (ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesUntwist,
                               ReflinesWarp, SmoothSettings)
 
+LONGEST = 1e15  # length that is read from a file
 KINDS = (
     ('CAGE', "Cage", "Below a Subdivision Surface: move the cage so that the subdivided surface reflects well"),
     ('MESH', "Mesh", "Move the mesh's own faces, as if it were not subdivided"),
@@ -125,6 +126,17 @@ class ReflinesRun(bpy.types.PropertyGroup):
     key: StringProperty(name="Shape Key", description="That the result went to; empty for the mesh")
     vertices: IntProperty(name="Vertices")
     faces: IntProperty(name="Faces")
+
+    def read_length(self, name: str) -> float:
+        """Reads a length of the settings; 0 where there is none, as in a file that was changed."""
+        try:
+            value = json.loads(self.settings)[name]
+            return value if isinstance(value, float) and 0.0 < value < LONGEST else 0.0
+        except (ValueError, TypeError, KeyError, RecursionError):
+            return 0.0
+
+    def format_length(self, value: float) -> str:
+        return units.format_length(value, bpy.context.scene, 2)
 
     def fill(self, operator: bpy.types.Operator, mesh: bpy.types.Mesh, key: str) -> None:
         self.note(operator.bl_idname, {name: to_json_value(getattr(operator, name))

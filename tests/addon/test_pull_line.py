@@ -51,6 +51,24 @@ def test_handles_at_rest_and_muted_ones_change_no_bit(panel) -> None:
         assert scenes.positions(panel).tobytes() == before.tobytes()
 
 
+def test_where_the_limit_holds_back_twice_of_it_is_offered_and_reaches_more(panel) -> None:
+    assert pull(UP, limit=2e-3) == {'FINISHED'}
+    report, run = panel.reflection_lines.report, panel.reflection_lines.run
+    first = report.residual_after
+    assert report.limited > 0 and abs(run.read_length("limit") - 2e-3) < 1e-9 and report.remedy == ""
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, limit=4e-3) == {'FINISHED'}
+    assert report.residual_after < 0.9 * first and report.largest_move > 3e-3
+
+
+def test_where_a_border_keeps_a_line_from_its_handle_a_free_one_is_offered(panel) -> None:
+    strong = {"start": (0.1, 0.6, 0.0), "end": (0.1, 0.86, 0.0), "radius": 0.4, "pinned": [], "muted": False}
+    assert pull(strong, limit=1.0) == {'FINISHED'}
+    report = panel.reflection_lines.report
+    assert "beside it" in report.notes and report.remedy == "free"
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border=report.remedy) == {'FINISHED'}
+    assert report.remedy == ""
+
+
 def test_handles_are_kept_and_solved_again_after_saving(panel, tmp_path: Path) -> None:
     before = scenes.positions(panel)
     assert pull(UP) == {'FINISHED'}
