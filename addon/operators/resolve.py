@@ -53,7 +53,7 @@ before that run, unless the mesh has been changed since"""
             bpy.ops.object.mode_set(mode=mode)
         for note in filter(None, (difference, *ob.reflection_lines.report.notes.splitlines())):
             self.report({'WARNING'}, f"{ob.name}: {note}")  # the tool's own reports reach the console only
-        self.report({'INFO'}, f"{ob.name}: {ob.reflection_lines.report.headline()}")
+        self.report({'INFO'}, f"{ob.reflection_lines.report.headline()} ({ob.name})")
         return {'FINISHED'}
 
     def run(self, ob: bpy.types.Object, run: bpy.types.PropertyGroup, *, shared: bool) -> None:

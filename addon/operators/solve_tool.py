@@ -139,6 +139,6 @@ class SolveTool:
         stored.report.fill(solution, (*solution.notes, *self.describe_solution(solution), *shown, *lost))
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")
-        faces = f" ({solution.patch.faces.sum()} faces kept as the region; in Edit Mode the selected ones are taken)"
-        # The status bar shows the last report.
-        self.report({'INFO'}, f"{ob.name}: {stored.report.headline()}{faces if self.region_stored else ''}")
+        faces = f", {solution.patch.faces.sum()} faces kept as the region; in Edit Mode the selected ones are taken"
+        # The status bar shows the last report, and cuts off its end.
+        self.report({'INFO'}, f"{stored.report.headline()} ({ob.name}{faces if self.region_stored else ''})")

@@ -86,6 +86,18 @@ def test_the_result_says_when_the_limit_held_vertices_back() -> None:
     assert "limit" not in report.headline()
 
 
+def test_twice_the_limit_is_offered_where_it_held_vertices_back() -> None:
+    ob = ready()
+    scenes.smooth(limit=0.0005)
+    report, run = ob.reflection_lines.report, ob.reflection_lines.run
+    assert run.read_length("limit") == pytest.approx(0.0005)
+    held = report.limited
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, limit=2.0 * run.read_length("limit")) == {'FINISHED'}
+    assert report.largest_move == pytest.approx(0.001, rel=1e-4) and 0 < report.limited < held
+    run.settings = '{"limit": "much"}'
+    assert run.read_length("limit") == 0.0
+
+
 def test_the_numbers_are_those_of_the_native_call() -> None:
     """The residual is that of one light: by area its root mean square is that light's unevenness over one length."""
     ob = ready()

@@ -35,8 +35,8 @@ def test_a_smoothing_tells_first_how_much_smoother_the_lines_are(capfd: pytest.C
     report = solved(length=0.414)
     ratio = report.score_before / report.score_after
     assert report.headline().startswith(f"Lines {ratio:.1f} x smoother, moved at most 1.8 mm")
-    told = [line for line in capfd.readouterr().out.splitlines() if line.startswith("Info: Panel:")]
-    assert told == [f"Info: Panel: {report.headline()}"]  # the solver's numbers are in the panel Numbers
+    told = [line for line in capfd.readouterr().out.splitlines() if line.startswith("Info: Lines")]
+    assert told == [f"Info: {report.headline()} (Panel)"]  # the solver's numbers are in the panel Numbers
 
 
 def test_nothing_moved_is_said_plainly() -> None:

@@ -64,6 +64,24 @@ def test_after_opening_a_file_stripes_are_on_what_was_solved(driver: window.Wind
     assert (yield from count(driver)) > 10000
 
 
+def test_a_map_of_a_mesh_that_has_changed_says_so(driver: window.Window) -> Steps:
+    ob = flat_panel(driver, "Mapped")
+    with driver.override():
+        scenes.edit_inner(ob, CELLS)
+        scenes.smooth()
+        scenes.object_mode()
+    settings().stripes.mode = 'DEVIATION'
+    yield from captured(driver)
+    assert explained(driver) == ""
+    ob.data.vertices[len(ob.data.vertices) // 2].co.z += 0.1
+    ob.data.update()
+    yield from captured(driver)
+    assert explained(driver) == "Mapped is no longer as its solve left it: there is no map of it. Run the tool again"
+    settings().stripes.mode = 'REFLECTION'
+    yield from captured(driver)
+    assert explained(driver) == ""
+
+
 def test_all_visible_and_empty_scopes(driver: window.Window) -> Steps:
     ob = flat_panel(driver, "One")
     with driver.override():
@@ -163,6 +181,7 @@ def test_stripes_follow_a_stroke_in_sculpt_mode(driver: window.Window) -> Steps:
 
 
 window.run(test_stripes_stay_while_light_camera_or_nothing_is_active,
-           test_after_opening_a_file_stripes_are_on_what_was_solved, test_all_visible_and_empty_scopes,
+           test_after_opening_a_file_stripes_are_on_what_was_solved, test_a_map_of_a_mesh_that_has_changed_says_so,
+           test_all_visible_and_empty_scopes,
            test_the_overlay_switch_hides_them, test_what_is_missing_is_said,
            test_stripes_follow_a_stroke_in_sculpt_mode)
