@@ -118,10 +118,12 @@ class Drag:
         for index, handle in enumerate(self.values.handles):
             if self.values.is_touched(index):
                 setattr(self.tool, handle.name, self.values.value(index))
-        builds = tuple(self.tool.build_target(context, ob, patch)
-                       for ob, patch in zip(self.find_objects(), self.patches, strict=True))
+        # The settings are read after each target, since a panel's size sets its length.
+        wanted = [(self.tool.build_target(context, ob, patch), self.tool.read_solve_settings(context.scene))
+                  for ob, patch in zip(self.find_objects(), self.patches, strict=True)]
+        builds, settings = zip(*wanted, strict=True)
         press = self.tool.choose_press() if final else None
-        self.request = SolveRequest(builds, self.tool.read_solve_settings(context.scene), final, press=press)
+        self.request = SolveRequest(builds, settings, final, press=press)
         falloff = self.tool.read_falloff(context, self.find_objects()[0], self.patches[0])
         self.circle_points = (falloff_circle.sample_circle(falloff.centre, falloff.radius, self.frame)
                               if falloff is not None else None)

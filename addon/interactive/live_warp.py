@@ -83,7 +83,7 @@ class LiveWarp:
             self.job.progress.cancel()  # a long solve whose result is out of date
         self.solution, self.needs_final = None, False
         settings = live_baseline.read_solve_settings(scene)
-        self.request = SolveRequest((live_baseline.bind_target(self.warp),), settings, final)
+        self.request = SolveRequest((live_baseline.bind_target(self.warp),), (settings,), final)
         self.thread.submit(self.request)
 
     def advance(self, scene: bpy.types.Scene) -> bool:

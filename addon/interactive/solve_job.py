@@ -34,9 +34,9 @@ Follow = Callable[..., bool]
 
 @dataclass(frozen=True)
 class SolveRequest:
-    """The wanted target of each patch."""
+    """The wanted target and the settings of each patch."""
     builds: tuple[BuildTarget, ...]
-    settings: SolveSettings
+    settings: tuple[SolveSettings, ...]
     final: bool = False    # whether the result is kept, so solved from the start
     measure: bool = False  # only the gain of the last solution is wanted
     press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds
@@ -128,8 +128,8 @@ class SolveJob:
         for which, (patch, start, follower) in enumerate(zip(self.patches, self.starts, self.followers, strict=True)):
             with live_optimizer.convert_native_errors(patch):
                 if not self.follow_without_solve(request, which):
-                    wanted = live_optimizer.build_targets(start, request.builds[which], request.settings)
-                    self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings))
+                    wanted = live_optimizer.build_targets(start, request.builds[which], request.settings[which])
+                    self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings[which]))
                     if request.lines:
                         wanted.measure(follower)  # for the numbers of each handle
                 positions.append(choose_formulation(patch, start.view).read_positions(follower))
@@ -142,7 +142,7 @@ class SolveJob:
         """Follows a patch's target in the request's own way; returns False where there is none, or it cannot."""
         if not request.follows:
             return False
-        start, follower, settings = self.starts[which], self.followers[which], request.settings
+        start, follower, settings = self.starts[which], self.followers[which], request.settings[which]
         if not request.follows[which](start.optimizer, follower, keep_crossed=settings.build_crossed is not None):
             return False
         limit = choose_limit(start.patch, settings)
@@ -171,11 +171,11 @@ class SolveJob:
         """Measures the present heights against those of the start, by the numbers that the result will be told by."""
         begin = time.perf_counter()
         numbers = []
-        every = zip(self.patches, self.starts, self.followers, request.builds, strict=True)
-        for patch, start, follower, build in every:
+        every = zip(self.patches, self.starts, self.followers, request.builds, request.settings, strict=True)
+        for patch, start, follower, build, settings in every:
             with live_optimizer.convert_native_errors(patch):
-                wanted = live_optimizer.build_targets(start, build, request.settings)
-                length = solve.choose_length(patch, request.settings.length)
+                wanted = live_optimizer.build_targets(start, build, settings)
+                length = solve.choose_length(patch, settings.length)
                 numbers.append((start.optimizer.score(length), follower.score(length),
                                 wanted.measure(start.optimizer), wanted.measure(follower)))
         self.measure_seconds = time.perf_counter() - begin
@@ -185,11 +185,11 @@ class SolveJob:
         """Solves from the heights of the start, and measures the result."""
         self.stage = "Solving from the start"
         solutions = []
-        for start, build in zip(self.starts, request.builds, strict=True):
+        for start, build, settings in zip(self.starts, request.builds, request.settings, strict=True):
             start.optimizer.reset()
             try:
                 with live_optimizer.convert_native_errors(start.patch):
-                    solutions.append(solve.solve_patch(start, build, request.settings, self.progress))
+                    solutions.append(solve.solve_patch(start, build, settings, self.progress))
             finally:
                 start.optimizer.reset()  # the next target is built from the start's lines too, even after a failure
         return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))

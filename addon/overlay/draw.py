@@ -41,7 +41,6 @@ class ShownObject:
     """The batches and the state of drawing of one object."""
     kind: tuple = ()              # mode, content, solve and kind of surface when it was read
     stale: bool = True            # the surface may have changed since it was uploaded
-    outdated: bool = False        # a map or the shape before is wanted of a solve that the mesh no longer shows
     topology: Topology | None = None
     surface: Uploaded = field(default_factory=Uploaded)
     after: Uploaded | None = None  # beside the shape before the last solve, that after it
@@ -86,19 +85,6 @@ def count_textures() -> int:
 def is_waiting() -> bool:
     """Returns whether a fit of normals is pending."""
     return _cache.fits.is_waiting()
-
-
-def explain_solve(context: bpy.types.Context) -> str:
-    """Says, in a sentence, why a map or the shape before is not drawn; empty where it is or none is wanted."""
-    settings = context.scene.reflection_lines.stripes
-    if not settings.show or not stripe_scene.needs_solution(settings):
-        return ""
-    what = "there is no map of it" if settings.mode in stripe_scene.MAPS else "the shape before is not shown"
-    for ob in shown_objects.find_shown_objects(context, settings):
-        shown = _cache.shown.get(ob.name)
-        if solve_history.is_undone(ob) or (shown is not None and shown.outdated):
-            return f"{ob.name} is no longer as its solve left it: {what}. Run the tool again"
-    return ""
 
 
 def draw_stripes() -> None:
@@ -154,8 +140,9 @@ def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types
     if not shown.stale and shown.kind == kind:
         return
     read = read_limit_surface(ob, settings) or viewport_surface.read_viewport_surface(ob, depsgraph, shown.topology)
-    shown.outdated = solution is not None and not solve_maps.is_current(solution, read.V, len(ob.data.vertices))
-    if shown.outdated:
+    changed = solution is not None and not solve_maps.is_current(solution, read.V, len(ob.data.vertices))
+    solve_history.mark_changed(ob.name, changed=changed)
+    if changed:
         solution = None
     shown.surface.take(build_arrays(ob, settings, read, solution))
     if stripe_scene.is_split(settings) and solution is not None:

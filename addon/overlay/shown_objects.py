@@ -4,8 +4,8 @@ import numpy as np
 
 from ..bridge import view_and_light
 from ..model.refusal import Refusal
-from ..state import last_panels
-from . import stripes
+from ..state import last_panels, solve_history
+from . import stripe_scene, stripes
 
 MODES = {'OBJECT', 'EDIT', 'SCULPT', 'VERTEX_PAINT', 'WEIGHT_PAINT', 'TEXTURE_PAINT'}
 
@@ -62,7 +62,16 @@ def explain_stripes(context: bpy.types.Context) -> str:
     shown = find_shown_objects(context, settings)
     if not shown:
         return explain_no_object(settings, panels)
-    return explain_light(context.scene, shown[0]) or explain_object(shown[0])
+    return explain_light(context.scene, shown[0]) or explain_object(shown[0]) or explain_solve(settings, shown)
+
+
+def explain_solve(settings: bpy.types.PropertyGroup, shown: list[bpy.types.Object]) -> str:
+    """Says why a map or the shape before is not drawn; empty where it is, or none is wanted."""
+    changed = [ob.name for ob in shown if solve_history.is_changed(ob)]
+    if not changed or not stripe_scene.needs_solution(settings):
+        return ""
+    what = "there is no map of it" if settings.mode in stripe_scene.MAPS else "the shape before is not shown"
+    return f"{changed[0]} is no longer as its solve left it: {what}. Run the tool again"
 
 
 def explain_no_object(settings: bpy.types.PropertyGroup, panels: list[bpy.types.Object]) -> str:

@@ -6,6 +6,8 @@ from ..model.solution import LastSolve
 _solves: dict[str, LastSolve] = {}  # by the name of the object
 _undone: dict[str, float] = {}      # by the name of the object: the run time in the report of the solve taken back
 
+_changed: set[str] = set()          # names of objects whose mesh is no longer as their last solve left it
+
 
 def remember_solve(last: LastSolve) -> None:
     """Records a solve that was applied as the last one of its object."""
@@ -15,6 +17,19 @@ def remember_solve(last: LastSolve) -> None:
 def find_last_solve(name: str) -> LastSolve | None:
     """Returns the last solve of the object with this name, None where there is none."""
     return _solves.get(name)
+
+
+def mark_changed(name: str, *, changed: bool) -> None:
+    """Records whether an object's mesh is no longer as its last solve left it."""
+    if changed:
+        _changed.add(name)
+    else:
+        _changed.discard(name)
+
+
+def is_changed(ob: bpy.types.Object) -> bool:
+    """Returns whether an object's mesh was no longer as its last solve left it when that was last drawn."""
+    return ob.name in _changed or is_undone(ob)
 
 
 def mark_undone(ob: bpy.types.Object, *, undone: bool) -> None:
@@ -34,6 +49,7 @@ def is_undone(ob: bpy.types.Object) -> bool:
 def clear_history(*_: object) -> None:
     _solves.clear()
     _undone.clear()
+    _changed.clear()
 
 
 def register() -> None:

@@ -5,7 +5,7 @@ from bpy.props import PointerProperty, StringProperty
 from .. import native
 from ..bridge import view_camera
 from ..interactive import live_warp_handlers
-from ..overlay import draw, shown_objects
+from ..overlay import shown_objects
 from ..state import solve_history
 
 
@@ -31,7 +31,7 @@ class ReflinesSession(bpy.types.PropertyGroup):
 
     def explain_stripes(self, context: bpy.types.Context) -> str:
         """Returns why the stripes are not drawn in this view as they are set, as a sentence; empty where they are."""
-        return shown_objects.explain_stripes(context) or draw.explain_solve(context)
+        return shown_objects.explain_stripes(context)
 
 
 def register() -> None:

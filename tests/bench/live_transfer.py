@@ -63,7 +63,7 @@ def request(patch: object, strength: float) -> object:
     length = addon("solver.solve").choose_length(patch, 0.0)
     build = partial(smooth.build_smooth_target, settings=smooth.Smooth(length, strength))
     settings = addon("model.solution").SolveSettings('clamped', length)
-    return addon("interactive.solve_job").SolveRequest((build,), settings)
+    return addon("interactive.solve_job").SolveRequest((build,), (settings,))
 
 
 def solves(cells: int) -> Times:

@@ -28,7 +28,7 @@ MAY_IMPORT = {
                        "bridge", "state"},
     "overlay.limit_surface": {"native", "model"},
     "overlay.stripe_scene": {"overlay.stripes", "bridge"},
-    "overlay.shown_objects": {"overlay.stripes", "bridge", "model", "state"},
+    "overlay.shown_objects": {"overlay.stripes", "overlay.stripe_scene", "bridge", "model", "state"},
     "overlay.draw_cage": {"overlay.stripes", "overlay.stripe_scene", "bridge", "model"},
     "overlay.surface_lines": {"overlay.draw_cage"},
     "overlay.draw_borders": {"overlay.surface_lines", "bridge", "model"},

@@ -5,6 +5,7 @@ from collections.abc import Generator
 import bmesh
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 import scenes
 import window
@@ -89,6 +90,28 @@ def test_other_tools_press_beside_blender_too(driver: window.Window) -> Steps:
     assert np.array_equal(*results)
 
 
+def test_panels_of_different_size_keep_their_own_lengths(driver: window.Window) -> Steps:
+    """The automatic length is a share of a panel's size: with that of the last panel the first moved as that one."""
+    results = []
+    for long in (True, False):
+        ob = panel(driver, 60)
+        with driver.override():
+            scenes.object_mode()
+            other = scenes.panel("Other", cells=24)
+            other.data.transform(Matrix.Scale(0.3, 4))
+            scenes.activate(ob)
+            scenes.edit_inner(ob, 60)
+            scenes.select_faces(other, scenes.inner(24))
+            how = 'INVOKE_DEFAULT' if long else 'EXEC_DEFAULT'
+            ended = bpy.ops.reflines.smooth(how, True, directional=True)
+        assert ended == {'RUNNING_MODAL' if long else 'FINISHED'}
+        yield from wait()
+        results.append([scenes.positions(each) for each in (ob, other)])
+    for beside, blocking in zip(*results, strict=True):
+        assert np.array_equal(beside, blocking)
+
+
 if __name__ == "__main__":
     window.run(test_a_long_press_lets_blender_go_on_and_gives_the_result_of_the_operator,
-               test_escape_takes_a_long_press_back, test_other_tools_press_beside_blender_too)
+               test_escape_takes_a_long_press_back, test_other_tools_press_beside_blender_too,
+               test_panels_of_different_size_keep_their_own_lengths)

@@ -156,7 +156,7 @@ class ShapeOptimizer {
   double feature_length_ = 0.0;  // see RegionField::feature
   std::shared_ptr<Progress> progress_;
   std::vector<int> free_unknowns_;
-  bool sampled_ = false;  // some triangles have the quadrature weight 0
+  bool sampled_ = false;                                      // some triangles have the quadrature weight 0
   std::map<int, RegionField> region_fields_, vertex_fields_;  // of the families asked for, at the current heights
 };
 
