@@ -102,3 +102,19 @@ def test_smoothing_and_own_targets_ask_for_the_nearest_field() -> None:
     solver = reflines.ShapeOptimizer(V, F, view_direction=(0, 0, 1), line_direction=(1, 0, 0.3))
     assert not reflines.smooth(solver, length=0.3).reachable_only
     assert not reflines.Target(solver.field()).reachable_only
+
+
+@pytest.mark.parametrize("diagonals", DIAGONALS)
+@pytest.mark.parametrize("wish", WISHES)
+def test_the_energy_of_a_wish_never_rises(wish: str, diagonals: str) -> None:
+    """Solved for again and again: where nothing is left to reach, the surface stays bit for bit."""
+    V, F = mesh(diagonals, 20)
+    solver = reflines.ShapeOptimizer(V, F, view_direction=(0, 0, 1), line_direction=(1, 0, 0.3))
+    target = WISHES[wish](solver)
+    for _ in range(5):
+        before = solver.positions
+        report = solver.solve(target)
+        assert report.energy_after <= report.energy_before
+        if report.termination == "already_optimal":
+            assert np.array_equal(solver.positions, before) and report.energy_after == report.energy_before
+            assert report.message.startswith("Nothing to do")

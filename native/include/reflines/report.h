@@ -10,7 +10,7 @@ namespace reflines {
 
 enum class Termination {
   kConverged,       // the gradient is down by the tolerance, or is as small as rounding lets it be
-  kAlreadyOptimal,  // the gradient was that small at the start; x was not touched
+  kAlreadyOptimal,  // the gradient was that small at the start, or nothing reachable is nearer; x was not touched
   kNoProgress,      // no step along the last direction lowers the energy
   kIterationLimit,  // max_iterations steps were taken
   kCancelled,       // Progress::cancel was called; x was not touched

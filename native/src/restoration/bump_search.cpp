@@ -27,6 +27,9 @@ constexpr double kInliers = 0.5, kCoreInliers = 0.7;  // of the area: else the d
 
 using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
+// The farthest cell from the origin: what lies beyond, as a broken mesh's vertices may, shares it.
+constexpr double kFarthestCell = 1e9;
+
 // The samples in square cells, for disks of one size.
 class DiskIndex {
  public:
@@ -57,9 +60,11 @@ class DiskIndex {
   }
 
  private:
-  std::pair<int, int> key(const Vector2& p) const {
-    return {static_cast<int>(std::floor(p.x() / cell_)), static_cast<int>(std::floor(p.y() / cell_))};
+  int find_cell(double place) const {
+    const double cell = std::floor(place / cell_);
+    return static_cast<int>(cell > -kFarthestCell ? std::min(cell, kFarthestCell) : -kFarthestCell);  // also of NaN
   }
+  std::pair<int, int> key(const Vector2& p) const { return {find_cell(p.x()), find_cell(p.y())}; }
   const HessianSamples& samples_;
   double cell_;
   std::map<std::pair<int, int>, std::vector<int>> cells_;

@@ -40,6 +40,16 @@ Mask find_counting_triangles(PieceProblem& piece, const Target& target) {
   return counts;
 }
 
+// Takes a solve back. Where the wanted energy is least already, as after a solve for the same target, the rounds end
+// beside the start by what they let pass, and above it.
+void return_to_start(PieceProblem& piece, const Vector& start, Report& report) {
+  piece.set_heights(start);
+  report.energy_after = report.energy_before;
+  report.gradient_after = report.gradient_before;
+  report.termination = Termination::kAlreadyOptimal;
+  report.message = "Nothing to do: no heights come nearer to the part of the target that heights can reach.";
+}
+
 bool is_reduced(const Target& target) { return target.reachable_only && target.theta.size() == 0; }
 
 }  // namespace
@@ -126,6 +136,7 @@ bool ReachableTarget::remove_unreachable(std::vector<Target>& targets) {
 
 Report minimize_reachable(PieceProblem& piece, const std::vector<Target>& wanted, std::vector<Target>& reachable,
                           const MinimizerOptions& options, Progress* progress) {
+  const Vector start = piece.unknowns();
   piece.set_targets(wanted);
   Report report = piece.minimize(options, progress);
   // The moves of a cage are smooth from triangle to triangle and imprint nothing.
@@ -147,6 +158,7 @@ Report minimize_reachable(PieceProblem& piece, const std::vector<Target>& wanted
   if (!changed) return report;
   piece.set_targets(wanted);
   report.energy_after = piece.energy();
+  if (!(report.energy_after <= report.energy_before)) return_to_start(piece, start, report);
   return report;
 }
 
