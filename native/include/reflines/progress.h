@@ -34,4 +34,9 @@ class Progress {
   std::atomic<bool> cancelled_{false};
 };
 
+// Throws Cancelled where there is a progress and it was cancelled: every stage calls this at least every 0.3 s.
+inline void throw_if_cancelled(const Progress* progress) {
+  if (progress != nullptr && progress->cancelled()) throw Cancelled();
+}
+
 }  // namespace reflines

@@ -30,10 +30,6 @@ constexpr double kRoundOff = 1e-15;  // weights are of order 1: smaller ones are
 
 constexpr int kRowsAtOnce = 4096;  // chunk of work between two checks for cancellation: some milliseconds
 
-void look_at(const Progress* progress) {
-  if (progress != nullptr && progress->cancelled()) throw Cancelled();
-}
-
 void check_options(const Cage& cage, const SubdivisionOptions& options) {
   if (options.level < 1 || options.level > kMaxSubdivisionLevel) {
     throw InvalidInput("The subdivision level is " + std::to_string(options.level) + ": choose one from 1 to " +
@@ -209,7 +205,7 @@ SparseMatrix Masks::times(const RefinedRows& rows, const Progress* progress) con
   weights.reserve(refined.nonZeros());
   columns.reserve(refined.nonZeros());
   for (int row = 0; row < refined.rows(); ++row) {
-    if (row % kRowsAtOnce == 0) look_at(progress);
+    if (row % kRowsAtOnce == 0) throw_if_cancelled(progress);
     for (int t = begin_[row]; t < end_[row]; ++t) {
       for (Eigen::Map<const RowMatrix>::InnerIterator it(refined, terms_[t].first); it; ++it) {
         const int column = static_cast<int>(it.col());
@@ -274,10 +270,10 @@ Subdivision subdivide(const Cage& cage, const SubdivisionOptions& options, const
   check_options(cage, options);
   if (options.scheme == SubdivisionScheme::kCatmullClark) check_mask_room(cage);
   const Refiner refiner = refine(cage, options);
-  look_at(progress);
+  throw_if_cancelled(progress);
   Subdivision result;
   set_positions(*refiner, RefinedRows(*refiner), options.limit, progress, &result);
-  look_at(progress);
+  throw_if_cancelled(progress);
   set_faces(*refiner, &result);
   return result;
 }

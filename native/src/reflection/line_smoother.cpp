@@ -80,7 +80,8 @@ Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& 
 }  // namespace
 
 LineSmoother::LineSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
-                           const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize)
+                           const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize,
+                           const Progress* progress)
     : field_(field),
       longest_(options.longest),
       features_(std::move(features)),
@@ -90,11 +91,16 @@ LineSmoother::LineSmoother(const HeightField& field, const Stencils& stencils, c
                        std::to_string(options.length) + ".");
   }
   const Stencils means = replace_gradient_by_mean(stencils);
+  throw_if_cancelled(progress);
   const StencilEntries entries(means, field.vertex_count());
+  throw_if_cancelled(progress);
   std::vector<int> column(field.vertex_count());
   std::iota(column.begin(), column.end(), 0);
   HessianAssembly assembly(means, entries, column, field.vertex_count());
-  solve_ = factorize(assembly.assemble(elements(field, options, along, weight_), corner_weights(field, weight_)));
+  throw_if_cancelled(progress);
+  const Energy::ElementHessians hessians = elements(field, options, along, weight_);
+  throw_if_cancelled(progress);
+  solve_ = factorize(assembly.assemble(hessians, corner_weights(field, weight_)));
 }
 
 PlaneVectors LineSmoother::smooth(const PlaneVectors& gradient) const {

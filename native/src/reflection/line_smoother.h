@@ -8,6 +8,7 @@
 #pragma once
 
 #include "geometry/stencil.h"
+#include "reflines/progress.h"
 #include "reflines/smooth_target.h"
 #include "reflines/spd_factorize.h"
 #include "reflines/types.h"
@@ -18,9 +19,10 @@ class LineSmoother {
  public:
   // Assembles and factors the system. `along` (#T x 2) are gradients whose level lines are the direction; read only for
   // directional smoothing. `trust` (#T, 0 to 1) weights each triangle's gradient; `features` (#T, see strong_features)
-  // keep their gradients and hardly count around them.
+  // keep their gradients and hardly count around them. Throws Cancelled; `progress` may be null.
   LineSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
-               const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize);
+               const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize,
+               const Progress* progress = nullptr);
 
   // Returns the smoothed field (#T x 2) of `gradient` (#T x 2).
   PlaneVectors smooth(const PlaneVectors& gradient) const;

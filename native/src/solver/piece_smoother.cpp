@@ -56,8 +56,9 @@ PieceSmoother::Cache& PieceSmoother::update(Cache& cache, const SmoothOptions& o
   enter(0.1, "assembling the smoothing");
   SmoothOptions limited = options;
   limited.longest = longest_gradient(family);
-  auto smoother = std::make_unique<LineSmoother>(field_, stencils_, limited, along, trust_[family], held,
-                                                 [this](const SparseMatrix& matrix) { return factorize(matrix); });
+  auto smoother = std::make_unique<LineSmoother>(
+      field_, stencils_, limited, along, trust_[family], held,
+      [this](const SparseMatrix& matrix) { return factorize(matrix); }, progress_);
   cache = {std::move(smoother), options.length, along, {}, {}};
   return cache;
 }

@@ -30,7 +30,7 @@ class Dissection {
   std::vector<int> run(const Progress* progress) {
     std::vector<Part> parts = {{0, static_cast<int>(order_.size())}};
     while (!parts.empty()) {
-      if (progress != nullptr && progress->cancelled()) throw Cancelled();
+      throw_if_cancelled(progress);
       const Part part = parts.back();
       parts.pop_back();
       if (part.end - part.begin > kSmallestPart) cut(part, parts);
