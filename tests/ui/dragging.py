@@ -64,6 +64,11 @@ def press(driver: window.Window, operator: str = "smooth") -> Steps:
     yield from settled(driver)
 
 
+def is_running() -> bool:
+    """Whether a tool is dragged, or a press is at work."""
+    return sys.modules["reflection_lines"].interactive.drag.is_running()
+
+
 def at_rest() -> bool:
     """Whether no drag and no live warp is solving, or has something to show."""
     interactive = sys.modules["reflection_lines"].interactive

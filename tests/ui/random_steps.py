@@ -5,6 +5,7 @@ from collections.abc import Callable, Generator
 from pathlib import Path
 
 import bpy
+import dragging
 import installation
 import numpy as np
 import packages
@@ -46,6 +47,10 @@ class Walker:
         ob = self.active()
         return scenes.positions(ob).copy() if ob is not None and ob.type == 'MESH' else np.zeros((0, 3))
 
+    def check_taken_back(self, tool: str, before: np.ndarray, *, alone: bool) -> None:
+        """A tool that was left has changed no bit; another below it goes on, and may."""
+        assert not alone or np.array_equal(self.positions(), before), f"{tool} was left, and has changed the mesh"
+
     def tools(self) -> list[str]:
         return [f"reflines.{name}" for name in sorted(dir(bpy.ops.reflines))]
 
@@ -54,15 +59,15 @@ class Walker:
             self.call("object.mode_set", mode=mode)
 
 
-def new_panel(walker: Walker) -> Steps:
+def new_panel(walker: Walker, cells: int = CELLS) -> Steps:
     """Away with all, and a panel ready for work."""
     walker.to_mode('OBJECT')
     for old in list(bpy.data.objects):
         bpy.data.objects.remove(old)
     with walker.override():
-        ob = scenes.panel(cells=CELLS)
+        ob = scenes.panel(cells=cells)
         scenes.look_from_above()
-        scenes.edit_inner(ob, CELLS)
+        scenes.edit_inner(ob, cells)
         bpy.context.scene.reflection_lines.stripes.show = True
         bpy.ops.ed.undo_push(message="Panel")
     yield 0.1
@@ -85,7 +90,7 @@ def run_tool(walker: Walker) -> Steps:
 
 def drag_tool(walker: Walker) -> Steps:
     """Pressed, dragged and typed at random, then kept or left, which changes no bit."""
-    dice, before = walker.dice, walker.positions()
+    dice, before, alone = walker.dice, walker.positions(), not dragging.is_running()
     walker.driver.move(dice.randrange(200, 600), 300)
     yield 0.05
     tool = dice.choice(walker.tools())
@@ -103,7 +108,67 @@ def drag_tool(walker: Walker) -> Steps:
     walker.driver.key('ESC')
     yield 0.2
     if "RUNNING" in answer and way_out in {'ESC', 'RIGHTMOUSE'}:
-        assert np.array_equal(walker.positions(), before), f"{tool} was left, and has changed the mesh"
+        walker.check_taken_back(tool, before, alone=alone)
+
+
+def pull_lines(walker: Walker) -> Steps:
+    """A session of Pull Line, on pinned faces or none: lines are pulled, pinned, sized, muted, deleted and taken back;
+    then it is applied, left, which changes no bit, or goes on below the next steps."""
+    dice = walker.dice
+    if dice.random() < 0.4:
+        print("   ", walker.call("reflines.pin_lines", 'EXEC_DEFAULT', True, unpin=dice.random() < 0.3), flush=True)
+    before, alone = walker.positions(), not dragging.is_running()
+    walker.driver.move(dice.randrange(200, 600), 300)
+    yield 0.05
+    answer = walker.call("reflines.pull_line", 'INVOKE_DEFAULT', True)
+    print("    reflines.pull_line", answer, flush=True)
+    if "RUNNING" not in answer:
+        return
+    yield dice.choice((0.0, 0.3))
+    for _ in range(dice.randrange(1, 5)):
+        yield from pull_a_line(walker)
+    way_out = dice.choice(('RET', 'ESC', None))
+    if way_out is not None:
+        walker.driver.key(way_out)
+        yield 1.0
+    if way_out == 'ESC':
+        walker.check_taken_back("reflines.pull_line", before, alone=alone)
+
+
+def pull_a_line(walker: Walker) -> Steps:
+    dice, driver = walker.dice, walker.driver
+    x, y = dice.randrange(250, 450), dice.randrange(220, 380)
+    driver.move(x, y)
+    yield 0.1
+    driver.event('LEFTMOUSE', 'PRESS', alt=dice.random() < 0.2)
+    for _ in range(dice.randrange(3)):
+        driver.move(x + dice.randrange(-30, 30), y + dice.randrange(-30, 30))
+        yield dice.choice((0.0, 0.1))
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield dice.choice((0.0, 0.2))
+    if dice.random() < 0.7:
+        driver.key(dice.choice(('WHEELUPMOUSE', 'WHEELDOWNMOUSE', 'F', 'M', 'P', 'X')))
+    elif dice.random() < 0.7:
+        driver.key('Z', ctrl=True, shift=dice.random() < 0.3)
+    yield 0.1
+
+
+def press_on_many_faces(walker: Walker) -> Steps:
+    """A press that runs beside Blender: awaited, left, or at work while the scene changes and the next steps are
+    taken."""
+    yield from new_panel(walker, cells=60)
+    tool = walker.dice.choice(("reflines.smooth", "reflines.direction", "reflines.untwist", "reflines.pattern"))
+    print("   ", tool, walker.call(tool, 'INVOKE_DEFAULT', True), flush=True)
+    yield walker.dice.choice((0.0, 0.3))
+    then = walker.dice.choice(("waits", "leaves", "goes on", "is surprised"))
+    print("    the user", then, flush=True)
+    if then == "waits":
+        yield 5.0
+    elif then == "leaves":
+        walker.driver.key('ESC')
+        yield 1.0
+    elif then == "is surprised":
+        yield from surprise(walker)
 
 
 def surprised_drag(walker: Walker) -> Steps:
@@ -116,14 +181,19 @@ def surprised_drag(walker: Walker) -> Steps:
     if tool == "reflines.pull_line":
         walker.driver.event('LEFTMOUSE', 'PRESS')
     walker.driver.move(walker.dice.randrange(100, 700), 300)
-    surprise = walker.dice.choice((delete_something, change_mode, change_mesh, undo, load, reload_addon, add_modifier))
-    print("    surprise:", surprise.__name__, flush=True)
     yield from surprise(walker)
     walker.driver.move(walker.dice.randrange(100, 700), 300)
     yield 0.2
     for key in ('RET', 'ESC'):
         walker.driver.key(key)
         yield 0.3
+
+
+def surprise(walker: Walker) -> Steps:
+    step = walker.dice.choice((delete_something, change_mode, change_mesh, undo, load, reload_addon, reinstall,
+                               add_modifier))
+    print("    surprise:", step.__name__, flush=True)
+    yield from step(walker)
 
 
 def grab(walker: Walker) -> Steps:
@@ -166,7 +236,7 @@ def change_mode(walker: Walker) -> Steps:
 def change_settings(walker: Walker) -> Steps:
     """A setting of the scene, of any of the add-on's sets, to any value it can have."""
     dice, scene = walker.dice, bpy.context.scene.reflection_lines
-    holder = dice.choice((scene, scene.stripes, scene.direction, scene.untwist, scene.warp, scene.pattern))
+    holder = dice.choice((scene, scene.stripes, scene.direction, scene.untwist, scene.warp, scene.pattern, scene.pull))
     name, found = dice.choice([each for each in holder.bl_rna.properties.items() if not each[1].is_readonly])
     if found.type == 'BOOLEAN':
         setattr(holder, name, dice.random() < 0.5)
