@@ -152,11 +152,29 @@ def test_a_fillet_that_the_selection_cuts_off_bends_nothing(length: float):
     assert solver.score(length) < 0.65 * before
 
 
-def test_turning_the_object_with_view_and_light_turns_the_result():
-    """Creases too: a chain of bends is as long as it is, however it lies in the axes of space."""
+def folded_panel() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A rippled panel with random diagonals and a sharp fold that ends inside it, and the view."""
+    V, F = panel(40)
+    V = rippled(V, amplitude=5e-4, wavelength=0.2)
+    beyond = np.clip(V[:, 0] + 0.4 * V[:, 1] - 0.2, 0.0, None)
+    V[:, 2] -= 0.6 * beyond * np.clip(0.3 - V[:, 1], 0.0, 0.3) / 0.3
+    quads = np.stack([*F[:len(F) // 2].T, F[len(F) // 2:, 2]], 1)
+    other = np.random.default_rng(1).random(len(quads)) < 0.5
+    quads = np.where(other[:, None], np.roll(quads, 1, axis=1), quads)
+    return V, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]), VIEW
+
+
+def bonnet() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     V, F = triangles("drivaer_hood.obj")
     corners = V[F]
     view = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
+    return V, F, view
+
+
+@pytest.mark.parametrize("make", [folded_panel, bonnet])
+def test_turning_the_object_with_view_and_light_turns_the_result(make):
+    """Creases too: a chain of bends is as long as it is, however it lies in the axes of space."""
+    V, F, view = make()
     line, results = np.array([0.0, 1.0, 0.1]), []
     for seed in range(4):
         Q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0] if seed else np.eye(3)
@@ -164,6 +182,7 @@ def test_turning_the_object_with_view_and_light_turns_the_result():
         solver = reflines.ShapeOptimizer(V @ Q.T, F, view_direction=Q @ view, line_direction=Q @ line)
         solver.solve(reflines.smooth(solver, length=0.2))
         results.append(((solver.positions - V @ Q.T) @ Q, solver.region.creases))
+    assert results[0][1] > 0 and np.abs(results[0][0]).max() > 1e-4
     assert all(creases == results[0][1] for _, creases in results)
     assert max(np.abs(move - results[0][0]).max() for move, _ in results) < 1e-8
 
@@ -181,3 +200,16 @@ def test_the_systems_of_both_lights_are_kept(directional):
             reflines.smooth(solver, length=LENGTH, strength=strength, directional=directional, family=family)
         stages.append(progress.stage)
     assert stages == ["smoothing", ""]
+
+
+@pytest.mark.parametrize(("share", "kept"), [(0.5, 1 / 17), (1.0, 1 / 2), (2.0, 16 / 17)])
+def test_a_wave_keeps_what_its_length_and_that_of_the_filter_leave_it(share, kept):
+    """1 / (1 + (length / wavelength)^4): half at the length itself."""
+    length = 0.16
+    clean, F = panel(150, jitter=0.0)
+    wave = 1e-5 * np.sin(2 * np.pi * clean[:, 0] / (share * length))
+    solvers = [optimizer(V, F) for V in (clean, clean + wave[:, None] * VIEW)]
+    before = solvers[1].field() - solvers[0].field()
+    smooth, wavy = (reflines.smooth(solver, length=length).gradient for solver in solvers)
+    middle = (abs(solvers[0].centers - solvers[0].centers.mean(0)) < 0.3).all(1)
+    assert rms((wavy - smooth)[middle]) / rms(before[middle]) == pytest.approx(kept, rel=0.1)

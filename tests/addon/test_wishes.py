@@ -1,0 +1,74 @@
+"""What tools ask for is what their settings say: density along or across the lines, lines a unit, and fall-offs."""
+import bpy
+import numpy as np
+import pytest
+from reflection_lines.native import reflines
+from reflection_lines.targets import direction, falloff
+
+import scenes
+from test_tools import lines_of, near
+
+TURN = 2.0 * np.pi
+
+
+@pytest.fixture
+def surface() -> "reflines.ShapeOptimizer":
+    """A quarter of a bowl, whose lines run slanted."""
+    x, y = (axis.ravel() for axis in np.meshgrid(np.linspace(0.0, 1.0, 13), np.linspace(0.0, 1.0, 13)))
+    first = (np.arange(12)[:, None] * 13 + np.arange(12)).ravel()
+    F = np.concatenate([np.stack([first, first + 1, first + 14], 1), np.stack([first, first + 14, first + 13], 1)])
+    V = np.stack([x, y, -0.2 * (x - 0.3 * y) ** 2 - 0.05 * y**2], 1)
+    return reflines.ShapeOptimizer(V, F, view_direction=(0.0, 0.0, 1.0), line_direction=(0.2, 1.0, 0.1))
+
+
+@pytest.mark.parametrize(("axis", "varies"), [('ALONG', (0.0, 1.0)), ('ACROSS', (1.0, 0.0))])
+def test_the_density_varies_along_or_across_the_lines(surface, axis: str, varies: tuple[float, float]) -> None:
+    """From 1 at the first triangle to 2 at the last, and not at all along the other direction. The lines run along y;
+    in the picture that is (0, 1) up to the light's slant."""
+    wish = direction.Direction(np.array([0.0, 1.0, 0.0]), density=1.0, density_end=2.0, axis=axis, count=1)
+    wanted = direction.build_direction_target(surface, wish).gradient
+    density = np.linalg.norm(wanted, axis=1) / TURN
+    world = surface.centers @ surface.frame[:2, :2]
+    share = world @ varies
+    share = (share - share.min()) / np.ptp(share)
+    rises = density[share.argmax()] > density[share.argmin()]
+    assert np.abs(density - (1.0 + (share if rises else 1.0 - share))).max() < 1e-6
+    if axis == 'ALONG':
+        assert rises
+    else:  # towards larger theta
+        steepest = wanted.mean(axis=0) @ (surface.centers[density.argmax()] - surface.centers[density.argmin()])
+        assert steepest > 0.0
+
+
+def test_lines_per_unit_are_counted_as_the_stripes_are_drawn(panel) -> None:
+    """On a panel without a border to keep, whose lines can come to any density."""
+    count = bpy.context.scene.reflection_lines.stripes.count
+    scenes.smooth(length=2.0)
+    optimizer = lines_of(panel)
+    before = np.linalg.norm(optimizer.field()[near(optimizer, 0.5)].mean(axis=0)) * count / TURN
+    wanted = 1.1 * before
+    bpy.ops.reflines.direction(unit='LINES', density=wanted, border='free', centre='EVERYWHERE', lights='SINGLE')
+    optimizer = lines_of(panel)
+    counted = np.linalg.norm(optimizer.field()[near(optimizer, 0.5)].mean(axis=0)) * count / TURN
+    assert counted == pytest.approx(wanted, rel=0.02)
+
+
+SHAPES = {"SMOOTH": (1.0, 27 / 32, 1 / 2, 5 / 32, 0.0), "LINEAR": (1.0, 3 / 4, 1 / 2, 1 / 4, 0.0),
+          "SPHERE": (1.0, np.sqrt(15) / 4, np.sqrt(3) / 2, np.sqrt(7) / 4, 0.0),
+          "SHARP": (1.0, 9 / 16, 1 / 4, 1 / 16, 0.0)}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_fall_off_has_its_shape(shape: str) -> None:
+    """At the centre, a quarter, half and three quarters of the radius, and at the radius."""
+    curve = falloff.tabulate_preset(shape)
+    assert curve[::len(curve) // 4] == pytest.approx(SHAPES[shape])
+
+
+def test_the_influence_is_the_curves_at_the_distance_from_the_centre(surface) -> None:
+    place = falloff.Falloff(np.array([0.5, 0.5, 9.0]), 0.4, falloff.tabulate_preset('SMOOTH'))
+    influence = falloff.compute_influence(surface, place, 0.8)
+    away = np.linalg.norm(surface.centers - surface.frame[:2] @ place.centre, axis=1) / place.radius
+    t = np.clip(1.0 - away, 0.0, 1.0)
+    assert np.abs(influence - 0.8 * t * t * (3.0 - 2.0 * t)).max() < 1e-4
+    assert influence.max() > 0.7 and influence.min() == 0.0
