@@ -55,9 +55,9 @@ class LineDrag(Drag):
         self.marks_drawn = handle_marks.add_marks(self.area, lambda: self.marks)
 
     def read_shown(self, ob: bpy.types.Object, patch: Patch) -> np.ndarray:
-        """Reads the positions that the mesh has, which are not those of the start where handles were applied before."""
-        if ob.mode == 'EDIT':
-            ob.update_from_editmode()
+        """Reads the positions that the mesh has, which are not those of the start where handles were applied before.
+        Gathering the patch has brought the mesh up to date with Edit Mode, which takes long.
+        """
         return read_mesh.read_patch_positions(ob, patch)
 
     def begin_at(self, _context: bpy.types.Context, x: int, y: int) -> None:

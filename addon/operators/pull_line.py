@@ -113,9 +113,9 @@ where a line was pulled to; Enter applies them all"""
         """Returns the handles that are kept with the object. Where the mesh is as they left it, the session begins with
         the shape before them; else they are at rest and hold the lines where they are.
         """
-        if ob.mode == 'EDIT':
-            ob.update_from_editmode()
         stored = ob.reflection_lines
+        if stored.handles.text and ob.mode == 'EDIT':
+            ob.update_from_editmode()
         handles = stored.handles.read(ob.data)
         self.anew = (bool(handles) and stored.run.operator == self.bl_idname
                      and self.find_original_shape(ob) is not None)

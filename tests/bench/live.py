@@ -43,6 +43,9 @@ def transfer_rows(times: Times) -> list[Row]:
     return [Row("gather_ms_100k", middle(times["gather_100k"]), "ms", f"in Edit Mode, {copy}; median of 9"),
             Row("apply_ms_100k", middle(times["apply_100k"]), "ms", "all vertices moved, with normals; median of 9"),
             Row("gather_apply_over_solve_100k", share(times), "", f"of {solve:.0f} ms from the bare mesh on"),
+            Row("brush_dab_ms_100k", middle(times["dab_100k"]), "ms",
+                f"Fair Brush over 500 vertices, median of {len(times['dab_100k'])}; the slowest "
+                f"{max(times['dab_100k']):.0f} ms"),
             *(Row(f"drag_solve_p95_ms_{size}", p95(times[f"step_{size}"]), "ms",
                   f"in the thread: target, solve, positions; median {middle(times[f'step_{size}']):.0f} ms of "
                   f"{len(times[f'step_{size}'])} steps") for size in ("10k", "100k"))]

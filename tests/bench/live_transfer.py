@@ -22,6 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SIZES = {"10k": 99, "100k": 315}  # cells a side
 REPETITIONS = 9
 STEPS = 24
+DAB_RADIUS = 0.08  # of a panel of 2 x 2: 500 of 100,000 vertices
 
 Times = dict[str, list[float]]
 
@@ -81,10 +82,20 @@ def solves(cells: int) -> Times:
     return {"solve": [solve], "ready": [ready], "step": steps}
 
 
+def dabs(cells: int) -> Times:
+    """Dabs of Fair Brush along a stroke: place, window, solve; without writing the mesh."""
+    patch = addon("bridge.read_patch").gather_mesh_patch(fresh_panel(cells))
+    brush, view = addon("solver.brush"), addon("bridge.facing").read_patch_view(bpy.context.scene, patch)
+    brushed = brush.BrushedPatch(patch, view, "clamped")
+    settings = brush.Brush(DAB_RADIUS, strength=0.5, length=0.3, limit=1.0, families=2)
+    return {"dab": [milliseconds(partial(brushed.dab, np.array([x, 0.1, 0.0]), settings))
+                    for x in np.linspace(-0.4, 0.4, STEPS)]}
+
+
 def main() -> None:
     installation.install()
     times = {f"{name}_{size}": values for size, cells in SIZES.items()
-             for name, values in (transfer(cells) | solves(cells)).items()}
+             for name, values in (transfer(cells) | solves(cells) | dabs(cells)).items()}
     out = ROOT / "build" / "bench" / "live_transfer.json"
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps(times, indent=1) + "\n")

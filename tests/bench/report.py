@@ -48,7 +48,7 @@ REACH = {
     "restoration_noise_given": (0.4, True), "restoration_noise_crossed": (0.5, True), "restoration_move": (0.05, True),
     "restoration_cage_move": (3.0, True), "two_lights_over_one": (1.6, True),
     "handle_step_ms_10k": (16.0, True), "handle_step_ms_100k": (60.0, True),
-    "handle_first_ms_10k": (100.0, True), "handle_first_ms_100k": (500.0, True),
+    "brush_dab_ms_100k": (33.0, True), "handle_first_ms_10k": (100.0, True), "handle_first_ms_100k": (500.0, True),
     "tools_crossed": (1.0, True), "tools_move": (5.0, True), "tools_turned": (0.0, True),
 }
 
