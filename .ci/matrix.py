@@ -38,15 +38,15 @@ class Installation:
     folder: str
 
 
-def packages(suite: str) -> list[str]:
-    """The packages of the list's sections for running Blender and tests in it."""
+def packages(suite: str, sections: tuple[str, ...]) -> list[str]:
+    """The packages of sections of the list; with Blender, also what it needs in a suite."""
     wanted, found = False, []
     for line in (ROOT / ".ci/packages").read_text().splitlines():
         if line.startswith("["):
-            wanted = line in ("[blender]", "[window]")
+            wanted = line.strip("[]") in sections
         elif wanted and line:
             found.append(line.split()[0])
-    return found + ALSO.get(suite, [])
+    return found + (ALSO.get(suite, []) if "blender" in sections else [])
 
 
 def inside(root: Path, *command: str, env: dict[str, str] | None = None) -> list[str]:
@@ -58,11 +58,12 @@ def inside(root: Path, *command: str, env: dict[str, str] | None = None) -> list
             "sh", "-c", mounted, str(root), "env", "-i", *given, *command]
 
 
-def ready_root(suite: str) -> Path:
-    """The root of a suite; made where the cache has none for this list of packages."""
-    root = CACHE / "matrix" / suite
+def ready_root(suite: str, purpose: str = "matrix", sections: tuple[str, ...] = ("blender", "window")) -> Path:
+    """The root of a suite for a purpose; made where the cache has none for this list of packages."""
+    root = CACHE / purpose / suite
     stamp = root.with_suffix(".packages")
-    recipe = hashlib.sha256(" ".join(packages(suite)).encode()).hexdigest()
+    wanted = packages(suite, sections)
+    recipe = hashlib.sha256(" ".join(wanted).encode()).hexdigest()
     if not (root / "etc/debian_version").exists():
         print(f"{suite}: debootstrap", flush=True)
         shutil.rmtree(root, ignore_errors=True)
@@ -73,9 +74,9 @@ def ready_root(suite: str) -> Path:
         fresh.rename(root)
     output(*inside(root, "true"))  # raises where this machine allows no name spaces
     if not stamp.exists() or stamp.read_text() != recipe:
-        print(f"{suite}: installing Blender", flush=True)
+        print(f"{suite}: installing {wanted[0]} and others", flush=True)
         output(*inside(root, *APT, "update"))
-        output(*inside(root, *APT, "install", "--no-install-recommends", *packages(suite)))
+        output(*inside(root, *APT, "install", "--no-install-recommends", *wanted))
         output(*inside(root, *APT, "clean"))
         stamp.write_text(recipe)
     return root

@@ -3,11 +3,13 @@
 The zip has one top-level folder, so that Blender 3.4 takes it as a legacy add-on and 4.2 and later as an extension,
 with the native module once for each Python side by side. The folder of the extension has the module as wheels instead,
 as Blender wants it from 4.2 on; `./run release` makes a repository of it. Headers of the Pythons come from the Debian
-suites that have them; no suite has those of 3.10, which Blender 3.4 to 4.0 from blender.org embed: they are taken from
-a python3.10 of this machine where there is one. One compiler and one C library, those of this machine, serve all.
-SuiteSparse, METIS, OpenBLAS, OpenSubdiv and libstdc++ are inside the module and show no symbol outside, so that they
-cannot meet Blender's own copies. libgomp stays outside: two OpenMP runtimes in one process fight over the cores, and
-Blender's own libraries bring it.
+suites that have them: 3.11 and 3.13 are those of Blender 4.1 to 5.0 and of 5.1 and later from blender.org, too
+(Blender's manual, "Python Wheels"). No suite has those of 3.10, which Blender 3.4 to 4.0 from there embed: they are
+taken from a python3.10 of this machine where there is one.
+
+One compiler and one C library, those of this machine, serve all. SuiteSparse, METIS, OpenBLAS, OpenSubdiv and libstdc++
+are inside the module and show no symbol outside, so that they cannot meet Blender's own copies. libgomp stays outside:
+two OpenMP runtimes in one process fight over the cores, and Blender's own libraries bring it.
 """
 import os
 import re

@@ -151,26 +151,22 @@ def ui_lane() -> Counts:
         return sum(pool.map(window_counts, range(len(files)), files), Counts())
 
 
+def rooted_lane(*script: str) -> Counts:
+    """Runs a script that works in other Debians, which takes root."""
+    cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    become_root = [] if os.geteuid() == 0 else ["sudo", f"XDG_CACHE_HOME={cache}"]
+    return run_reporting([*become_root, PYTHON, *script], os.environ, 4500)
+
+
 def packed_lane(*script: str) -> Counts:
-    """Packs the add-on and runs a script that tests the package in other Debians, which takes root."""
+    """Packs the add-on and runs a script that tests the package in other Debians."""
     packed = subprocess.run(["./run", "package"], cwd=ROOT).returncode
     if packed == NO_ARCHIVE:
         return Counts(skipped=1)
     if packed != 0:
         print("there is no package to test")
         return CRASHED
-    cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    become_root = [] if os.geteuid() == 0 else ["sudo", f"XDG_CACHE_HOME={cache}"]
-    return run_reporting([*become_root, PYTHON, *script], os.environ, 4500)
-
-
-def matrix_lane() -> Counts:
-    return packed_lane(".ci/matrix.py")
-
-
-def release_lane() -> Counts:
-    """Makes the repository of extensions and installs from it in two Blenders, which takes root."""
-    return packed_lane(".ci/release.py", "--test")
+    return rooted_lane(*script)
 
 
 @dataclass(frozen=True)
@@ -192,8 +188,9 @@ LANES = {
     "bindings": Lane(lambda: pytest_lane("bindings"), True, ("native/", "tests/bindings/", *SHARED)),
     "addon": Lane(addon_lane, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
     "ui": Lane(ui_lane, True, ("addon/", "tests/ui/", *SHARED)),
-    "matrix": Lane(matrix_lane, False, (), asked=True),
-    "release": Lane(release_lane, False, (), asked=True),
+    "matrix": Lane(lambda: packed_lane(".ci/matrix.py"), False, (), asked=True),
+    "release": Lane(lambda: packed_lane(".ci/release.py", "--test"), False, (), asked=True),
+    "windows": Lane(lambda: rooted_lane(".ci/windows.py"), False, (), asked=True),
     "asan": Lane(lambda: sanitizers_lane("asan"), False, (), asked=True),
     "tsan": Lane(lambda: sanitizers_lane("tsan"), False, (), asked=True),
     "fuzz": Lane(lambda: sanitizers_lane("fuzz"), False, (), asked=True),
@@ -252,7 +249,7 @@ def main() -> int:
     parser.add_argument("lanes", nargs="*", metavar="LANE", help=", ".join(LANES))
     parser.add_argument("--changed", action="store_true", help="only the lanes that changes touch")
     parser.add_argument("--all", action="store_true", help="with the lanes that otherwise run only by name: matrix, "
-                                                              "release, asan, tsan, fuzz")
+                                                              "release, windows, asan, tsan, fuzz")
     total = run_lanes(chosen_lanes(parser.parse_args()))
     print(total)
     return 0 if total.failed == 0 and total.passed + total.skipped > 0 else 1
