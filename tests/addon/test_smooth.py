@@ -116,7 +116,7 @@ def test_object_mode_tells_which_faces_it_takes(panel, capfd) -> None:
     scenes.select_faces(panel, lambda face: face < 40)
     scenes.object_mode()
     scenes.smooth()
-    assert f"({(CELLS - 2) ** 2} faces kept as the region; in Edit Mode the selected ones" in capfd.readouterr().out
+    assert f"(Panel, {(CELLS - 2) ** 2} faces kept as the region; in Edit Mode the selected" in capfd.readouterr().out
 
 
 def test_object_mode_undo(panel) -> None:

@@ -251,7 +251,7 @@ def test_lengths_are_told_in_the_scenes_unit(panel, capfd, scale, told) -> None:
     report = panel.reflection_lines.report
     moved = bpy.utils.units.to_string('METRIC', 'LENGTH', report.largest_move * scale, precision=2)
     assert report.measured_length() == f"2 {told}"
-    assert f"moved at most {moved}\n" in capfd.readouterr().out
+    assert f"moved at most {moved} (Panel)\n" in capfd.readouterr().out
 
 
 def test_lengths_without_a_unit(panel, capfd) -> None:
@@ -259,4 +259,4 @@ def test_lengths_without_a_unit(panel, capfd) -> None:
     scenes.smooth(length=0.5)
     report = panel.reflection_lines.report
     assert report.measured_length() == "0.5"
-    assert f"moved at most {report.largest_move:.2g}\n" in capfd.readouterr().out
+    assert f"moved at most {report.largest_move:.2g} (Panel)\n" in capfd.readouterr().out
