@@ -62,7 +62,8 @@ def binding_tests(env: dict[str, str]) -> Counts:
     runtime = subprocess.run(["clang", "-print-file-name=libclang_rt.asan-x86_64.so"], text=True,
                              stdout=subprocess.PIPE).stdout.strip()
     env = env | {"ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1", "LD_PRELOAD": runtime,
-                 "PYTHONPATH": str(ROOT / "build/asan/module"), "PYTHONMALLOC": "malloc", "REFLINES_SLOWER": str(SLOWER)}
+                 "PYTHONPATH": str(ROOT / "build/asan/module"), "PYTHONMALLOC": "malloc",
+                 "REFLINES_SLOWER": str(SLOWER)}
     report = ROOT / "build/tests/asan_bindings.xml"
     files = [f"tests/bindings/test_{name}.py" for name in BINDING_TESTS]
     return run_with_junit([PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}", *files],
