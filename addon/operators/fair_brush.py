@@ -73,7 +73,11 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
             self.stroke.restore(ob)
             return self.end(context, "")
         if event.type in {'MOUSEMOVE', 'INBETWEEN_MOUSEMOVE'}:
-            self.paint(context, event)
+            try:
+                self.paint(context, event)
+            except Refusal as refusal:
+                self.stroke.restore(ob)
+                return self.end(context, str(refusal))
         elif event.type == 'LEFTMOUSE' and event.value == 'RELEASE':
             return self.finish(context, ob)
         return {'RUNNING_MODAL'}

@@ -75,7 +75,7 @@ class BrushedPatch:
         number[vertices] = np.arange(len(vertices))
         try:
             return vertices, self.solve_window(vertices, number[corners], held, place, brush)
-        except native.InvalidInput:  # no vertex of the circle is free
+        except (native.InvalidInput, native.SolverFailure):  # no vertex of the circle is free, or lines are undefined
             return None
 
     def solve_window(self, vertices: np.ndarray, F: np.ndarray, held: np.ndarray, place: np.ndarray,

@@ -353,7 +353,8 @@ class HandleFollower:
     def __init__(self, start: ShapeOptimizer, lines: LineHandles) -> None: ...
     def follow(self, handles: Sequence[Handle], optimizer: ShapeOptimizer, *, keep_others: bool = True) -> bool:
         """Moves another optimizer of the region to where the lines meet the handles, by smooth motions. Returns False, and
-        changes nothing, where the solve is to be used: cages, few vertices, handles on several pieces."""
+        changes nothing, where the solve is to be used: cages, few vertices, very different radii, handles on several
+        pieces."""
 
 def handles(optimizer: ShapeOptimizer, handles: Sequence[Handle], *, family: int = 0) -> list[Target]:
     """Builds the targets of handles on the present lines: LineHandles(optimizer).build(handles)."""

@@ -113,6 +113,20 @@ def test_small_regions_and_cages_are_left_to_the_solve() -> None:
         assert other.heights.tobytes() == start.heights.tobytes()
 
 
+def test_very_different_radii_are_left_to_the_solve() -> None:
+    """Their window would have as many motions as the mesh has vertices."""
+    points, triangles = meshes.KINDS["regular"](200)
+    V = crown(points * (1.5, 1.2))
+    start, other = (reflines.ShapeOptimizer(V, triangles, view_direction=(0, 0, 1), line_direction=(0.3, 1, 0))
+                    for _ in range(2))
+    lines, place = reflines.LineHandles(start), middle(start)[None]
+    value = lines.read_theta(place)[0] + 1e-3
+    small, wide = (reflines.Handle(place, value=value, radius=radius, centre=place) for radius in (0.05, 5.0))
+    follower = reflines.HandleFollower(start, lines)
+    assert follower.follow([small], other) and follower.follow([wide], other)
+    assert not follower.follow([small, wide], other)
+
+
 def test_bad_handles_are_refused_in_a_sentence() -> None:
     session = Session()
     for handles, words in (([], "no handle that pulls"), ([session.pull(9.0)], "off the region"),

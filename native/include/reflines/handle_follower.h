@@ -24,7 +24,8 @@ class HandleFollower {
   // Moves `optimizer`, another one of the same region, to where the lines meet the handles; with `keep_others` the
   // lines of the other families are kept as far as these allow. The result depends on the handles alone, up to the
   // solver's tolerance. Returns false, and changes nothing, where the ordinary solve is to be used: for cages, for few
-  // vertices, and for handles on several pieces. Throws InvalidInput as LineHandles::build does.
+  // vertices, for very different radii, and for handles on several pieces. Throws InvalidInput as LineHandles::build
+  // does.
   bool follow(const std::vector<Handle>& handles, ShapeOptimizer& optimizer, bool keep_others = true);
 
  private:

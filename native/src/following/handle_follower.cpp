@@ -21,6 +21,7 @@ namespace {
 constexpr int kFewestVertices = 4000;  // of the region: below, the solve itself takes no longer
 constexpr double kKnots = 10.0;        // in a radius
 constexpr double kFewestEdges = 1.5;   // mean edges in a cell
+constexpr double kMostCells = 4000;    // of a window: handles of very different radii would need more
 constexpr double kMargin = 0.35;       // of the radius: motions come down again beyond it
 constexpr int kRounds = 10;
 constexpr double kMet = 1e-5;  // radians beside a handle
@@ -261,6 +262,8 @@ bool HandleFollower::prepare(const std::vector<Handle>& handles, const LineHandl
   }
   const double edge = std::sqrt(2 * own.field().area.sum() / own.field().triangle_count());
   const double step = std::max(smallest / kKnots, kFewestEdges * edge);
+  const double area = own.field().area.sum() / own.field().vertex_count() * static_cast<double>(moving.count());
+  if (area > kMostCells * step * step) return false;
   window_ = std::make_unique<Window>(own, lines_, handles, lines_.find_part(handles, places), moving, step);
   if (window_->window.count() > 0) return true;
   window_.reset();
