@@ -1,20 +1,23 @@
-"""Recomputes the paper's figures 5, 6, 7 and 11 as CSV files and plots: `./run figures [NUMBER...]`."""
+"""Recomputes the paper's figures 5, 6, 7 and 11, and the transfer function of Smooth, as CSV files and plots:
+`./run figures [NAME...]`.
+"""
 import argparse
 from pathlib import Path
 
-from figures import normals, smoothing, sphere, strategies
+from figures import normals, smoothing, sphere, strategies, transfer
 
-MAKERS = {5: sphere.make, 6: normals.make, 7: strategies.make, 11: smoothing.make}
+MAKERS = {"figure5": sphere.make, "figure6": normals.make, "figure7": strategies.make, "figure11": smoothing.make,
+          "transfer": transfer.make}
 OUT = Path(__file__).resolve().parents[2] / "build/figures"
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(prog="./run figures", description=__doc__)
-    parser.add_argument("numbers", nargs="*", type=int, default=list(MAKERS), metavar="NUMBER", help="5, 6, 7 or 11")
+    parser.add_argument("names", nargs="*", choices=[*MAKERS, []], default=[], metavar="NAME", help=", ".join(MAKERS))
     OUT.mkdir(parents=True, exist_ok=True)
-    for number in parser.parse_args().numbers:
-        MAKERS[number](OUT)
-        print(f"build/figures/figure{number}.png")
+    for name in parser.parse_args().names or MAKERS:
+        MAKERS[name](OUT)
+        print(f"build/figures/{name}.png")
 
 
 if __name__ == "__main__":
