@@ -16,7 +16,8 @@ bl_info = {
 NAMES = (
     "library_copy", "native",
     "model.border", "model.check_table", "model.checked_surface", "model.edit_cage", "model.gain", "model.looks",
-    "model.creases", "model.line_curve", "model.mirror", "model.orientation", "model.refusal", "model.line_handle",
+    "model.creases", "model.line_curve", "model.mirror", "model.orientation", "model.refusal", "model.surroundings",
+    "model.line_handle",
     "model.line_surface", "model.patch", "model.cage",
     "model.solution", "model.surface", "model.triangulation", "model.view",
     "targets.falloff", "targets.crossed", "targets.direction", "targets.fit", "targets.mirror_target",
@@ -24,7 +25,7 @@ NAMES = (
     "bridge.compat", "bridge.read_mesh", "bridge.region_faces", "bridge.modifiers", "bridge.read_edit_cage",
     "bridge.viewport_surface",
     "bridge.dense_mesh", "bridge.falloff_curve", "bridge.mesh_checks", "bridge.read_mirror", "bridge.read_creases",
-    "bridge.vertex_attributes", "bridge.border_segments",
+    "bridge.vertex_attributes", "bridge.border_segments", "bridge.read_surroundings",
     "bridge.read_patch", "bridge.read_cage", "bridge.read_checked", "bridge.shape_keys", "bridge.gather",
     "bridge.image_pixels",
     "bridge.write_mesh",

@@ -5,7 +5,8 @@ import numpy as np
 from ..model import triangulation
 from ..model.patch import Patch
 from ..model.refusal import Refusal
-from . import border_segments, mesh_checks, read_creases, read_mesh, read_mirror, region_faces
+from ..model.surroundings import Surroundings
+from . import border_segments, mesh_checks, read_creases, read_mesh, read_mirror, read_surroundings, region_faces
 
 
 def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
@@ -24,11 +25,15 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
     matrix = np.array(ob.matrix_world, dtype=np.float64)
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         F = F[:, ::-1]  # a mirroring transform turns triangles over, but not what Blender calls their front
-    local = local[index]
-    V = local @ matrix[:3, :3].T + matrix[:3, 3]
+    whole = local @ matrix[:3, :3].T + matrix[:3, 3]
+    around = read_surroundings.read_surroundings(ob.data, faces, index, whole)
+    if np.linalg.det(matrix[:3, :3]) < 0.0:
+        around = Surroundings(around.V, around.F[:, ::-1])
+    local, V = local[index], whole[index]
     mirror = read_mirror.read_mirror(ob, local)
     return Patch(ob.name, faces, index, local, V, np.ascontiguousarray(F), matrix, key, mirror,
-                 read_creases.read_creases(ob, index), border_segments.read_border(ob, index))
+                 read_creases.read_creases(ob, index), border_segments.read_border(ob, index),
+                 around)
 
 
 def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:

@@ -15,6 +15,7 @@ import numpy as np
 from ..model import border
 from ..model.creases import AUTOMATIC
 from ..model.patch import Patch
+from ..model.surroundings import NOTHING_AROUND
 from . import read_mesh
 
 TYPES = {name: np.dtype(kind) for name, kind in (("faces", "?"), ("index", "<i4"), ("F", "<i4"), ("local", "<f4"),
@@ -53,7 +54,7 @@ def decode_solve(ob: bpy.types.Object, text: str) -> tuple[Patch, np.ndarray, np
     matrix = stored["matrix"]
     V = local @ matrix[:3, :3].T + matrix[:3, 3]
     patch = Patch(ob.name, stored["faces"], index, local, V, stored["F"], matrix, key, None, AUTOMATIC,
-                  np.full(len(index), border.UNSET))
+                  np.full(len(index), border.UNSET), NOTHING_AROUND)
     move = read_mesh.read_coordinates(ob, key)[index] - local
     return patch, V + move @ matrix[:3, :3].T, stored["residual"].astype(np.float64)
 

@@ -7,6 +7,7 @@ from . import mirror
 from .creases import Creases
 from .mirror import Mirror
 from .refusal import Refusal
+from .surroundings import Surroundings
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,7 @@ class Patch:
     mirror: Mirror | None
     creases: Creases
     border: np.ndarray   # #V: codes of the border's own conditions, border.UNSET where the tool's holds
+    around: Surroundings
 
     @property
     def center(self) -> np.ndarray:
@@ -73,7 +75,8 @@ class Patch:
         """Returns whether an optimizer built for one patch serves the other."""
         return (type(self) is type(other) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
                 and mirror.are_equal(self.mirror, other.mirror) and np.array_equal(self.matrix, other.matrix)
-                and self.creases.same(other.creases) and np.array_equal(self.border, other.border))
+                and self.creases.same(other.creases) and np.array_equal(self.border, other.border)
+                and self.around.same(other.around))
 
 
 def compute_bounds(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -10,10 +10,11 @@ import numpy as np
 
 from .. import native
 from ..model import mirror
-from ..model.border import CODES, UNSET, fill_border
+from ..model.border import CODES, UNSET, fill_border, needs_surroundings
 from ..model.cage import CagePatch
 from ..model.line_surface import LineState
 from ..model.patch import Patch
+from ..model.surroundings import Surroundings, join_images
 from ..model.view import View
 from ..targets import mirror_target
 
@@ -68,13 +69,23 @@ class Formulation:
             own = np.where(self.patch.mirror.seam, CODES["clamped"], own)
         return fill_border(own, border)
 
+    def read_around(self) -> Surroundings:
+        """Returns the surroundings of all that is solved."""
+        return self.patch.around
+
+    def choose_edges(self, border: str) -> dict[str, "str | np.ndarray | tuple[np.ndarray, np.ndarray] | None"]:
+        """Returns what holds at the border as arguments of the native module."""
+        codes = self.choose_border(border)
+        around = self.read_around() if needs_surroundings(codes) else None
+        return {"border": codes, "around": None if around is None else (around.V, around.F)}
+
     def build(self, border: str, progress: "native.Progress | None", *,
               sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
         """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely, and `held` (#V, bool) are
         vertices that stay whatever the border says.
         """
         return native.reflines.ShapeOptimizer(self.patch.V, self.patch.F, **self.choose_directions(), progress=progress,
-                                              border=self.choose_border(border), fixed=held,
+                                              **self.choose_edges(border), fixed=held,
                                               **self.patch.creases.build_arguments())
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -125,7 +136,7 @@ class Formulation:
         """Calls the native press of Smooth; raises the native module's errors."""
         positions, told = native.reflines.smooth_panel(
             self.patch.V, self.patch.F, **self.choose_press_directions(), fixed=self.hold_marked_creases(),
-            border=self.choose_border(border), **settings)
+            **self.choose_edges(border), **settings)
         return Press(positions, told.stray, told)
 
 
@@ -176,12 +187,20 @@ class JoinedFormulation(Formulation):
         own = self.patch.border
         return fill_border(np.append(own, own[partner[len(own):]]), border)
 
+    def read_around(self) -> Surroundings:
+        around, matrix = self.patch.around, self.patch.matrix
+        _, _, partner = self.join()
+        flip = matrix[:3, :3] @ np.diag(self.patch.mirror.sign) @ np.linalg.inv(matrix[:3, :3])
+        mirrored = (around.V - matrix[:3, 3]) @ flip.T + matrix[:3, 3]
+        own = len(self.patch.V)
+        return join_images(around, mirrored, own, partner[:own], len(partner))
+
     def build(self, border: str, progress: "native.Progress | None", *,
               sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
         V, F, partner = self.join()
         fixed = None if held is None else np.append(held, held[partner[len(held):]])
         return native.reflines.ShapeOptimizer(V, F, **self.choose_directions(), progress=progress,
-                                              border=self.choose_border(border), fixed=fixed,
+                                              **self.choose_edges(border), fixed=fixed,
                                               **self.patch.creases.build_arguments(partner))
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -198,7 +217,7 @@ class JoinedFormulation(Formulation):
         own = self.hold_marked_creases()
         held = np.append(own, own[partner[len(own):]])
         positions, told = native.reflines.smooth_panel(V, F, **self.choose_press_directions(), fixed=held,
-                                                       border=self.choose_border(border), **settings)
+                                                       **self.choose_edges(border), **settings)
         return Press(self.average_images(positions - V, partner), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":

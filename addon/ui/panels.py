@@ -107,9 +107,9 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         head.label(text="Border of the Selected")
         head.prop(settings, "show_borders", text="", icon='HIDE_OFF' if settings.show_borders else 'HIDE_ON')
         head.operator("reflines.set_border", text="", icon='X').border = 'unset'
-        row = layout.row(align=True)
-        for name, label in (("clamped", "Clamped"), ("fixed", "Fixed"), ("free", "Free")):
-            row.operator("reflines.set_border", text=label).border = name
+        grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+        for name, label in (("curvature", "Curvature"), ("clamped", "Clamped"), ("fixed", "Fixed"), ("free", "Free")):
+            grid.operator("reflines.set_border", text=label).border = name
 
     def draw_creases(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
         layout.prop(settings, "creases")
@@ -144,9 +144,7 @@ class ToolPanel(ReflinesPanel):
         scene = bpy.context.scene.reflection_lines
         layout.prop(lights or scene, "lights")
         automatic_values.draw_value(layout, scene, "limit")
-        border = layout.row(align=True)
-        border.use_property_split = False
-        border.prop(settings, "border", expand=True)
+        layout.prop(settings, "border")
         row = layout.row(align=True)
         row.operator(name, icon=icon)
         row.operator(name, text="", icon='ARROW_LEFTRIGHT').follow_mouse = True
@@ -183,9 +181,7 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
         own = settings.pull
         layout.prop(own, "radius")
         rows.draw_zero(layout, own, "radius", "0: automatic")
-        border = layout.row(align=True)
-        border.use_property_split = False
-        border.prop(own, "border", expand=True)
+        layout.prop(own, "border")
         layout.operator("reflines.pull_line", icon='VIEW_PAN')
         layout.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
         pins = layout.row(align=True)
@@ -208,9 +204,7 @@ class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):
         automatic_values.draw_value(layout, settings, "length")
         layout.prop(settings, "lights")
         automatic_values.draw_value(layout, settings, "limit")
-        border = layout.row(align=True)
-        border.use_property_split = False
-        border.prop(own, "border", expand=True)
+        layout.prop(own, "border")
         layout.operator("reflines.fair_brush", icon='BRUSH_DATA')
 
 

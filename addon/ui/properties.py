@@ -239,7 +239,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     result: result_property()
     show_borders: BoolProperty(name="Show Borders", default=True,
                                description="Draw the borders that were set by segment: green Free, orange Fixed, blue "
-                               "Clamped")
+                               "Clamped, violet Curvature")
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     pull: PointerProperty(type=ReflinesPull)

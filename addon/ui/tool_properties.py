@@ -56,6 +56,8 @@ LIGHTS = (
 )
 SAVED = {'options': {'SKIP_SAVE'}}
 BORDERS = (
+    ('curvature', "Curvature", "As Clamped, and the lines run on from the faces beside the region without a kink: "
+     "their curvature is continued"),
     ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly"),
     ('fixed', "Fixed", "Border vertices stay; the slope across the border may change"),
     ('free', "Free", "Border vertices may move along the view, as the rest does"),

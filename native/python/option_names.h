@@ -20,8 +20,10 @@ Enum find_named(const std::map<std::string, Enum>& names, const std::string& nam
   throw InvalidInput("There is no " + what + " named '" + name + "'; choose one of " + list + ".");
 }
 
-inline const std::map<std::string, Border> kBorders = {
-    {"free", Border::kFree}, {"fixed", Border::kFixed}, {"clamped", Border::kClamped}};
+inline const std::map<std::string, Border> kBorders = {{"free", Border::kFree},
+                                                       {"fixed", Border::kFixed},
+                                                       {"clamped", Border::kClamped},
+                                                       {"curvature", Border::kCurvature}};
 inline const std::map<std::string, StencilKind> kStencils = {{"averaged", StencilKind::kAveraged},
                                                              {"quadratic", StencilKind::kQuadratic},
                                                              {"hybrid", StencilKind::kHybrid},

@@ -6,7 +6,7 @@ surface towards the viewer), line_direction a (3, along the line lights). Angles
 from typing import Literal, Sequence
 import numpy as np
 
-Border = Literal["free", "fixed", "clamped"]
+Border = Literal["free", "fixed", "clamped", "curvature"]
 Stencil = Literal["averaged", "quadratic", "hybrid", "consistent"]
 CreaseRule = Literal["automatic", "marked", "none"]
 Strategy = Literal["adaptive", "linearized", "gauss_newton", "newton"]
@@ -123,8 +123,11 @@ class ShapeOptimizer:
     changeable: np.ndarray # #F bool: those of them with a vertex that can move
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
                  line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
-                 border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped (border vertices)
+                 border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature
                  fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
+                 around: tuple[np.ndarray, np.ndarray] | None = None,  # for the border "curvature": positions #S x 3 of
+                                                                 # vertices around, and triangles that name the region's
+                                                                 # by 0 .. #V - 1 and those by #V and more
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
                  crease_rule: CreaseRule = "automatic",          # creases are held, no stencil reaches across
                  marked_creases: np.ndarray = ...,               # #M x 2 vertices of edges; used unless the rule is "none"
@@ -178,8 +181,9 @@ class SmoothPanelReport:
     messages: list[str]        # sentences for the user, the most important first
 
 def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
-                 border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped
+                 border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature
                  fixed: np.ndarray | None = None,                   # #V bool: held whatever the border says
+                 around: tuple[np.ndarray, np.ndarray] | None = None,  # as in ShapeOptimizer
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
                  length: float | None = None,                       # size of the flaws; None: the diagonal / 14
                  strength: float = 1.0,                             # share of the move that is made, 0 to 1

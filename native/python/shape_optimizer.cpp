@@ -13,6 +13,7 @@
 #include "python/index_arrays.h"
 #include "python/line_directions.h"
 #include "python/option_names.h"
+#include "python/surroundings.h"
 #include "reflines/errors.h"
 #include "reflines/progress.h"
 #include "threads/abandonable_work.h"
@@ -38,13 +39,15 @@ std::vector<Target> list_targets(const Targets& targets) {
 
 std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
                                                 const Eigen::MatrixXd& line_direction, const Codes& border,
-                                                const std::optional<Mask>& fixed, const std::string& stencil,
-                                                const std::string& linear_solver, const std::string& crease_rule,
-                                                const Indices& marked_creases, double crease_angle, double proximity,
+                                                const std::optional<Mask>& fixed, const Around& around,
+                                                const std::string& stencil, const std::string& linear_solver,
+                                                const std::string& crease_rule, const Indices& marked_creases,
+                                                double crease_angle, double proximity,
                                                 std::shared_ptr<Progress> progress) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
+  options.around = surroundings_of(around);
   options.stencil = find_named(kStencils, stencil, "stencil");
   options.linear_solver = find_named(kSolvers, linear_solver, "linear solver");
   options.creases = {find_named(kCreaseRules, crease_rule, "rule of creases"), crease_angle, edges_of(marked_creases)};
@@ -122,7 +125,7 @@ void bind_optimizer(py::module_& module) {
   py::class_<ShapeOptimizer>(module, "ShapeOptimizer", py::module_local())
       .def(py::init(&build_optimizer), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
            py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
-           py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
+           py::arg("around") = py::none(), py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
            py::arg("crease_rule") = "automatic", py::arg("marked_creases") = Indices(),
            py::arg("crease_angle") = shape.creases.angle, py::arg("proximity") = shape.proximity,
            py::arg("progress") = py::none())

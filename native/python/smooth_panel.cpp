@@ -13,6 +13,7 @@
 #include "python/gil_handover.h"
 #include "python/index_arrays.h"
 #include "python/option_names.h"
+#include "python/surroundings.h"
 
 namespace py = pybind11;
 
@@ -53,11 +54,13 @@ py::tuple run_unlocked(const Press& press) {
 
 py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
                       const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
-                      const std::string& lights, const std::optional<double>& length, double strength,
-                      const std::optional<double>& limit, bool symmetric, std::shared_ptr<Progress> progress) {
+                      const Around& around, const std::string& lights, const std::optional<double>& length,
+                      double strength, const std::optional<double>& limit, bool symmetric,
+                      std::shared_ptr<Progress> progress) {
   SmoothPanelOptions options = options_of(lights, length, strength, limit, symmetric, std::move(progress));
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
+  options.around = surroundings_of(around);
   const Triangles triangles = triangles_of(F);
   return run_unlocked([&] { return smooth_panel(V, triangles, view_direction, line_direction, options); });
 }
@@ -102,9 +105,9 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("messages", &Told::messages);
   module.def("smooth_panel", &smooth_mesh, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
              py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
-             py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("strength") = defaults.strength,
-             py::arg("limit") = py::none(), py::arg("symmetric") = defaults.symmetric,
-             py::arg("progress") = py::none());
+             py::arg("around") = py::none(), py::arg("lights") = "crossed", py::arg("length") = py::none(),
+             py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
+             py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
   const SubdivisionOptions subdivision;
   module.def("smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
              py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),

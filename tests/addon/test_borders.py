@@ -112,14 +112,14 @@ def test_other_segments_make_another_optimizer() -> None:
     assert not (scenes.positions(ob) != before).any(axis=1)[side(2)].any()  # clamped, as the tool has it
 
 
-@pytest.mark.parametrize("value", [-1, 4, 2**31 - 1, -2**31])
+@pytest.mark.parametrize("value", [-1, 5, 2**31 - 1, -2**31])
 def test_values_that_are_no_borders_are_refused(value: int) -> None:
     ob = segmented_panel()
     scenes.object_mode()
     ob.data.attributes["reflines_border"].data[side(1)[0]].value = value
     scenes.edit_inner(ob)
     before = scenes.fingerprint(ob)
-    with pytest.raises(RuntimeError, match="1 vertices have a border that is none of Free, Fixed and Clamped"):
+    with pytest.raises(RuntimeError, match="1 vertices have a border that is none of Free, Fixed, Clamped and"):
         scenes.smooth()
     assert scenes.fingerprint(ob) == before
     set_border(ob, [side(1)[0]], 'fixed')
@@ -154,3 +154,62 @@ def test_both_halves_below_a_mirror_have_the_borders_of_the_meshs_own() -> None:
     moved = (scenes.positions(ob) != before).any(axis=1)
     assert moved[[9 * k + 8 for k in range(3, 6)]].all()
     assert not moved[[9 * k + 8 for k in (0, 8)]].any()  # beside the clamped rows at both ends
+
+
+CELLS, MARGIN = 32, 6  # of the panel with a bent middle, and rings of faces around its region
+EDGE = 1.0 - 2.0 * (MARGIN + 1) / CELLS  # where the middle begins to bend otherwise: at the first vertices that move
+
+
+def bent(x: float, y: float) -> float:
+    share = max(1.0 - (x / EDGE) ** 2, 0.0) * max(1.0 - (y / EDGE) ** 2, 0.0)
+    return scenes.crown(x, y) + 0.03 * share**2
+
+
+def measure_border_curvature(border: str, transform: str = "none") -> float:
+    """The largest difference of curvatures along the border, in percent, after a press that wants next to nothing."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    ob = scenes.panel(height=bent, cells=CELLS)
+    scenes.look_from_above()
+    scenes.transformed(ob, scenes.TRANSFORMS[transform])
+    scenes.edit_inner(ob, CELLS, MARGIN)
+    assert scenes.smooth(length=0.02, border=border) == {'FINISHED'}
+    assert bpy.ops.reflines.check() == {'FINISHED'}
+    return next(row.after for row in ob.reflection_lines.check.rows if row.name == "border curvature")
+
+
+@pytest.mark.parametrize("transform", ["none", "turned, scaled and mirrored", "mirrored"])
+def test_the_curvature_runs_on_from_the_faces_beside(transform: str) -> None:
+    clamped, curvature = (measure_border_curvature(border, transform) for border in ("clamped", "curvature"))
+    print(f"{clamped:.1f} % clamped, {curvature:.1f} % with the curvature of the faces beside")
+    assert curvature < 0.75 * clamped  # the largest is at a corner
+
+
+def test_without_faces_beside_it_is_said() -> None:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    assert scenes.smooth(length=0.6, border='curvature') == {'FINISHED'}
+    assert "No faces beside the region tell the curvature" in ob.reflection_lines.report.notes
+
+
+def test_a_half_below_a_mirror_takes_the_curvature_on_both_sides() -> None:
+    """The half is solved with its image, whose faces beside are the images of its own."""
+    grid = np.linspace(-1.0, 1.0, CELLS + 1)
+    half, row = grid[CELLS // 2:], CELLS // 2 + 1
+    ob = scenes.linked("Half", [(x, y, bent(x, y)) for y in grid for x in half],
+                       [(i, i + 1, i + row + 1, i + row) for j in range(CELLS)
+                        for i in range(j * row, j * row + row - 1)])
+    ob.modifiers.new("Mirror", 'MIRROR')
+    scenes.look_from_above()
+    results = []
+    for border in ('clamped', 'curvature'):
+        scenes.edit(ob)
+        scenes.select_faces(ob, lambda face: MARGIN <= face // (row - 1) < CELLS - MARGIN
+                            and face % (row - 1) < CELLS // 2 - MARGIN)
+        before = scenes.positions(ob)
+        assert scenes.smooth(length=0.02, border=border) == {'FINISHED'}
+        results.append(np.abs(scenes.positions(ob) - before).max())
+        scenes.object_mode()
+        ob.data.vertices.foreach_set("co", before.ravel())
+    assert results[1] > 3.0 * results[0]

@@ -8,6 +8,9 @@ enum class Border : signed char {
   kFree = 0,     // border vertices move like any other
   kFixed = 1,    // positions stay
   kClamped = 2,  // positions and tangents stay: of a mesh, border vertices and those one edge away
+  // The condition kClamped, with lines that run on from the surroundings: see ShapeOptions::around. Of a cage it is
+  // kClamped, which keeps the curvature, too, where the region ends inside a regular surface.
+  kCurvature = 3,
 };
 
 }  // namespace reflines

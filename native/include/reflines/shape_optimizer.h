@@ -20,16 +20,21 @@
 #include "reflines/smooth_target.h"
 #include "reflines/spd_factorize.h"
 #include "reflines/stencil_kind.h"
+#include "reflines/surroundings.h"
 #include "reflines/target.h"
 #include "reflines/types.h"
 
 namespace reflines {
 
+struct Boundary;
+struct HeightField;
+class ReflectionFunction;
 class RegionPieces;
 
 struct ShapeOptions {
   std::vector<Border> border;  // #V, or empty: clamped everywhere
   Mask held;                   // #V, or empty: vertices that stay whatever the border says
+  Surroundings around;         // or none; read for border vertices with Border::kCurvature
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
   CreaseOptions creases;  // which edges are held, and no stencil reaches across
@@ -143,6 +148,9 @@ class ShapeOptimizer {
  private:
   void enter(double fraction, const char* stage) const;
   void forget_lines();
+  void continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
+                       const std::vector<ReflectionFunction>& families);
+  std::vector<Target> with_border(const std::vector<Target>& targets) const;
   void check(const Target& target) const;
   void check_family(int family) const;
   void count_features(double length, int family);
@@ -156,7 +164,8 @@ class ShapeOptimizer {
   double feature_length_ = 0.0;  // see RegionField::feature
   std::shared_ptr<Progress> progress_;
   std::vector<int> free_unknowns_;
-  bool sampled_ = false;                                      // some triangles have the quadrature weight 0
+  std::vector<Target> border_;  // continue the surroundings' curvature; see continue_curvature
+  bool sampled_ = false;        // some triangles have the quadrature weight 0
   std::map<int, RegionField> region_fields_, vertex_fields_;  // of the families asked for, at the current heights
 };
 

@@ -21,10 +21,14 @@ enum class Lights {
 struct SmoothPanelOptions {
   std::vector<Border> border;  // #V, or empty: clamped everywhere
   Mask held;                   // #V, or empty: vertices that stay
+  Surroundings around;         // or none; see ShapeOptions
   Lights lights = Lights::kCrossed;
-  double length = 0.0;                 // size of the flaws, in units of V; 0: the diagonal / 14
-  double strength = 1.0;               // share of the move that is made, 0 to 1
-  double limit = 0.0;                  // no vertex moves further along the view, in units of V; 0: length / 20
+  double length = 0.0;    // size of the flaws, in units of V; 0: the diagonal / 14
+  double strength = 1.0;  // share of the move that is made, 0 to 1
+  double limit = 0.0;     // no vertex moves further along the view, in units of V; 0: length / 20
+  // Shares of the limit for each vertex (#V, of a cage its own): the lowest moves -1 to 0, the highest 0 to 1. Empty:
+  // -1 and 1 everywhere.
+  MoveLimit limit_share;
   bool symmetric = true;               // what one half of a symmetric panel has and the other has not is a flaw
   std::shared_ptr<Progress> progress;  // or none
 };

@@ -62,7 +62,7 @@ Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, cons
   Mask fixed(subdivision.positions.rows()), clamped(subdivision.positions.rows());
   for (size_t i = 0; i < refined.size(); ++i) {
     fixed[static_cast<int>(i)] = refined[i] != Border::kFree;
-    clamped[static_cast<int>(i)] = refined[i] == Border::kClamped;
+    clamped[static_cast<int>(i)] = refined[i] >= Border::kClamped;
   }
   Mask held = Mask::Constant(subdivision.positions.cols(), false);
   mark_columns(subdivision.positions, fixed, &held);

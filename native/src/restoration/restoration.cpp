@@ -113,6 +113,14 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
   report_.region = surface.optimizer().region();
   report_.length = choose_length(options, surface.positions());
   report_.limit = options.limit > 0 ? options.limit : kAutomaticLimit * report_.length;
+  const MoveLimit& share = options.limit_share;
+  range_ = MoveLimit::within(report_.limit, static_cast<int>(surface.control_positions().rows()));
+  if (share.exists()) range_ = {report_.limit * share.lowest, report_.limit * share.highest};
+}
+
+// Returns how far a control vertex may go in the direction of a move.
+double Restoration::range_towards(Eigen::Index control, double move) const {
+  return move < 0 ? -range_.lowest(control) : range_.highest(control);
 }
 
 SmoothPanelResult Restoration::run() {
@@ -170,7 +178,8 @@ Vector Restoration::restore() {
   const std::vector<Target> targets = plan(flawless);
   solve(targets, MoveLimit::none());
   unlimited_ = average_partners(surface_.control_move());
-  report_.limited = static_cast<int>((unlimited_.array().abs() > report_.limit).count());
+  report_.limited = static_cast<int>(
+      (unlimited_.array() > range_.highest.array() || unlimited_.array() < range_.lowest.array()).count());
   return options_.strength * (report_.limited == 0 ? unlimited_ : restore_within_limit(targets));
 }
 
@@ -191,10 +200,16 @@ void Restoration::solve(const std::vector<Target>& targets, const MoveLimit& lim
 // Solves within the limit. A move that is cut there has an edge round every plateau, in lines that were even. Solved
 // for, dents three times as deep as the limit leave 0.3 of their error instead of the 0.5 of moves that saturate.
 Vector Restoration::restore_within_limit(const std::vector<Target>& targets) {
-  if (!surface_.can_limit()) return report_.limit * (unlimited_ / report_.limit).unaryExpr(&saturate);
-  const Vector most = Vector::Constant(start_.size(), report_.limit);
-  solve(targets, {-most, most});
-  return average_partners(surface_.control_move()).cwiseMax(-report_.limit).cwiseMin(report_.limit);
+  if (surface_.can_limit()) {
+    solve(targets, range_);
+    return average_partners(surface_.control_move()).cwiseMax(range_.lowest).cwiseMin(range_.highest);
+  }
+  Vector move = unlimited_;
+  for (Eigen::Index c = 0; c < move.size(); ++c) {
+    const double range = range_towards(c, move(c));
+    move(c) = range > 0 ? range * saturate(move(c) / range) : 0;
+  }
+  return move;
 }
 
 Vector Restoration::use_symmetry(const Vector& z) {
@@ -264,7 +279,10 @@ Vector Restoration::average_partners(const Vector& move) const {
 // Scales the whole move. The rim of a flaw far deeper than the limit can make the lines less even than the flaw did.
 // The same share of the whole move everywhere cannot.
 Vector Restoration::scale_to_limit() const {
-  const double share = std::min(1.0, report_.limit / unlimited_.cwiseAbs().maxCoeff());
+  double share = 1;
+  for (Eigen::Index c = 0; c < unlimited_.size(); ++c) {
+    if (unlimited_(c) != 0) share = std::min(share, range_towards(c, unlimited_(c)) / std::abs(unlimited_(c)));
+  }
   return options_.strength * share * unlimited_;
 }
 

@@ -32,6 +32,7 @@ class Restoration {
   const Vector& find_flawless();
   void solve(const std::vector<Target>& targets, const MoveLimit& limit);
   Vector restore_within_limit(const std::vector<Target>& targets);
+  double range_towards(Eigen::Index control, double move) const;
   Vector scale_to_limit() const;
   Vector use_symmetry(const Vector& z);
   Vector remove_all_bumps(Vector z);
@@ -62,6 +63,7 @@ class Restoration {
   std::optional<Vector> flawless_;                      // #V, see find_flawless; none once it holds no more
   std::vector<double> typical_before_, typical_after_;  // medians of the lines' stray, for each light
   IndexVector partner_;                                 // #C, see MirrorEvidence; empty: no symmetry
+  MoveLimit range_;                                     // #C, lengths: the limit by each vertex's share of it
   Vector unlimited_;                                    // #C, the move of the last solve
   Vector stray_before_;                                 // SmoothPanelReport::stray of the start
 };

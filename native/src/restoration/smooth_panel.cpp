@@ -11,6 +11,8 @@
 #include "restoration/controlled_surface.h"
 #include "restoration/restoration.h"
 #include "restoration/used_vertices.h"
+#include "solver/limited_move.h"
+#include "solver/solve_checks.h"
 #include "threads/abandonable_work.h"
 
 namespace reflines {
@@ -29,12 +31,27 @@ void set_restoration_rules(const SmoothPanelOptions& options, double proximity, 
   shape.progress = options.progress;
 }
 
+// Throws unless there are shares of the limit for all vertices, or for none.
+void check_share(const MoveLimit& share, Eigen::Index vertex_count) {
+  if (!share.exists() && share.lowest.size() == 0) return;
+  check(share, static_cast<int>(vertex_count));
+  const auto beyond = (share.lowest.array() < -1 || share.highest.array() > 1).count();
+  if (beyond == 0) return;
+  throw InvalidInput("The share of the limit of " + std::to_string(beyond) + " of the " + std::to_string(vertex_count) +
+                     " vertices is beyond it; give -1 to 0 for the lowest move and 0 to 1 for the highest.");
+}
+
 void check(const SmoothPanelOptions& options, Eigen::Index vertex_count) {
   const auto refuse = [](const char* what) { throw InvalidInput(what); };
   if (!(options.length >= 0) || !std::isfinite(options.length))
     refuse("The length must be a positive length, or 0 for automatic.");
   if (!(options.limit >= 0)) refuse("The limit must be a positive length, or 0 for automatic.");
   if (!(options.strength >= 0 && options.strength <= 1)) refuse("The strength must lie between 0 and 1.");
+  check_share(options.limit_share, vertex_count);
+  if (!options.border.empty() && static_cast<Eigen::Index>(options.border.size()) != vertex_count) {
+    throw InvalidInput("There are " + std::to_string(options.border.size()) + " border codes for " +
+                       std::to_string(vertex_count) + " vertices; give one for each.");
+  }
   if (options.held.size() > 0 && options.held.size() != vertex_count) {
     throw InvalidInput("The held mask has " + std::to_string(options.held.size()) + " entries for " +
                        std::to_string(vertex_count) + " vertices; give one for each.");
@@ -61,10 +78,14 @@ SmoothPanelResult press_used_vertices(const Positions& V, const UsedVertices& us
   ShapeOptions shape;
   if (!options.border.empty()) shape.border = gather(options.border, used.index);
   if (options.held.size() > 0) shape.held = options.held(used.index);
+  if (options.around.exist()) shape.around = renumber_surroundings(options.around, used, static_cast<int>(V.rows()));
   set_restoration_rules(options, kMeshProximity, shape);
   MeshSurface surface(V(used.index, Eigen::all), used.F, view_direction,
                       make_families(view_direction, line_direction, options.lights), shape);
-  SmoothPanelResult result = Restoration(surface, options).run();
+  SmoothPanelOptions own = options;
+  if (own.limit_share.exists())
+    own.limit_share = {options.limit_share.lowest(used.index), options.limit_share.highest(used.index)};
+  SmoothPanelResult result = Restoration(surface, own).run();
   Positions all = V;
   all(used.index, Eigen::all) = result.positions;
   result.positions = std::move(all);
@@ -76,6 +97,7 @@ SmoothPanelResult press_used_vertices(const Positions& V, const UsedVertices& us
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options) {
   check(options, V.rows());
+  check_surroundings(options.around, V.rows());
   check_surface(V, F);
   return run_press(options.progress, [=] {
     const UsedVertices used = find_used_vertices(F, static_cast<int>(V.rows()));

@@ -15,4 +15,19 @@ UsedVertices find_used_vertices(const Triangles& F, int vertex_count) {
   return used;
 }
 
+Surroundings renumber_surroundings(const Surroundings& around, const UsedVertices& used, int vertex_count) {
+  const int kept = static_cast<int>(used.index.size());
+  IndexVector number = IndexVector::Constant(vertex_count, -1);
+  for (int k = 0; k < kept; ++k) number(used.index[k]) = k;
+  Surroundings result{around.V, Triangles(around.F.rows(), 3)};
+  int count = 0;
+  for (const auto& triangle : around.F.rowwise()) {
+    const Eigen::RowVector3i renumbered =
+        triangle.unaryExpr([&](int v) { return v < vertex_count ? number(v) : v - vertex_count + kept; });
+    if (renumbered.minCoeff() >= 0) result.F.row(count++) = renumbered;
+  }
+  result.F.conservativeResize(count, 3);
+  return result;
+}
+
 }  // namespace reflines

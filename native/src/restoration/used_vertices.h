@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "reflines/surroundings.h"
 #include "reflines/types.h"
 
 namespace reflines {
@@ -15,5 +16,9 @@ struct UsedVertices {
 
 // Finds the vertices of F (#F x 3), which must have passed check_indices against `vertex_count`.
 UsedVertices find_used_vertices(const Triangles& F, int vertex_count);
+
+// Returns the surroundings of the used vertices, from those of all `vertex_count`. Triangles that name one in no face
+// are left out.
+Surroundings renumber_surroundings(const Surroundings& around, const UsedVertices& used, int vertex_count);
 
 }  // namespace reflines

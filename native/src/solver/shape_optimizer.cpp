@@ -9,6 +9,7 @@
 #include "optimization/linear/linear_solver.h"
 #include "optimization/report_sums.h"
 #include "reflines/errors.h"
+#include "solver/border_curvature.h"
 #include "solver/coupling.h"
 #include "solver/limited_move.h"
 #include "solver/reachable_target.h"
@@ -49,7 +50,8 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   check_surface(V, F);
   check_quadrature_weight(options.quadrature_weight, F.rows());
   enter(0.2, "dividing into height fields");
-  HeightField field = make_height_field(V, F, frame(), boundary_of(options, V.rows()));
+  const Boundary boundary = boundary_of(options, V.rows());
+  HeightField field = make_height_field(V, F, frame(), boundary);
   sampled_ = options.quadrature_weight.size() > 0;
   if (options.B.rows() > 0) free_unknowns_ = couple_vertices(options.B, options.start, field);
   std::vector<ReflectionFunction> families;
@@ -57,6 +59,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   families.emplace_back(frame(), frame().z(), frame().x());  // across the first family: see PieceProblem
   region_ = describe_region(field, options.B.rows() == 0);
   feature_length_ = kFeatureLength * field.diagonal();
+  continue_border(field, boundary, options.around, families);
   for (Piece& piece : split_pieces(field)) {
     enter(0.6, "making stencils");
     region_.unused_pieces += piece.free_count == 0;
@@ -75,6 +78,32 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   }
   count_features(feature_length_, 0);
   add_piece_messages(region_);
+}
+
+void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
+                                     const std::vector<ReflectionFunction>& families) {
+  if (std::count(boundary.border.begin(), boundary.border.end(), Border::kCurvature) == 0) return;
+  BorderCurvature curvature;
+  if (around.exist()) {
+    check_surroundings(around, pieces_->vertex_count());
+    curvature =
+        continue_curvature(pieces_->start(), field, boundary.border, around, frame(), triangle_count(), families);
+  }
+  border_ = std::move(curvature.targets);
+  if (border_.empty()) {
+    region_.messages.emplace_back(
+        "No faces beside the region tell the curvature of its border, which is only clamped.");
+  } else if (curvature.unknown > 0) {
+    region_.messages.push_back("At " + std::to_string(curvature.unknown) +
+                               " vertices of the border too few faces beside it tell its curvature: it is only clamped "
+                               "there.");
+  }
+}
+
+std::vector<Target> ShapeOptimizer::with_border(const std::vector<Target>& targets) const {
+  std::vector<Target> all = targets;
+  all.insert(all.end(), border_.begin(), border_.end());
+  return all;
 }
 
 ShapeOptimizer::~ShapeOptimizer() = default;
@@ -110,9 +139,10 @@ void ShapeOptimizer::check(const Target& target) const {
 
 double ShapeOptimizer::energy(const std::vector<Target>& targets) {
   for (const Target& target : targets) check(target);
+  const std::vector<Target> all = with_border(targets);
   double sum = 0;
   for (const auto& piece : pieces_->pieces()) {
-    piece->set_targets(targets);
+    piece->set_targets(all);
     sum += piece->energy();
   }
   return sum;
@@ -194,14 +224,15 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
     for (size_t k = 0; k < before.size(); ++k) pieces_->pieces()[k]->set_heights(before[k]);
     pieces_->set_limit(limit_before);
   };
-  std::vector<Target> reachable = targets;
+  const std::vector<Target> all = with_border(targets);
+  std::vector<Target> reachable = all;
   Report report;
   report.strategy = options.strategy;
   report.termination = Termination::kAlreadyOptimal;
   try {
     for (const auto& piece : pieces_->pieces()) {
       if (piece->size() == 0) continue;
-      const Report own = minimize_reachable(*piece, targets, reachable, options, progress);
+      const Report own = minimize_reachable(*piece, all, reachable, options, progress);
       if (report.unknowns == 0)
         report = own;
       else
@@ -221,13 +252,14 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
 
 SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, HessianModel model) {
   for (const Target& target : targets) check(target);
+  const std::vector<Target> all = with_border(targets);
   int size = 0;
   for (const auto& piece : pieces_->pieces()) size += piece->size();
   SparseMatrix result(size, size);
   int first = 0;
   for (const auto& piece : pieces_->pieces()) {
     if (piece->size() == 0) continue;
-    piece->set_targets(targets);
+    piece->set_targets(all);
     const SparseMatrix& own = piece->hessian(piece->unknowns(), model);
     result.reserve(result.nonZeros() + own.nonZeros());
     for (int column = 0; column < own.cols(); ++column) {

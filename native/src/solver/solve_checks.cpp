@@ -26,6 +26,18 @@ void check_quadrature_weight(const Vector& weight, Eigen::Index triangles) {
   throw InvalidInput("A share of the energy is negative or not a finite number; give 0 or more.");
 }
 
+void check_surroundings(const Surroundings& around, Eigen::Index vertices) {
+  const Eigen::Index count = vertices + around.V.rows();
+  if (around.F.size() > 0 && (around.F.minCoeff() < 0 || around.F.maxCoeff() >= count)) {
+    throw InvalidInput("The triangles around the region name a vertex beyond the " + std::to_string(count) +
+                       " of the region and around it.");
+  }
+  const auto finite = around.V.array().isFinite().rowwise().all().count();
+  if (finite == around.V.rows()) return;
+  throw InvalidInput(std::to_string(around.V.rows() - finite) +
+                     " vertices around the region have a coordinate that is not a finite number.");
+}
+
 void check_reach(const Positions& V, const Triangles& F, double largest_move) {
   Eigen::RowVector3d low = V.row(F(0, 0)), high = low;
   for (const int v : F.reshaped()) {

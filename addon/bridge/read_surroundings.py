@@ -1,0 +1,45 @@
+"""Reads the faces around the region of a mesh."""
+import bpy
+import numpy as np
+
+from ..model.surroundings import NOTHING_AROUND, Surroundings
+from . import read_mesh
+
+RINGS = 4  # of faces around the region: a fit at its border takes in three rings of vertices
+
+
+def read_surroundings(mesh: bpy.types.Mesh, faces: np.ndarray, index: np.ndarray, V: np.ndarray) -> Surroundings:
+    """Reads the surroundings of the chosen faces, whose vertices are `index` (#V of the mesh); V (#vertices x 3) is the
+    whole mesh in world space. In Edit Mode the mesh must have been updated from it. Hidden faces count, too.
+    """
+    corners, sizes = read_mesh.read_corners(mesh)
+    beside = find_rings(corners, sizes, len(V), index) & ~faces
+    around = corners[np.repeat(beside, sizes)]
+    if not beside.any() or not np.isfinite(V[around]).all():
+        return NOTHING_AROUND
+    F = cut_fans(around, sizes[beside])
+    own = np.setdiff1d(F, index)
+    number = np.full(len(V), -1)
+    number[index], number[own] = np.arange(len(index)), len(index) + np.arange(len(own))
+    return Surroundings(V[own], number[F])
+
+
+def find_rings(corners: np.ndarray, sizes: np.ndarray, vertices: int, index: np.ndarray) -> np.ndarray:
+    """Finds the faces (#faces, bool) within RINGS rings of the vertices `index`."""
+    face_of_corner = np.repeat(np.arange(len(sizes)), sizes)
+    reached = np.zeros(vertices, dtype=bool)
+    reached[index] = True
+    for _ in range(RINGS):
+        found = np.zeros(len(sizes), dtype=bool)
+        found[face_of_corner[reached[corners]]] = True
+        reached[corners[found[face_of_corner]]] = True
+    return found
+
+
+def cut_fans(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """Cuts faces into triangles from their first corners: #triangles x 3."""
+    starts = np.cumsum(sizes) - sizes
+    counts = sizes - 2
+    first = np.repeat(starts, counts)
+    step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)

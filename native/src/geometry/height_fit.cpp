@@ -1,0 +1,37 @@
+#include "geometry/height_fit.h"
+
+#include <Eigen/QR>
+
+namespace reflines {
+namespace {
+
+// The pivot of the decomposition, relative to the largest, below which the points do not determine a polynomial: points
+// on three straight rows leave y^3 open, and rounding, or a jitter of a hundredth, would decide about it.
+constexpr double kDetermined = 3e-3;
+
+// Returns the monomials of degrees 0 to `degree`, #P x 6 or 10, in units of `size`.
+Eigen::MatrixXd list_monomials(const PlanePositions& points, double size, int degree) {
+  const Eigen::ArrayXd x = points.col(0).array() / size, y = points.col(1).array() / size;
+  Eigen::MatrixXd M(points.rows(), degree == 3 ? 10 : 6);
+  M.leftCols(6) << Eigen::ArrayXd::Ones(x.size()), x, y, x * x, x * y, y * y;
+  if (degree == 3) M.rightCols(4) << x * x * x, x * x * y, x * y * y, y * y * y;
+  return M;
+}
+
+}  // namespace
+
+HeightFit fit_heights(const PlanePositions& points, const Vector& heights) {
+  const double size = points.rowwise().norm().maxCoeff();
+  for (const int degree : {3, 2}) {
+    const Eigen::MatrixXd M = list_monomials(points, size, degree);
+    if (M.rows() < M.cols()) continue;
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition;
+    decomposition.setThreshold(kDetermined);
+    if (decomposition.compute(M).rank() < M.cols()) continue;
+    const Vector c = decomposition.solve(heights);
+    return {degree, c(0), Vector2(c(1), c(2)) / size, Vector3(2 * c(3), c(4), 2 * c(5)) / (size * size)};
+  }
+  return {};
+}
+
+}  // namespace reflines

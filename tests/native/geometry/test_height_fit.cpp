@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "geometry/height_fit.h"
+
+namespace reflines {
+namespace {
+
+double cubic(double x, double y) {
+  return 0.3 + 0.2 * x - 0.4 * y + 1.5 * x * x - 0.7 * x * y + 0.25 * y * y + 2 * x * x * y - y * y * y;
+}
+
+// Points beside the origin, y >= 0, on `rows` straight rows or anywhere.
+PlanePositions points_beside(int rows) {
+  PlanePositions points(40, 2);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-1, 1);
+  for (int k = 0; k < points.rows(); ++k)
+    points.row(k) << place(random), rows > 0 ? static_cast<double>(k % rows) / rows : std::abs(place(random));
+  return points;
+}
+
+HeightFit fit_cubic(const PlanePositions& points, double scale) {
+  Vector heights(points.rows());
+  for (int k = 0; k < points.rows(); ++k) heights(k) = cubic(points(k, 0), points(k, 1));
+  return fit_heights(scale * points, heights);
+}
+
+TEST(HeightFit, ReproducesACubicFromOneSideInAnyUnit) {
+  for (const double scale : {1.0, 1000.0, 1e-3}) {
+    const HeightFit fit = fit_cubic(points_beside(0), scale);
+    EXPECT_EQ(fit.degree, 3);
+    EXPECT_NEAR(fit.height, 0.3, 1e-12);
+    EXPECT_LT((scale * fit.slope - Vector2(0.2, -0.4)).norm(), 1e-11);
+    EXPECT_LT((scale * scale * fit.second - Vector3(3, -0.7, 0.5)).norm(), 1e-10);
+  }
+}
+
+TEST(HeightFit, RowsThatLeaveACubicOpenGiveAQuadratic) {
+  EXPECT_EQ(fit_cubic(points_beside(4), 1).degree, 3);
+  EXPECT_EQ(fit_cubic(points_beside(3), 1).degree, 2);
+  EXPECT_EQ(fit_cubic(points_beside(2), 1).degree, 0);
+  EXPECT_EQ(fit_cubic(points_beside(0).topRows(5), 1).degree, 0);
+}
+
+}  // namespace
+}  // namespace reflines
