@@ -25,7 +25,7 @@ NAMES = (
     "bridge.compat", "bridge.read_mesh", "bridge.region_faces", "bridge.modifiers", "bridge.read_edit_cage",
     "bridge.viewport_surface",
     "bridge.dense_mesh", "bridge.falloff_curve", "bridge.mesh_checks", "bridge.read_mirror", "bridge.read_creases",
-    "bridge.vertex_attributes", "bridge.border_segments", "bridge.read_surroundings",
+    "bridge.vertex_attributes", "bridge.border_segments", "bridge.read_surroundings", "bridge.read_limit_share",
     "bridge.read_patch", "bridge.read_cage", "bridge.read_checked", "bridge.shape_keys", "bridge.gather",
     "bridge.image_pixels",
     "bridge.write_mesh",

@@ -6,7 +6,8 @@ from ..model import triangulation
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
-from . import border_segments, mesh_checks, read_creases, read_mesh, read_mirror, read_surroundings, region_faces
+from . import (border_segments, mesh_checks, read_creases, read_limit_share, read_mesh, read_mirror, read_surroundings,
+               region_faces)
 
 
 def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
@@ -33,7 +34,7 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
     mirror = read_mirror.read_mirror(ob, local)
     return Patch(ob.name, faces, index, local, V, np.ascontiguousarray(F), matrix, key, mirror,
                  read_creases.read_creases(ob, index), border_segments.read_border(ob, index),
-                 around)
+                 around, read_limit_share.read_limit_share(ob, index))
 
 
 def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:

@@ -54,7 +54,7 @@ def decode_solve(ob: bpy.types.Object, text: str) -> tuple[Patch, np.ndarray, np
     matrix = stored["matrix"]
     V = local @ matrix[:3, :3].T + matrix[:3, 3]
     patch = Patch(ob.name, stored["faces"], index, local, V, stored["F"], matrix, key, None, AUTOMATIC,
-                  np.full(len(index), border.UNSET), NOTHING_AROUND)
+                  np.full(len(index), border.UNSET), NOTHING_AROUND, None)
     move = read_mesh.read_coordinates(ob, key)[index] - local
     return patch, V + move @ matrix[:3, :3].T, stored["residual"].astype(np.float64)
 

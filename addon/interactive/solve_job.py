@@ -20,7 +20,7 @@ from ..model.view import View
 from ..solver import live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth, smooth_panel
 from ..solver.formulation import choose_formulation
-from ..solver.limited_solve import choose_limit, scale_to_limit
+from ..solver.limited_solve import choose_limit, clip_to_shares, scale_to_limit
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
 from ..state import optimizer_cache
 
@@ -132,7 +132,8 @@ class SolveJob:
                     self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings[which]))
                     if request.lines:
                         wanted.measure(follower)  # for the numbers of each handle
-                positions.append(choose_formulation(patch, start.view).read_positions(follower))
+                shown = choose_formulation(patch, start.view).read_positions(follower)
+                positions.append(clip_to_shares(patch, start.view, shown, choose_limit(patch, request.settings)))
         if request.lines:
             return SolveOutcome(request, tuple(positions), lines=self.read_lines())
         gain = self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None

@@ -25,6 +25,7 @@ class Patch:
     creases: Creases
     border: np.ndarray   # #V: codes of the border's own conditions, border.UNSET where the tool's holds
     around: Surroundings
+    share: np.ndarray | None  # #V x 2: of the limit, for the lowest move (-1 to 0) and the highest; None: the whole one
 
     @property
     def center(self) -> np.ndarray:
@@ -76,7 +77,14 @@ class Patch:
         return (type(self) is type(other) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
                 and mirror.are_equal(self.mirror, other.mirror) and np.array_equal(self.matrix, other.matrix)
                 and self.creases.same(other.creases) and np.array_equal(self.border, other.border)
-                and self.around.same(other.around))
+                and self.around.same(other.around) and have_same_share(self, other))
+
+
+def have_same_share(one: Patch, other: Patch) -> bool:
+    """Returns whether the vertices of two patches have the same shares of the limit."""
+    if one.share is None or other.share is None:
+        return one.share is other.share
+    return np.array_equal(one.share, other.share)
 
 
 def compute_bounds(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -37,6 +37,7 @@ class BrushedPatch:
         self.frame = live_optimizer.compute_image_frame(patch, view)
         self.xy = patch.V @ self.frame[:2].T
         self.move = np.zeros(len(patch.V))
+        self.share = np.tile([-1.0, 1.0], (len(patch.V), 1)) if patch.share is None else patch.share
         corners = self.xy[patch.F]
         self.edge = float(np.sqrt(np.mean(np.sum((corners - np.roll(corners, 1, axis=1))**2, axis=2))))
         symmetric = patch.mirror is not None and not patch.mirror.image and choose_formulation(patch, view).is_symmetric
@@ -59,7 +60,7 @@ class BrushedPatch:
         if self.partner is not None:
             image = added[self.partner]
             added = np.where((added != 0.0) & (image != 0.0), 0.5, 1.0) * (added + image)
-        self.move = np.clip(self.move + added, -brush.limit, brush.limit)
+        self.move = np.clip(self.move + added, *(brush.limit * self.share.T))
         return True
 
     def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
@@ -91,9 +92,10 @@ class BrushedPatch:
         start = optimizer.heights
         optimizer.solve(targets, gradient_tolerance=TOLERANCE)
         move = optimizer.heights - start
-        if np.abs(before + move).max() > brush.limit:
+        lowest, highest = brush.limit * self.share[vertices].T
+        if (before + move < lowest).any() or (before + move > highest).any():
             optimizer.reset()
-            ends = np.minimum(-brush.limit - before, 0.0), np.maximum(brush.limit - before, 0.0)
+            ends = np.minimum(lowest - before, 0.0), np.maximum(highest - before, 0.0)
             optimizer.solve(targets, gradient_tolerance=TOLERANCE, limit=np.column_stack(ends))
             move = optimizer.heights - start
         return move

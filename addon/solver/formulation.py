@@ -73,6 +73,10 @@ class Formulation:
         """Returns the surroundings of all that is solved."""
         return self.patch.around
 
+    def choose_share(self) -> np.ndarray | None:
+        """Returns each solved vertex's share of the limit, as Patch.share has it."""
+        return self.patch.share
+
     def choose_edges(self, border: str) -> dict[str, "str | np.ndarray | tuple[np.ndarray, np.ndarray] | None"]:
         """Returns what holds at the border as arguments of the native module."""
         codes = self.choose_border(border)
@@ -136,7 +140,7 @@ class Formulation:
         """Calls the native press of Smooth; raises the native module's errors."""
         positions, told = native.reflines.smooth_panel(
             self.patch.V, self.patch.F, **self.choose_press_directions(), fixed=self.hold_marked_creases(),
-            **self.choose_edges(border), **settings)
+            **self.choose_edges(border), limit_share=self.choose_share(), **settings)
         return Press(positions, told.stray, told)
 
 
@@ -155,6 +159,14 @@ class SymmetricFormulation(Formulation):
         """Returns the border; of two mirror images the firmer one holds for both, since their moves are averaged."""
         codes = fill_border(self.patch.border, border)
         return codes if isinstance(codes, str) else np.maximum(codes, codes[self.patch.mirror.partner])
+
+    def choose_share(self) -> np.ndarray | None:
+        """Returns the shares; of two mirror images the smaller one holds for both."""
+        own = self.patch.share
+        if own is None:
+            return None
+        image = own[self.patch.mirror.partner]
+        return np.column_stack([np.maximum(own[:, 0], image[:, 0]), np.minimum(own[:, 1], image[:, 1])])
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         move = optimizer.positions - self.patch.V
@@ -187,6 +199,10 @@ class JoinedFormulation(Formulation):
         own = self.patch.border
         return fill_border(np.append(own, own[partner[len(own):]]), border)
 
+    def choose_share(self) -> np.ndarray | None:
+        own = self.patch.share
+        return None if own is None else np.concatenate([own, own[self.join()[2][len(own):]]])
+
     def read_around(self) -> Surroundings:
         around, matrix = self.patch.around, self.patch.matrix
         _, _, partner = self.join()
@@ -217,7 +233,8 @@ class JoinedFormulation(Formulation):
         own = self.hold_marked_creases()
         held = np.append(own, own[partner[len(own):]])
         positions, told = native.reflines.smooth_panel(V, F, **self.choose_press_directions(), fixed=held,
-                                                       **self.choose_edges(border), **settings)
+                                                       **self.choose_edges(border),
+                                                       limit_share=self.choose_share(), **settings)
         return Press(self.average_images(positions - V, partner), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
@@ -248,6 +265,15 @@ class CageFormulation(Formulation):
         added = (image >= 0) & ~np.isin(image, index)
         own[image[added]] = self.patch.border[added]
         return fill_border(own, border)
+
+    def choose_share(self) -> np.ndarray | None:
+        if self.patch.share is None:
+            return None
+        share = np.tile([-1.0, 1.0], (len(self.patch.cage.V), 1))
+        image = self.patch.cage.partner[self.patch.index]
+        share[image[image >= 0]] = self.patch.share[image >= 0]
+        share[self.patch.index] = self.patch.share
+        return share
 
     def build(self, border: str, progress: "native.Progress | None", *, sparse: bool,
               held: np.ndarray | None = None) -> "native.CageOptimizer":
@@ -292,7 +318,8 @@ class CageFormulation(Formulation):
         arguments = cage.build_arguments(self.is_symmetric)
         arguments["limit_surface"] = arguments.pop("limit")
         positions, told = native.reflines.smooth_cage_panel(**arguments, **self.choose_press_directions(),
-                                                            border=self.choose_border(border), **settings)
+                                                            border=self.choose_border(border),
+                                                            limit_share=self.choose_share(), **settings)
         return Press(self.patch.V + (positions - cage.V)[self.patch.index], self.spread_to_triangles(told.stray), told,
                      told.largest_control_move)
 

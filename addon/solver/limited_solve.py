@@ -4,7 +4,9 @@ import numpy as np
 from .. import native
 from ..model.cage import CagePatch
 from ..model.patch import Patch
+from ..model.refusal import Refusal
 from ..model.solution import SolveReport, SolveSettings
+from ..model.view import View
 from .formulation import choose_formulation
 from .live_optimizer import LiveOptimizer
 
@@ -25,6 +27,9 @@ def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]", limi
 
     A cage, whose vertices are no heights of its surface, and a region of many vertices have all moves scaled instead.
     """
+    share = choose_formulation(live.patch, live.view).choose_share()
+    if share is not None:
+        return solve_within_shares(live, targets, np.where(share == 0.0, 0.0, limit * share), progress)
     report = live.optimizer.solve(targets, progress=progress)
     largest = choose_formulation(live.patch, live.view).measure_largest_move(live.optimizer, report)
     if largest <= limit or report.termination == "cancelled":
@@ -35,6 +40,30 @@ def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]", limi
     move = report.largest_move * limit / largest
     return SolveReport(report.termination, report.message, report.iterations, report.seconds, report.unknowns, move,
                        beyond)
+
+
+def solve_within_shares(live: LiveOptimizer, targets: "list[native.Target]", ranges: np.ndarray,
+                        progress: "native.Progress | None") -> "native.Report":
+    """Minimizes with a lowest and a highest move for each vertex (#V x 2)."""
+    name = live.patch.name
+    if not ranges.any():
+        raise Refusal(f"{name}: no vertex may move: the vertex group of its limit has no weight here")
+    if isinstance(live.patch, CagePatch) or np.count_nonzero(live.optimizer.free) > MOST_BOUNDED:
+        raise Refusal(f"{name}: moves one way, and limits by a vertex group, are only for meshes of up to "
+                      f"{MOST_BOUNDED} vertices in the region, and for Smooth with the automatic length: choose Both "
+                      "Ways and no group")
+    return live.optimizer.solve(targets, limit=ranges, progress=progress)
+
+
+def clip_to_shares(patch: Patch, view: View, positions: np.ndarray, limit: float) -> np.ndarray:
+    """Returns positions (#V x 3) with each vertex's move along the view cut to its share of the limit, to show a drag:
+    its last solve finds the shape within them.
+    """
+    if patch.share is None:
+        return positions
+    axis = np.asarray(view.view_direction) / np.linalg.norm(view.view_direction)
+    move = (positions - patch.V) @ axis
+    return positions + (np.clip(move, *(limit * patch.share.T)) - move)[:, None] * axis
 
 
 def scale_to_limit(optimizer: "native.ShapeOptimizer", largest_move: float, limit: float) -> int:

@@ -19,6 +19,7 @@ SETTINGS = (
     ("bpy.types.reflinesscene.light*", "#view-and-light"),
     *((f"bpy.types.reflinesscene.{name}", "#region") for name in ("border", "show_borders", "solve_for", "result")),
     ("bpy.types.reflinesobject.crease*", "#region"),
+    ("bpy.types.reflinesobject.limit*", "#region"),
     ("bpy.types.reflinespull.*", "#reflines.pull_line"),
     ("bpy.types.reflinesbrush.*", "#reflines.fair_brush"),
     ("bpy.types.reflineshandles.*", "#reflines.pull_line"),

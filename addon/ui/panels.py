@@ -97,6 +97,8 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         ob = context.view_layer.objects.active
         if ob is not None and ob.type == 'MESH':
             self.draw_borders(layout, context.scene.reflection_lines)
+            layout.prop(ob.reflection_lines, "limit_side")
+            layout.prop_search(ob.reflection_lines, "limit_group", ob, "vertex_groups")
             self.draw_creases(layout, ob.reflection_lines)
         if ob is not None and ob.reflection_lines.is_cage():
             layout.prop(context.scene.reflection_lines, "solve_for")

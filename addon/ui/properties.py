@@ -29,6 +29,12 @@ CREASES = (
     ('NONE', "None", "No edge: the lines run across all of them"),
 )
 
+LIMIT_SIDES = (
+    ('BOTH', "Both Ways", "Up to the limit towards the view and away from it"),
+    ('OUTWARD', "Only Outward", "Only towards the view: material is added, none is taken away"),
+    ('INWARD', "Only Inward", "Only away from the view: material is taken away, none is added"),
+)
+
 CREASE_MARKS = (
     ('SHARP', "Sharp", "Edges marked as sharp"),
     ('CREASE', "Crease", "Edges with a crease for the Subdivision Surface"),
@@ -158,6 +164,10 @@ class ReflinesRun(bpy.types.PropertyGroup):
 
 class ReflinesObject(bpy.types.PropertyGroup):
     report: PointerProperty(type=ReflinesReport)
+    limit_side: EnumProperty(name="Moves", items=LIMIT_SIDES, default='BOTH',
+                             description="Which way this object's vertices may move along the view")
+    limit_group: StringProperty(name="Limit By", description="Vertex group of this object whose weights are the shares "
+                                "of the limit: 0 holds a vertex, 1 lets it move as far as Limit says")
     creases: EnumProperty(name="Creases", items=CREASES, default='AUTOMATIC',
                           description="Which edges of this object are held, with the lines solved on each side")
     crease_marks: EnumProperty(name="Marks", items=CREASE_MARKS, default={'SHARP', 'CREASE'}, options={'ENUM_FLAG'},

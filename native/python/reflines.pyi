@@ -188,6 +188,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  length: float | None = None,                       # size of the flaws; None: the diagonal / 14
                  strength: float = 1.0,                             # share of the move that is made, 0 to 1
                  limit: float | None = None,                        # largest move along the view; None: length / 20
+                 limit_share: np.ndarray | None = None,             # #V x 2 shares of it: lowest -1 to 0, highest 0 to 1
                  symmetric: bool = True,                            # what one half of a symmetric panel has alone is a flaw
                  progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
     """Takes flaws (noise, ripples, dents) out of a panel and leaves its design alone: the whole press of Smooth, with all its
@@ -205,6 +206,7 @@ def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np
                       lights: Literal["crossed", "single"] = "crossed", length: float | None = None,
                       strength: float = 1.0,
                       limit: float | None = None,          # largest move along the view, of the cage and so of its surface
+                      limit_share: np.ndarray | None = None,  # #V x 2, of the cage
                       symmetric: bool = True,
                       progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
     """Does what smooth_panel does for the cage of a subdivision surface: flaws are looked for in the surface, and the cage's

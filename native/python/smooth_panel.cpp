@@ -22,6 +22,8 @@ namespace {
 
 const std::map<std::string, Lights> kLights = {{"crossed", Lights::kCrossed}, {"single", Lights::kSingle}};
 
+using Shares = std::optional<PlanePositions>;  // #V x 2, lowest and highest
+
 // Refuses a given length that is not positive: in the C++ options 0 means automatic.
 double given(const std::optional<double>& length, const char* name) {
   if (length && !(*length > 0))
@@ -30,12 +32,14 @@ double given(const std::optional<double>& length, const char* name) {
 }
 
 SmoothPanelOptions options_of(const std::string& lights, const std::optional<double>& length, double strength,
-                              const std::optional<double>& limit, bool symmetric, std::shared_ptr<Progress> progress) {
+                              const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
+                              std::shared_ptr<Progress> progress) {
   SmoothPanelOptions options;
   options.lights = find_named(kLights, lights, "choice of lights");
   options.length = given(length, "The length");
   options.strength = strength;
   options.limit = given(limit, "The limit");
+  if (limit_share) options.limit_share = {limit_share->col(0), limit_share->col(1)};
   options.symmetric = symmetric;
   options.progress = std::move(progress);
   return options;
@@ -55,9 +59,9 @@ py::tuple run_unlocked(const Press& press) {
 py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
                       const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
                       const Around& around, const std::string& lights, const std::optional<double>& length,
-                      double strength, const std::optional<double>& limit, bool symmetric,
+                      double strength, const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
                       std::shared_ptr<Progress> progress) {
-  SmoothPanelOptions options = options_of(lights, length, strength, limit, symmetric, std::move(progress));
+  SmoothPanelOptions options = options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   options.around = surroundings_of(around);
@@ -71,9 +75,10 @@ py::tuple smooth_cage(const Positions& V, const Indices& face_offsets, const Ind
                       int level, const std::string& scheme, const std::string& boundary, const Indices& creases,
                       const Numbers& crease_sharpness, const Indices& corners, const Numbers& corner_sharpness,
                       bool limit_surface, const std::string& lights, const std::optional<double>& length,
-                      double strength, const std::optional<double>& limit, bool symmetric,
+                      double strength, const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
                       std::shared_ptr<Progress> progress) {
-  const SmoothPanelOptions options = options_of(lights, length, strength, limit, symmetric, std::move(progress));
+  const SmoothPanelOptions options =
+      options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions cage_options = cage_options_of(region, border, V.rows(), fixed, partner);
@@ -107,7 +112,8 @@ void bind_smooth_panel(py::module_& module) {
              py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
              py::arg("around") = py::none(), py::arg("lights") = "crossed", py::arg("length") = py::none(),
              py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
-             py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
+             py::arg("limit_share") = py::none(), py::arg("symmetric") = defaults.symmetric,
+             py::arg("progress") = py::none());
   const SubdivisionOptions subdivision;
   module.def("smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
              py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),
@@ -116,8 +122,8 @@ void bind_smooth_panel(py::module_& module) {
              py::arg("creases") = Indices(), py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
              py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
              py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("strength") = defaults.strength,
-             py::arg("limit") = py::none(), py::arg("symmetric") = defaults.symmetric,
-             py::arg("progress") = py::none());
+             py::arg("limit") = py::none(), py::arg("limit_share") = py::none(),
+             py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
 }
 
 }  // namespace reflines

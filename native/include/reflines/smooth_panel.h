@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reflines/cage_optimizer.h"
+#include "reflines/move_limit.h"
 #include "reflines/progress.h"
 #include "reflines/report.h"
 #include "reflines/shape_optimizer.h"
