@@ -1,7 +1,8 @@
-"""What tools ask for is what their settings say: density along or across the lines, lines a unit, and fall-offs."""
+"""What tools ask for is what their settings say: density along or across the lines, lines a unit, fall-offs, greys."""
 import bpy
 import numpy as np
 import pytest
+from reflection_lines.bridge import image_pixels
 from reflection_lines.native import reflines
 from reflection_lines.targets import direction, falloff
 
@@ -72,3 +73,10 @@ def test_the_influence_is_the_curves_at_the_distance_from_the_centre(surface) ->
     t = np.clip(1.0 - away, 0.0, 1.0)
     assert np.abs(influence - 0.8 * t * t * (3.0 - 2.0 * t)).max() < 1e-4
     assert influence.max() > 0.7 and influence.min() == 0.0
+
+
+def test_colours_are_weighed_as_the_eye_does() -> None:
+    """Red, green and blue of ITU-R BT.709; white is 1."""
+    image = bpy.data.images.new("Colours", 4, 1, float_buffer=True)
+    image.pixels.foreach_set(np.array([1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 1, 1, 1, 1], np.float32))
+    assert image_pixels.read_grey(image)[0] == pytest.approx([0.2126, 0.7152, 0.0722, 1.0])

@@ -12,6 +12,7 @@ import sys
 import time
 import tomllib
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -58,7 +59,8 @@ def environment() -> dict[str, str]:
     user = COPY / "build/blender_user"
     shutil.rmtree(user, ignore_errors=True)
     user.mkdir(parents=True)
-    return os.environ | {"PYTHONPATH": str(COPY / "addon"), "BLENDER_USER_RESOURCES": str(user),
+    return os.environ | {"PWD": str(COPY),  # by which Blender resolves relative paths
+                         "PYTHONPATH": str(COPY / "addon"), "BLENDER_USER_RESOURCES": str(user),
                          "XDG_CACHE_HOME": str(user / "cache"), "LIBGL_ALWAYS_SOFTWARE": "1",
                          "CCACHE_BASEDIR": str(COPY), "CCACHE_NOHASHDIR": "1"}
 
@@ -108,25 +110,24 @@ def judge(mutant: Mutant) -> str:
         path.write_text(sound)
 
 
-def sound_tests(mutants: list[Mutant]) -> list[str]:
-    """Tests that pass without a fault; others find none."""
-    log, good = COPY / "build" / "sound.log", []
-    for test in sorted({mutant.test for mutant in mutants}):
-        if builds(test, log, module=False) and runs(command_of(test), log):
-            good.append(test)
-        else:
-            print(f"{test} fails without a fault:\n{log.read_text()[-3000:]}", flush=True)
-    return good
+@cache
+def is_sound(test: str) -> bool:
+    """Whether a test passes without a fault: another finds none."""
+    log = COPY / "build" / "sound.log"
+    sound = builds(test, log, module=False) and runs(command_of(test), log)
+    if not sound:
+        print(f"{test} fails without a fault:\n{log.read_text()[-3000:]}", flush=True)
+    return sound
 
 
 def main() -> int:
     mutants = read_mutants(sys.argv[1:])
     copy_project()
     (COPY / "build").mkdir(exist_ok=True)
-    good, found = sound_tests(mutants), 0
+    found = 0
     for mutant in mutants:
         start = time.monotonic()
-        wrong = judge(mutant) if mutant.test in good else f"{mutant.test} fails without it"
+        wrong = judge(mutant) if is_sound(mutant.test) else f"{mutant.test} fails without it"
         found += not wrong
         print(f"{mutant.what} ({mutant.file}): {wrong or 'found'} ({time.monotonic() - start:.0f} s)", flush=True)
     print(Counts(found, len(mutants) - found, 0))

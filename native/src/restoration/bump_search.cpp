@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reflection/weighted_median.h"
+#include "restoration/grid_cell.h"
 
 namespace reflines {
 namespace {
@@ -26,9 +27,6 @@ constexpr double kOutlier = 3.0;                      // medians of the misfit
 constexpr double kInliers = 0.5, kCoreInliers = 0.7;  // of the area: else the disk is no good surface with a bump
 
 using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-
-// The farthest cell from the origin: what lies beyond, as a broken mesh's vertices may, shares it.
-constexpr double kFarthestCell = 1e9;
 
 // The samples in square cells, for disks of one size.
 class DiskIndex {
@@ -60,11 +58,7 @@ class DiskIndex {
   }
 
  private:
-  int find_cell(double place) const {
-    const double cell = std::floor(place / cell_);
-    return static_cast<int>(cell > -kFarthestCell ? std::min(cell, kFarthestCell) : -kFarthestCell);  // also of NaN
-  }
-  std::pair<int, int> key(const Vector2& p) const { return {find_cell(p.x()), find_cell(p.y())}; }
+  std::pair<int, int> key(const Vector2& p) const { return find_grid_cell(p, cell_); }
   const HessianSamples& samples_;
   double cell_;
   std::map<std::pair<int, int>, std::vector<int>> cells_;
@@ -166,8 +160,7 @@ Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSea
 PlanePositions thin(const PlanePositions& seeds, double spacing) {
   std::map<std::pair<int, int>, int> first;
   for (int s = 0; s < seeds.rows(); ++s) {
-    first.try_emplace(
-        {static_cast<int>(std::floor(seeds(s, 0) / spacing)), static_cast<int>(std::floor(seeds(s, 1) / spacing))}, s);
+    first.try_emplace(find_grid_cell(seeds.row(s), spacing), s);
   }
   PlanePositions result(static_cast<Eigen::Index>(first.size()), 2);
   Eigen::Index row = 0;

@@ -1,6 +1,6 @@
 #include "restoration/disk_mean.h"
 
-#include <cmath>
+#include "restoration/grid_cell.h"
 
 namespace reflines {
 
@@ -9,9 +9,7 @@ DiskMean::DiskMean(PlanePositions points, Vector weight, double radius)
   for (Eigen::Index p = 0; p < points_.rows(); ++p) cells_[cell_of(p)].push_back(static_cast<int>(p));
 }
 
-std::pair<int, int> DiskMean::cell_of(Eigen::Index p) const {
-  return {static_cast<int>(std::floor(points_(p, 0) / radius_)), static_cast<int>(std::floor(points_(p, 1) / radius_))};
-}
+std::pair<int, int> DiskMean::cell_of(Eigen::Index p) const { return find_grid_cell(points_.row(p), radius_); }
 
 double DiskMean::mean_at(Eigen::Index p, const Vector& values) const {
   double sum = 0, weights = 0;
