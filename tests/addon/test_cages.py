@@ -4,7 +4,7 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 import pytest
-from reflection_lines.bridge import viewport_cage
+from reflection_lines.bridge import read_cage, viewport_cage
 from reflection_lines.overlay import solve_maps
 from reflection_lines.state import solve_history
 
@@ -121,6 +121,19 @@ def test_transforms_do_not_matter(name: str) -> None:
         moves.append(scenes.world(ob) - before)
     assert np.abs(moves[0]).max() > 1e-3
     assert np.abs(moves[0] - moves[1]).max() < 5e-5
+
+
+@pytest.mark.parametrize("crease", [0.5, 1.0])
+def test_a_crease_is_as_sharp_as_blender_makes_it(crease: float) -> None:
+    """Ten times its square, on its edges and on no others."""
+    ob = scenes.panel(cells=CELLS)
+    add_subdivision(ob)
+    crease_row(ob, crease)
+    faces = np.ones(len(ob.data.polygons), dtype=bool)
+    cage = read_cage.read_cage(ob.data, faces, np.eye(4), ob.modifiers[0], None, -1, scenes.positions(ob))
+    assert len(cage.creases) == CELLS
+    assert np.abs(cage.V[cage.creases][:, :, 1]).max() < 1e-6
+    assert cage.sharpness == pytest.approx(np.full(CELLS, 10.0 * crease**2))
 
 
 def test_creases_are_the_modifiers() -> None:
