@@ -133,7 +133,7 @@ class SolveJob:
                     if request.lines:
                         wanted.measure(follower)  # for the numbers of each handle
                 shown = choose_formulation(patch, start.view).read_positions(follower)
-                positions.append(clip_to_shares(patch, start.view, shown, choose_limit(patch, request.settings)))
+                positions.append(clip_to_shares(patch, start.view, shown, choose_limit(patch, request.settings[which])))
         if request.lines:
             return SolveOutcome(request, tuple(positions), lines=self.read_lines())
         gain = self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
