@@ -13,7 +13,7 @@ Array = np.ndarray
 CELLS = 400       # of the raster that tells what is seen, along the longer side
 SEEN = 0.01       # of the body's length: what lies deeper below the nearest face of a cell is hidden
 TURNED = np.cos(np.radians(45.0))
-VISIBLE = 1e-3    # of the unevenness: nobody sees less
+VISIBLE = 1e-4    # of the unevenness: nobody sees less
 
 
 @dataclass(frozen=True)
