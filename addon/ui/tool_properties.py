@@ -55,12 +55,13 @@ LIGHTS = (
     ('SINGLE', "This Light", "Only the light as it is"),
 )
 SAVED = {'options': {'SKIP_SAVE'}}
+# With the numbers that files hold: a new border gets a new one.
 BORDERS = (
     ('curvature', "Curvature", "As Clamped, and the lines run on from the faces beside the region without a kink: "
-     "their curvature is continued"),
-    ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly"),
-    ('fixed', "Fixed", "Border vertices stay; the slope across the border may change"),
-    ('free', "Free", "Border vertices may move along the view, as the rest does"),
+     "their curvature is continued", 'NONE', 3),
+    ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly", 'NONE', 0),
+    ('fixed', "Fixed", "Border vertices stay; the slope across the border may change", 'NONE', 1),
+    ('free', "Free", "Border vertices may move along the view, as the rest does", 'NONE', 2),
 )
 
 
