@@ -22,7 +22,7 @@ of selected faces it is set at their rim"""
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """Returns the tooltip of the button for one border."""
-        return next(about for name, _, about in (*BORDERS, UNSET) if name == properties.border)
+        return next(item[2] for item in (*BORDERS, UNSET) if item[0] == properties.border)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -37,7 +37,7 @@ of selected faces it is set at their rim"""
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
-        label = next(label for name, label, _ in (*BORDERS, UNSET) if name == self.border)
+        label = next(item[1] for item in (*BORDERS, UNSET) if item[0] == self.border)
         told = (f"{name}: {count} vertices" for name, count in counts.items() if count)
         self.report({'INFO'}, f"Border {label}, {'; '.join(told)}")
         return {'FINISHED'}
