@@ -45,7 +45,7 @@ def test_search_finds_stripes_by_the_trades_words(driver: window.Window) -> Step
     stripes.show = False
     yield from search(driver, "zebra")
     assert stripes.show
-    for text, mode in (("isophote", 'ISOPHOTE'), ("highlight", 'HIGHLIGHT'), ("reflection lines", 'REFLECTION')):
+    for text, mode in (("isophote", 'ISOPHOTE'), ("highlight lines", 'HIGHLIGHT'), ("reflection lines", 'REFLECTION')):
         yield from search(driver, text)
         print(text, stripes.mode, flush=True)
         if text != "reflection lines":
