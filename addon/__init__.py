@@ -36,7 +36,7 @@ NAMES = (
     "bridge.warp_lattice", "bridge.view_camera", "bridge.facing",
     "solver.formulation", "solver.live_optimizer", "solver.limited_solve", "solver.turned_faces", "solver.remarks",
     "solver.solve",
-    "solver.automatic_smooth", "solver.brush", "solver.panel_check",
+    "solver.automatic_smooth", "solver.brush", "solver.brushed_cage", "solver.panel_check",
     "ui.rows", "ui.automatic_values", "ui.tool_properties", "ui.stripe_properties",
     "ui.handle_properties", "ui.check_properties", "ui.properties",
     "state.last_checks", "state.last_panels", "state.optimizer_cache", "state.solve_history", "state.persistence",

@@ -9,7 +9,8 @@ from ..bridge import facing, read_mesh, screen_surface, write_mesh
 from ..bridge.write_mesh import EditVertices
 from ..model.line_surface import LineState, LineSurface
 from ..model.patch import Patch
-from ..solver.brush import Brush, BrushedPatch
+from ..solver.brush import Brush
+from ..solver.brushed_cage import take_under_brush
 
 SPACING = 0.25  # of the brush's radius, from dab to dab
 
@@ -19,8 +20,9 @@ class BrushStroke:
 
     def __init__(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch, border: str) -> None:
         self.patch, self.area = patch, context.area
-        self.brushed = BrushedPatch(patch, facing.read_patch_view(context.scene, patch), border)
-        surface = LineSurface(LineState(patch.V, np.zeros(len(patch.V))), patch.F, self.brushed.frame)
+        self.brushed = take_under_brush(patch, facing.read_patch_view(context.scene, patch), border)
+        V, F = self.brushed.surface
+        surface = LineSurface(LineState(V, np.zeros(len(V))), F, self.brushed.frame)
         self.surface, self.screen = surface, screen_surface.ScreenSurface(surface, context.area)
         self.start = self.shown = patch.round_start_positions()
         self.counts = read_mesh.count_elements(ob)

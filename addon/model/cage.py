@@ -30,6 +30,33 @@ class Cage:
     def same(self, other: "Cage") -> bool:
         return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
 
+    def find_vertices(self, faces: np.ndarray) -> np.ndarray:
+        """Returns the vertices of faces (#faces, bool): #V, bool."""
+        found = np.zeros(len(self.V), dtype=bool)
+        found[self.corners[np.repeat(faces, self.sizes)]] = True
+        return found
+
+    def find_faces(self, vertices: np.ndarray) -> np.ndarray:
+        """Returns the faces that have one of the vertices (#V, bool): #faces, bool."""
+        return np.logical_or.reduceat(vertices[self.corners], np.cumsum(self.sizes) - self.sizes)
+
+    def cut_out(self, window: np.ndarray) -> tuple["Cage", np.ndarray]:
+        """Cuts out the faces around a window (#faces, bool), on which its surface depends. Returns the cage, whose
+        region is the window and which is mirrored nowhere, and the vertices behind its own.
+        """
+        kept = self.find_faces(self.find_vertices(window))
+        vertices = np.flatnonzero(self.find_vertices(kept))
+        number = np.full(len(self.V), -1)
+        number[vertices] = np.arange(len(vertices))
+        sizes, corners = self.sizes[kept], number[self.corners[np.repeat(kept, self.sizes)]]
+        creases, sharp = number[self.creases], number[self.sharp_corners]
+        edges = np.isin(compute_edge_keys(creases), compute_edge_keys(list_edges(corners, sizes)))
+        edges &= (creases >= 0).all(axis=1)
+        own = Cage(self.V[vertices], sizes, corners, window[kept], creases[edges], self.sharpness[edges],
+                   sharp[sharp >= 0], self.corner_sharpness[sharp >= 0], np.full(len(vertices), -1), len(sizes),
+                   self.rules)
+        return own, vertices
+
     def build_arguments(self, symmetric: bool) -> dict[str, Option | np.ndarray | None]:
         """Builds the arguments of reflines.CageOptimizer.
 
@@ -79,3 +106,16 @@ def reverse_faces(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
     ends = starts + np.repeat(sizes, sizes) - 1
     return corners[starts + ends - np.arange(len(corners))]
+
+
+def list_edges(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """Returns the edges of every face: #corners x 2."""
+    following = np.arange(1, len(corners) + 1)
+    following[np.cumsum(sizes) - 1] -= sizes
+    return np.column_stack([corners, corners[following]])
+
+
+def compute_edge_keys(edges: np.ndarray) -> np.ndarray:
+    """Returns a number for each edge (#E x 2), equal for those of the same two vertices."""
+    low, high = edges.min(axis=1), edges.max(axis=1)
+    return low.astype(np.int64) * 2**32 + high

@@ -1,7 +1,7 @@
 """Fair Brush."""
 import bpy
 
-from ..bridge import modifiers, scene_objects, units
+from ..bridge import scene_objects, units
 from ..interactive.brush_stroke import BrushStroke
 from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
@@ -55,10 +55,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
     def begin_stroke(self, context: bpy.types.Context) -> None:
         self.find_subjects(context)  # refuses where no face is selected
         ob = scene_objects.find_active_object(context)
-        if modifiers.is_cage(ob) and self.solve_for == 'CAGE':
-            raise Refusal(f"{ob.name}: the brush moves the vertices of a mesh, and this one is a cage: use Smooth "
-                          "Lines, or choose Solve for: Mesh in the sidebar")
-        self.solve_for, self.result = 'MESH', 'MESH'
+        self.result = 'MESH'
         patch = self.gather_patch(ob)
         self.subject, self.stroke = ob.name, BrushStroke(context, ob, patch, self.border)
         length = solve.choose_length(patch, context.scene.reflection_lines.length)

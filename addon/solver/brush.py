@@ -1,4 +1,5 @@
-"""Dabs of Fair Brush: smoother lines within a circle of the image plane, with the rest of the region held."""
+"""Dabs of Fair Brush on a mesh: smoother lines within a circle of the image plane, with the rest of the region held.
+"""
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,30 +27,25 @@ class Brush:
     families: int    # 2: the crossed lines are smoothed as well
 
 
-class BrushedPatch:
-    """A patch under a brush: its moves along the view since the stroke began, which dabs add to."""
+class BrushedRegion:
+    """A region under a brush: the moves of its vertices along the view since the stroke began, which dabs add to."""
 
-    def __init__(self, patch: Patch, view: View, border: str) -> None:
-        """Takes the border of the region, which holds below the brush, too. A seam of a Mirror modifier is clamped."""
-        codes = Formulation(patch, view).choose_border(border)
-        self.patch, self.view = patch, view
-        self.border = np.full(len(patch.V), CODES[codes]) if isinstance(codes, str) else codes
-        self.frame = live_optimizer.compute_image_frame(patch, view)
-        self.xy = patch.V @ self.frame[:2].T
-        self.move = np.zeros(len(patch.V))
-        self.share = np.tile([-1.0, 1.0], (len(patch.V), 1)) if patch.share is None else patch.share
-        corners = self.xy[patch.F]
-        self.edge = float(np.sqrt(np.mean(np.sum((corners - np.roll(corners, 1, axis=1))**2, axis=2))))
-        symmetric = patch.mirror is not None and not patch.mirror.image and choose_formulation(patch, view).is_symmetric
-        self.partner = patch.mirror.partner if symmetric else None
+    def __init__(self, V: np.ndarray, frame: np.ndarray, share: np.ndarray | None, partner: np.ndarray | None) -> None:
+        """Takes the vertices that can move (#V x 3), the image plane's axes and the direction to the viewer (3 x 3),
+        the shares of the limit (#V x 2) where there are any, and the vertices' mirror images where they are kept.
+        """
+        self.start, self.frame, self.partner = V, frame, partner
+        self.xy = V @ frame[:2].T
+        self.move = np.zeros(len(V))
+        self.share = np.tile([-1.0, 1.0], (len(V), 1)) if share is None else share
 
     @property
-    def positions(self) -> np.ndarray:
-        """The present positions: #V x 3, world space."""
-        return self.patch.V + self.move[:, None] * self.frame[2]
+    def moved(self) -> np.ndarray:
+        """The present places of all that can move: #V x 3, world space."""
+        return self.start + self.move[:, None] * self.frame[2]
 
     def dab(self, point: np.ndarray, brush: Brush) -> bool:
-        """Smooths the lines around a point (3, world space), on both sides where the patch stays symmetric. Returns
+        """Smooths the lines around a point (3, world space), on both sides where the region stays symmetric. Returns
         False where the circle has too few vertices that can move.
         """
         found = self.solve(self.frame[:2] @ point, brush)
@@ -65,6 +61,34 @@ class BrushedPatch:
 
     def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
         """Solves around a place of the image plane; returns the vertices and their further moves."""
+        raise NotImplementedError
+
+
+class BrushedPatch(BrushedRegion):
+    """A patch of a mesh under a brush."""
+
+    def __init__(self, patch: Patch, view: View, border: str) -> None:
+        """Takes the border of the region, which holds below the brush, too. A seam of a Mirror modifier is clamped."""
+        codes = Formulation(patch, view).choose_border(border)
+        self.patch, self.view = patch, view
+        self.border = np.full(len(patch.V), CODES[codes]) if isinstance(codes, str) else codes
+        symmetric = patch.mirror is not None and not patch.mirror.image and choose_formulation(patch, view).is_symmetric
+        super().__init__(patch.V, live_optimizer.compute_image_frame(patch, view), patch.share,
+                         patch.mirror.partner if symmetric else None)
+        corners = self.xy[patch.F]
+        self.edge = float(np.sqrt(np.mean(np.sum((corners - np.roll(corners, 1, axis=1))**2, axis=2))))
+
+    @property
+    def positions(self) -> np.ndarray:
+        """The present positions of the patch: #V x 3, world space."""
+        return self.moved
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """The surface at the start of the stroke, on which the mouse is found: vertices and triangles."""
+        return self.patch.V, self.patch.F
+
+    def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
         apart = np.linalg.norm(self.xy - place, axis=1)
         near = apart < brush.radius + max(CONTEXT * brush.radius, FEWEST_EDGES * self.edge)
         corners = self.patch.F[near[self.patch.F].all(axis=1)]

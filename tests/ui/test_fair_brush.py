@@ -113,13 +113,31 @@ def test_f_changes_the_size(driver: window.Window) -> Steps:
     end(driver)
 
 
-def test_a_stroke_beside_the_panel_and_one_on_a_cage_change_nothing(driver: window.Window) -> Steps:
+def test_a_stroke_beside_the_panel_changes_nothing(driver: window.Window) -> Steps:
     before = yield from begin(driver)
     yield from paint(driver, (10, 20), (40, 20))
     assert np.array_equal(shown(driver), before)
-    before = yield from begin(driver, cells=16, levels=2)
-    yield from paint(driver, LEFT, RIGHT)
-    assert np.array_equal(shown(driver), before)
+    end(driver)
+
+
+def test_a_stroke_on_a_cage_moves_it_and_escape_restores_every_bit(driver: window.Window) -> Steps:
+    before = yield from begin(driver, cells=24, levels=2)
+    yield from paint(driver, LEFT, RIGHT, hold=True)
+    yield from picture(driver, "fair_brush_cage")
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.3
+    after = shown(driver)
+    moved = np.abs(after - before).max(axis=1) > 0.0
+    assert 10 < moved.sum() < 0.5 * len(moved) and not (after - before)[:, :2].any()
+    yield from undone_and_redone(driver, before, after)
+    kept = scenes.fingerprint(bpy.data.objects["Panel"])
+    yield from paint(driver, LEFT, RIGHT, hold=True)
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) != kept
+    driver.key('ESC')
+    yield 0.3
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.2
+    assert scenes.fingerprint(bpy.data.objects["Panel"]) == kept
     end(driver)
 
 
@@ -135,4 +153,5 @@ def test_the_button_takes_the_tool(driver: window.Window) -> Steps:
 
 window.run(test_a_stroke_smooths_what_it_passes_over_in_one_undo_step, test_strokes_add_up_and_shift_paints_with_less,
            test_escape_restores_every_bit, test_f_changes_the_size,
-           test_a_stroke_beside_the_panel_and_one_on_a_cage_change_nothing, test_the_button_takes_the_tool)
+           test_a_stroke_beside_the_panel_changes_nothing,
+           test_a_stroke_on_a_cage_moves_it_and_escape_restores_every_bit, test_the_button_takes_the_tool)
