@@ -17,7 +17,7 @@ NAMES = (
     "library_copy", "native",
     "model.border", "model.check_table", "model.checked_surface", "model.edit_cage", "model.gain", "model.looks",
     "model.creases", "model.line_curve", "model.mirror", "model.orientation", "model.refusal", "model.surroundings",
-    "model.line_handle",
+    "model.line_handle", "model.nearest_line",
     "model.line_surface", "model.patch", "model.cage",
     "model.solution", "model.surface", "model.triangulation", "model.view",
     "targets.falloff", "targets.crossed", "targets.direction", "targets.fit", "targets.mirror_target",

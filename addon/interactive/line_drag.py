@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..bridge import read_mesh, screen_surface, units
-from ..model import line_handle, line_surface
+from ..model import line_handle, line_surface, nearest_line
 from ..model.line_handle import Handles, LineHandle
 from ..model.line_surface import LineState, LineSurface, Place
 from ..model.patch import Patch
@@ -23,8 +23,11 @@ from .solve_job import SolveOutcome
 
 GRASP = 12.0  # pixels from a dot within which the mouse takes it, times the interface's scale
 RADIUS_STEP, RADIUS_PIXELS = 1.1, 150.0  # factor of a notch of the wheel; pixels that double it
-KEYS_TEXT = ("Drag: pull a line   Alt click, P: pin it   D: draw one   S: straighten   E: follow edge   X: delete   "
-             "M: mute   Wheel, F, 0-9: radius   Shift: finer   Ctrl: back   Ctrl Z: undo   Enter: apply   Esc: cancel")
+PULL_TEXT = "Drag: pull a line   Alt click, P: pin it   D: draw one"
+START_TEXT = "Drag: draw the line at its start   N: the nearest line   D: pull one"
+NEAREST_TEXT = "Drag: draw the nearest line   N: the line at its start   D: pull one"
+KEYS_TEXT = ("S: straighten   E: follow edge   X: delete   M: mute   Wheel, F, 0-9: radius   Shift: finer   "
+             "Ctrl: back   Ctrl Z: undo   Enter: apply   Esc: cancel")
 STROKE_STEP = 4.0  # pixels between two points of a stroke
 
 
@@ -41,6 +44,7 @@ class LineDrag(Drag):
         self.near: int | None = None   # handle under the mouse
         self.dot = 0                   # number of the dot of that handle
         self.draws = tool.draws        # whether a press draws a line
+        self.nearest = tool.nearest    # whether a stroke takes the line that has to change least
         self.stroke: list[Place] = []  # what is being drawn
         self.typed = ""                # radius
         self.hover: Place | None = None  # place under the mouse
@@ -68,6 +72,10 @@ class LineDrag(Drag):
         super().update_request(context, final=final)
         if not final:
             self.request = replace(self.request, lines=True, follows=tuple(each.follow for each in self.request.builds))
+
+    def keep_values(self, settings: bpy.types.PropertyGroup) -> None:
+        """Writes which line strokes took into the scene's settings."""
+        settings.nearest = self.nearest
 
     def take_gain(self, outcome: SolveOutcome) -> None:
         """Takes the lines, which a session shows instead of the gain."""
@@ -182,12 +190,22 @@ class LineDrag(Drag):
     def release(self) -> None:
         """Lets the held handle go; a press that changed nothing leaves no step of history."""
         if self.stroke:
-            self.add_handle(drawn_lines.draw_line(self, self.stroke))
+            drawn = drawn_lines.draw_line(self, self.stroke)
+            self.add_handle(self.take_nearest(drawn) if drawn is not None and self.nearest else drawn)
             self.stroke = []
         elif self.held is not None and self.history and self.history[-1] == self.handles:
             self.history.pop()
         self.held = None
         self.looked = False
+
+    def take_nearest(self, drawn: LineHandle) -> LineHandle:
+        """Returns the handle of the stroke for the line that has to change least to run along it."""
+        theta = np.array([self.surface.read_theta(place, self.state) for place in self.stroke])
+        points = np.array([self.surface.read_point(place, self.state) for place in self.stroke])
+        value = nearest_line.compute_mean_theta(theta, points)
+        closest = self.stroke[int(np.abs(line_surface.wrap(theta - value)).argmin())]
+        source = self.surface.find_level(closest, value, self.surface.start)
+        return replace(drawn, start=self.to_local(self.surface.read_point(source, self.surface.start)))
 
     def find_active(self) -> int | None:
         """Returns the handle that keys work on: the one held or under the mouse, else the last."""
@@ -326,7 +344,8 @@ class LineDrag(Drag):
             value = self.surface.read_theta(self.hover, self.state)
             curves.append(Curve(self.surface.trace(self.hover, self.state, value), handle_marks.HOVER_COLOR))
         dots = tuple(Dot(self.find_dot(self.handles[index].dots[number]), choose_color(self.handles[index]),
-                         index in (self.near, self.held) and number == self.dot) for index, number in self.list_dots())
+                         index in (self.near, self.held) and number == self.dot, self.handles[index].muted)
+                     for index, number in self.list_dots())
         self.marks = Marks(tuple(curves), dots)
         self.area.tag_redraw()
 
@@ -355,7 +374,14 @@ class LineDrag(Drag):
         first = self.problem or (conflicts[0] if conflicts else self.describe_gain(context))
         about = f"   {self.describe_handle(context, index)}" if index is not None and self.surface is not None else ""
         count = f"{len(self.handles)} handle{'s' if len(self.handles) != 1 else ''}"
-        self.show_texts(context, f"{first}   {count}{about}   ({self.tool.bl_label})", KEYS_TEXT)
+        self.show_texts(context, f"{first}   {count}{about}   ({self.tool.bl_label})",
+                        f"{self.describe_press()}   {KEYS_TEXT}")
+
+    def describe_press(self) -> str:
+        """Says what a press does, and the keys that change that."""
+        if not self.draws:
+            return PULL_TEXT
+        return NEAREST_TEXT if self.nearest else START_TEXT
 
     def describe_gain(self, context: bpy.types.Context) -> str:
         """Says the move alone: what is reached is told of each handle."""

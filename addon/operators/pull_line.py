@@ -203,6 +203,8 @@ where a line was pulled to; Enter applies them all"""
             drag.lay_line(LAID[event.type])
         elif event.type == 'D':
             drag.draws = not drag.draws
+        elif event.type == 'N' and drag.draws:
+            drag.nearest = not drag.nearest
         elif event.type == 'M':
             drag.mute_active()
         elif event.type == 'P':

@@ -13,6 +13,7 @@ GHOST_COLOR, PIN_COLOR = (0.75, 0.8, 0.9, 0.6), (0.2, 0.85, 1.0, 1.0)
 RIM_COLOR = (0.05, 0.05, 0.05, 1.0)
 LINE_WIDTH, GHOST_WIDTH = 2.5, 1.5  # pixels
 DOT_RADIUS, RIM = 5.0, 1.5          # pixels, times the interface's scale
+HOLE = 0.6                          # of a hollow dot's radius
 TURN = np.linspace(0.0, 2.0 * np.pi, 25)
 
 Color = tuple[float, float, float, float]
@@ -28,10 +29,11 @@ class Curve:
 
 @dataclass(frozen=True)
 class Dot:
-    """The mark of a handle, which is larger where the mouse can take it."""
+    """The mark of a handle, which is larger where the mouse can take it, and hollow where the handle is muted."""
     point: np.ndarray  # 3, world space
     color: Color
     large: bool = False
+    hollow: bool = False
 
 
 @dataclass(frozen=True)
@@ -74,16 +76,17 @@ def draw_dots(area: bpy.types.Area, read: Callable[[], Marks]) -> None:
         place = location_3d_to_region_2d(context.region, context.region_data, dot.point.tolist())
         if place is not None:
             radius = scale * DOT_RADIUS * (1.4 if dot.large else 1.0)
-            draw_disc(place, radius + RIM * scale, RIM_COLOR)
-            draw_disc(place, radius, dot.color)
+            hole = HOLE * radius if dot.hollow else 0.0
+            draw_ring(place, max(hole - RIM * scale, 0.0), radius + RIM * scale, RIM_COLOR)
+            draw_ring(place, hole, radius, dot.color)
     gpu.state.blend_set('NONE')
 
 
-def draw_disc(place: tuple[float, float], radius: float, color: Color) -> None:
-    rim = np.column_stack([place[0] + radius * np.cos(TURN), place[1] + radius * np.sin(TURN), np.zeros(len(TURN))])
-    middle = np.array([[place[0], place[1], 0.0]])
-    corners = np.concatenate([np.concatenate([middle, rim[k:k + 2]]) for k in range(len(TURN) - 1)])
-    draw_shape('TRIS', corners, color)
+def draw_ring(place: tuple[float, float], inner: float, outer: float, color: Color) -> None:
+    """Draws a ring, which is a disc where its inner radius is 0."""
+    way = np.column_stack([np.cos(TURN), np.sin(TURN), np.zeros(len(TURN))])
+    corners = np.stack([inner * way, outer * way], axis=1).reshape(-1, 3)
+    draw_shape('TRI_STRIP', corners + [place[0], place[1], 0.0], color)
 
 
 def draw_shape(kind: str, points: np.ndarray, color: Color) -> None:

@@ -186,6 +186,7 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
         layout.prop(own, "border")
         layout.operator("reflines.pull_line", icon='VIEW_PAN')
         layout.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
+        rows.draw_switch(layout, own, "nearest")
         pins = layout.row(align=True)
         pins.operator("reflines.pin_lines", icon='PINNED')
         pins.operator("reflines.pin_lines", text="", icon='UNPINNED').unpin = True

@@ -185,6 +185,9 @@ class PullSettings:
     radius: FloatProperty(name="Radius", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
                           description="How far from a new handle lines may move; 0: a third of the region's diagonal, "
                           "at most half its width")
+    nearest: BoolProperty(name="Nearest Line", **SAVED,
+                          description="A stroke of Draw Highlight takes the line that has to change least to run along "
+                          "it, instead of the line at its start")
 
 
 class BrushSettings:

@@ -102,6 +102,9 @@ def test_handles_are_taken_again_muted_and_deleted_and_the_wheel_changes_their_r
         yield 0.1
         yield from settled(driver)
         assert np.abs(shown(driver) - expected).max() < 3e-6
+        dot, = session().marks.dots
+        assert dot.hollow == session().handles[0].muted == (expected is before)
+        yield from picture("muted_handle" if dot.hollow else "handle")
     driver.event('WHEELUPMOUSE', 'PRESS')
     yield 0.1
     assert abs(session().handles[0].radius / first.radius - 1.1) < 1e-9

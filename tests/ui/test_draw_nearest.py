@@ -1,0 +1,82 @@
+"""Draw Highlight with the nearest line in a real window: the stroke takes the line that has to change least."""
+import bpy
+import numpy as np
+
+import window
+from dragging import settled
+from pulling import Steps, applied, missed, move, picture, session, start, taken_back
+
+STROKE = [(270 + 10 * k, 280 + 2 * k) for k in range(13)]  # pixels; it crosses lines, which run from left to right
+
+
+def draw(driver: window.Window, *keys: str) -> Steps:
+    """Begins a session, presses the keys, and draws the stroke."""
+    yield from start(driver, cells=48)
+    for key in keys:
+        driver.key(key)
+        yield 0.1
+    yield from move(driver, *STROKE[0])
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield 0.1
+    for place in STROKE[1:]:
+        yield from move(driver, *place)
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.1
+    yield from settled(driver)
+
+
+def theta_along() -> np.ndarray:
+    """Theta of the shape at the start along the stroke."""
+    view = window.Window().region()
+    places = [session().screen.find_place(view.x + x, view.y + y) for x, y in STROKE]
+    return np.array([session().surface.read_theta(place, session().surface.start) for place in places])
+
+
+def theta_of_handle() -> float:
+    own, = session().handles
+    return session().surface.read_theta(session().find_place(own.start), session().surface.start)
+
+
+def test_the_nearest_line_moves_the_panel_less_than_the_one_at_the_start(driver: window.Window) -> Steps:
+    moves = []
+    for keys in (('D',), ('D', 'N')):
+        yield from draw(driver, *keys)
+        theta, value = theta_along(), theta_of_handle()
+        wanted = theta[0] if len(keys) == 1 else theta.mean()
+        assert abs(value - wanted) < 0.03 * np.ptp(theta), (value, theta)
+        assert missed() < 0.05, session().texts
+        moves.append(session().largest_move)
+        yield from picture("draw_nearest" if len(keys) == 2 else "draw_start")
+        yield from taken_back(driver)
+    assert 1e-5 < moves[1] < 0.9 * moves[0], moves
+
+
+def test_the_status_bar_says_which_line_is_taken_and_enter_keeps_the_choice(driver: window.Window) -> Steps:
+    settings = bpy.context.scene.reflection_lines.pull
+    yield from draw(driver, 'D')
+    assert session().texts[1].startswith("Drag: draw the line at its start   N: the nearest line"), session().texts
+    driver.key('N')
+    yield 0.2
+    assert session().texts[1].startswith("Drag: draw the nearest line   N: the line at its start"), session().texts
+    yield from taken_back(driver)
+    assert not settings.nearest
+    yield from draw(driver, 'D', 'N')
+    yield from applied(driver)
+    assert settings.nearest
+    yield from draw(driver, 'D')
+    assert session().nearest
+    yield from taken_back(driver)
+    settings.property_unset("nearest")
+
+
+def test_n_does_nothing_while_lines_are_pulled(driver: window.Window) -> Steps:
+    yield from start(driver)
+    driver.key('N')
+    yield 0.1
+    assert not session().nearest and session().texts[1].startswith("Drag: pull a line"), session().texts
+    yield from taken_back(driver)
+
+
+window.run(test_the_nearest_line_moves_the_panel_less_than_the_one_at_the_start,
+           test_the_status_bar_says_which_line_is_taken_and_enter_keeps_the_choice,
+           test_n_does_nothing_while_lines_are_pulled)
