@@ -1,4 +1,7 @@
 """The border by segment in Blender: what was set on vertices holds in every tool, and bad attributes are refused."""
+import json
+import sys
+
 import bmesh
 import bpy
 import numpy as np
@@ -49,14 +52,18 @@ def stored(ob: bpy.types.Object) -> np.ndarray:
     return values
 
 
+# Pulls the line in the middle by a quarter of the radius, which reaches beyond the region.
+HANDLES = json.dumps([{"start": (0.0, 0.0, 0.0), "end": (0.0, 0.1, 0.0), "radius": 1.5, "pinned": [], "muted": False}])
+
+
 def run(tool: str) -> set[str]:
     settings = {"smooth": {"length": 0.6}, "press": {}, "direction": {"density": 1.3, "border": "clamped"},
-                "untwist": {"angle": 0.2, "border": "clamped"}}[tool]
+                "untwist": {"angle": 0.2, "border": "clamped"}, "pull_line": {"handles": HANDLES}}[tool]
     name = "smooth" if tool == "press" else tool
     return getattr(bpy.ops.reflines, name)('EXEC_DEFAULT', True, **settings)
 
 
-@pytest.mark.parametrize("tool", ["smooth", "press", "direction", "untwist"])
+@pytest.mark.parametrize("tool", ["smooth", "press", "direction", "untwist", "pull_line"])
 def test_every_tool_obeys_the_segments(tool: str) -> None:
     ob = segmented_panel()
     before = scenes.positions(ob)
@@ -67,6 +74,32 @@ def test_every_tool_obeys_the_segments(tool: str) -> None:
     assert moved[side(15)[4:-4]].any()       # free
     assert not moved[[1 * ROW + k for k in range(5, 12)]].any()  # clamped, as the tool has it
     assert not moved[[2 * ROW + k for k in range(5, 12)]].any()
+
+
+def take_patch(ob: bpy.types.Object) -> tuple[object, object]:
+    """The patch of a panel, and its view."""
+    bridge = sys.modules["reflection_lines"].bridge
+    patch = bridge.gather.gather_patch(ob, 'CAGE', 'MESH')
+    return patch, bridge.facing.read_patch_view(bpy.context.scene, patch)
+
+
+@pytest.mark.parametrize("levels", [0, 2])
+def test_the_brush_obeys_the_segments(levels: int) -> None:
+    """On the mesh, and on the cage, where the next row moves the surface at its border, too."""
+    ob = segmented_panel()
+    if levels:
+        ob.modifiers.new("Subdivision", 'SUBSURF').levels = levels
+    patch, view = take_patch(ob)
+    solver = sys.modules["reflection_lines"].solver
+    under = solver.brushed_cage.take_under_brush(patch, view, "clamped")
+    for x in (-0.75, 0.75):
+        assert under.dab(np.array([x, 0.0, 0.0]), solver.brush.Brush(0.6, 1.0, 0.6, 1.0, 2))
+    moved = np.zeros(len(ob.data.vertices), dtype=bool)
+    moved[patch.index] = (under.positions != patch.V).any(axis=1)
+    assert not moved[side(1)].any()                      # fixed
+    assert moved[side(3 if levels else 2)[3:-3]].any()   # not clamped
+    assert moved[side(15)[5:-5]].any()                   # free
+    assert not moved[[ROW + k for k in range(5, 12)]].any()
 
 
 def test_a_cage_obeys_the_segments() -> None:

@@ -103,6 +103,29 @@ def test_a_handle_near_a_border_that_holds_is_met() -> None:
     assert np.array_equal(session.other.positions[held], session.start.positions[held])
 
 
+FREE, FIXED, CLAMPED = 0, 1, 2
+
+
+def test_a_border_by_segment_holds_in_what_is_shown_and_in_what_is_solved() -> None:
+    """The left side is fixed, the right one free, the others are clamped, and lines are pulled beside each."""
+    points = region("regular")[0][:, :2]
+    side = np.abs(points[:, 1]) < np.abs(points[:, 1]).max() - 1e-9
+    right, left = (side & (np.abs(points[:, 0] - end) < 1e-9) for end in (points[:, 0].max(), points[:, 0].min()))
+    codes = np.where(right, FREE, np.where(left, FIXED, CLAMPED)).astype(np.int32)
+    session, solved = Session("regular", border=codes), Session("regular", border=codes).start
+    step = np.diff(np.unique(points[:, 0].round(9)))[0]
+    beside = side & (np.abs(points[:, 0] - points[:, 0].min() - step) < 1e-9)  # of the fixed side: moves
+    clamped = np.abs(points[:, 1]) > np.abs(points[:, 1]).max() - 1.5 * step
+    handles = [session.pull(0.03, session.start.frame[:2] @ (x, 0.0, 0.0) - session.middle) for x in (-0.6, 0.6)]
+    solved.solve(session.lines.build(handles))
+    assert max(session.follow(handles)) < 0.02
+    for optimizer in (session.other, solved):
+        moved = (optimizer.positions != session.start.positions).any(axis=1)
+        middle_rows = np.abs(points[:, 1]) < 0.2
+        assert not moved[left | clamped & ~right].any()
+        assert moved[right & middle_rows].all() and moved[beside & middle_rows].all()
+
+
 def test_small_regions_and_cages_are_left_to_the_solve() -> None:
     for make in (lambda: reflines.ShapeOptimizer(*mesh("regular"), view_direction=(0, 0, 1), line_direction=(0, 1, 0)),
                  lambda: sample_cages.optimizer(sample_cages.hood())):
