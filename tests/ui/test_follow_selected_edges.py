@@ -13,8 +13,8 @@ MOUSE = (330, 270)
 
 
 def slanted_panel(driver: window.Window) -> Steps:
-    """A panel with its inner faces selected, and beyond them an edge loop that runs aslant. A session that a failed test
-    left is ended."""
+    """A panel with its inner faces selected, and beyond them an edge loop that runs aslant. A session that a failed
+    test left is ended."""
     if is_running():
         yield from taken_back(driver)
     ob = panel(driver, cells=CELLS)
