@@ -58,8 +58,8 @@ def draw_worst() -> None:
     for point in check.worst @ matrix[:3, :3].T + matrix[:3, 3]:
         place = location_3d_to_region_2d(context.region, context.region_data, point.tolist())
         if place is not None:
-            handle_marks.draw_disc(place, scale * (DOT_RADIUS + DOT_RIM), DOT_RIM_COLOR)
-            handle_marks.draw_disc(place, scale * DOT_RADIUS, (*FAIL_COLOR, 1.0))
+            handle_marks.draw_ring(place, 0.0, scale * (DOT_RADIUS + DOT_RIM), DOT_RIM_COLOR)
+            handle_marks.draw_ring(place, 0.0, scale * DOT_RADIUS, (*FAIL_COLOR, 1.0))
 
 
 @bpy.app.handlers.persistent

@@ -1,7 +1,11 @@
-"""The last check is drawn: seams that pass green, others red, and gone when the mesh changes."""
+"""The last check is drawn: seams that pass green, others red, a dot at the worst place, and gone when the mesh changes.
+"""
+import sys
+
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
+from mathutils import Vector
 
 import scenes
 import window
@@ -55,4 +59,23 @@ def test_seams_are_green_or_red(driver: window.Window) -> Steps:
     assert (yield from count_colors(driver, ob)) == (0.0, 0.0)
 
 
-window.run(test_seams_are_green_or_red)
+def test_the_worst_place_has_a_red_dot_with_a_white_rim(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Dotted")
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit_inner(ob, CELLS, INNER)
+        check(driver, 0.0)
+    pictures = []
+    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_PIXEL')
+    driver.redraw()
+    yield 0.5
+    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+    worst = sys.modules["reflection_lines"].state.last_checks.find_check(ob.name).worst[0].tolist()
+    at = location_3d_to_region_2d(driver.region(), driver.region_3d(), ob.matrix_world @ Vector(worst))
+    ways = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]]) / np.sqrt(2.0)  # the seams run across and upwards
+    for radius, color in ((4.0, (255, 38, 26)), (7.5, (255, 255, 255))):
+        x, y = (np.array(at) + radius * ways).round().astype(int).T
+        assert np.abs(pictures[-1][y, x, :3].astype(int) - color).max() < 40, (radius, pictures[-1][y, x, :3])
+
+
+window.run(test_seams_are_green_or_red, test_the_worst_place_has_a_red_dot_with_a_white_rim)
