@@ -73,7 +73,7 @@ def solves(cells: int) -> Times:
     cache = addon("state.optimizer_cache")
     view = addon("bridge.view_and_light").read_scene_view(bpy.context.scene, patch.center)
     first = request(patch, 1.0)
-    solve = milliseconds(lambda: cache.solve_with_cache(patch, view, first.settings, first.builds[0]))
+    solve = milliseconds(lambda: cache.solve_with_cache(patch, view, first.settings[0], first.builds[0]))
     cache.clear_cache()
     job = addon("interactive.solve_job").SolveJob((patch,), (view,), 'clamped')
     ready = milliseconds(lambda: job.run(first))
