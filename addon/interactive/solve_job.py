@@ -177,7 +177,7 @@ class SolveJob:
             with live_optimizer.convert_native_errors(patch):
                 wanted = live_optimizer.build_targets(start, build, settings)
                 length = solve.choose_length(patch, settings.length)
-                numbers.append((start.optimizer.score(length), follower.score(length),
+                numbers.append((start.optimizer.score(length).shift, follower.score(length).shift,
                                 wanted.measure(start.optimizer), wanted.measure(follower)))
         self.measure_seconds = time.perf_counter() - begin
         return Gain(*np.sqrt(np.mean(np.square(numbers), axis=0)).tolist())

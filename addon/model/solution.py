@@ -49,7 +49,7 @@ class SolveReport:
 
 @dataclass(frozen=True)
 class Solution:
-    """The result of one solve of one patch. Scores are degrees."""
+    """The result of one solve of one patch. Scores are degrees, the shifts and turns of native.LineScore."""
     patch: Patch
     positions: np.ndarray  # #V x 3, world space
     report: "native.Report | SolveReport"
@@ -64,6 +64,8 @@ class Solution:
     automatic_length: float = 0.0  # what the length 0 stands for in this patch, world units
     remedy: str = ""  # a border with which more of the target could be reached; empty where there is none
     cage_move: float = 0.0  # largest move of a cage's vertices; its surface, which report tells, moves less
+    turn_before: float = 0.0
+    turn_after: float = 0.0
     automatic_limit: float = 0.0  # what the limit 0 stood for, world units; 0 where it is not known
 
     def to_last_solve(self) -> "LastSolve":

@@ -27,8 +27,8 @@ def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmoot
                  progress: "native.Progress | None" = None) -> Solution:
     """Calls the native press once; raises the native module's errors. `progress` lets another thread watch and cancel.
 
-    All numbers are its own: the score is the unevenness, root mean square over the lights, and the residual how far the
-    field of the light given strays from its smoothed self. After a refusal both are those of the start.
+    All numbers are its own: scores are means over the lights, and the residual is how far the field of the light given
+    strays from its smoothed self. After a refusal both are those of the start.
     """
     begin = time.perf_counter()
     formulation = choose_formulation(patch, seen)
@@ -36,12 +36,13 @@ def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmoot
     told = press.told
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
     report = build_report(told, time.perf_counter() - begin)
-    before, after = told.unevenness_before, told.unevenness_after if told.applied else told.unevenness_before
-    scores, lacks = zip(*((float(np.sqrt(np.mean(np.square(each)))), np.radians(each[0]) / told.length)
-                          for each in (before, after)), strict=True)
-    return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *scores,
+    unevenness = told.unevenness_before, told.unevenness_after if told.applied else told.unevenness_before
+    lacks = (np.radians(each[0]) / told.length for each in unevenness)
+    scores = told.score_before, told.score_after if told.applied else told.score_before
+    shifts, turns = np.mean([[(score.shift, score.turn) for score in each] for each in scores], axis=1).T.tolist()
+    return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *shifts,
                     choose_notes(formulation, told), told.length, automatic_limit=0.0 if settings.limit else told.limit,
-                    cage_move=press.cage_move)
+                    cage_move=press.cage_move, turn_before=turns[0], turn_after=turns[1])
 
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:

@@ -75,23 +75,25 @@ def solve_held(live: LiveOptimizer, held: np.ndarray, build_target: BuildTarget,
 def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
                progress: "native.Progress | None") -> Solution:
     optimizer, length = live.optimizer, choose_length(live.patch, settings.length)
-    score = optimizer.score(length)
+    before = optimizer.score(length)
     wanted = live_optimizer.build_targets(live, build_target, settings)  # that of a fit moves the optimizer first
     target, lacking = wanted.targets[0], wanted.measure(optimizer)
     limit = choose_limit(live.patch, settings)
     report = solve_within_limit(live, wanted.targets, limit, progress)
     formulation = choose_formulation(live.patch, live.view)
     positions, left = formulation.read_positions(optimizer), wanted.measure(optimizer)
+    after = optimizer.score(length)
     short = not report.limited and wanted.is_plain and falls_short(optimizer, target, lacking, left)
     return Solution(live.patch, positions, report, target, formulation.read_residual(optimizer, target), lacking, left,
-                    length, score, optimizer.score(length),
+                    length, before.shift, after.shift,
                     (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
                      *remarks.describe_unfinished(report),
                      *remarks.describe_limit(report.limited, limit, automatic=not settings.limit),
                      *optimizer.region.messages, *remarks.describe_mirror(formulation),
                      *remarks.describe_far_move(live.patch, report.largest_move, live.border)),
                     choose_length(live.patch, 0.0), "free" if short and live.border != "free" else "",
-                    formulation.measure_cage_move(optimizer), automatic_limit=0.0 if settings.limit else limit)
+                    formulation.measure_cage_move(optimizer), automatic_limit=0.0 if settings.limit else limit,
+                    turn_before=before.turn, turn_after=after.turn)
 
 
 def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lacking: float, left: float) -> bool:

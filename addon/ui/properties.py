@@ -71,8 +71,12 @@ class ReflinesReport(bpy.types.PropertyGroup):
     automatic_length: FloatProperty(name="Automatic Length", unit='LENGTH', precision=4)
     automatic_limit: FloatProperty(name="Automatic Limit", unit='LENGTH', precision=5)
     limited: IntProperty(name="Limited", description="Vertices that the limit of the move held back")
-    score_before: FloatProperty(name="Wobble Before", description="Wobble of the reflection lines, in degrees")
-    score_after: FloatProperty(name="Wobble After", description="Wobble of the reflection lines, in degrees")
+    score_before: FloatProperty(name="Wobble Before", description="Mean sideways shift of the reflection lines from "
+                                "their smooth course within one length, in degrees of the light's turn")
+    score_after: FloatProperty(name="Wobble After", description="The same after the solve")
+    turn_before: FloatProperty(name="Turn Before", description="Mean angle between the reflection lines and their "
+                               "smooth course as they are drawn, in degrees")
+    turn_after: FloatProperty(name="Turn After", description="The same after the solve")
     largest_move: FloatProperty(name="Largest Move", unit='LENGTH', precision=6)
     cage_move: FloatProperty(name="Largest Move of the Cage", unit='LENGTH', precision=6)
     residual_before: FloatProperty(name="Residual Before", description="What the lines' gradient lacked of the "
@@ -84,8 +88,8 @@ class ReflinesReport(bpy.types.PropertyGroup):
         """Copies the numbers of a finished solve."""
         for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move", "limited"):
             setattr(self, name, getattr(solution.report, name))
-        for name in ("length", "score_before", "score_after", "residual_before", "residual_after", "remedy",
-                     "automatic_length", "automatic_limit", "cage_move"):
+        for name in ("length", "score_before", "score_after", "turn_before", "turn_after", "residual_before",
+                     "residual_after", "remedy", "automatic_length", "automatic_limit", "cage_move"):
             setattr(self, name, getattr(solution, name))
         self.notes, self.fit = "\n".join(notes), ""
 
@@ -107,6 +111,11 @@ class ReflinesReport(bpy.types.PropertyGroup):
         smoothed = self.id_data.reflection_lines.run.operator == "REFLINES_OT_smooth"
         return Gain(self.score_before, self.score_after, self.residual_before,
                     self.residual_after).describe(smoothed=smoothed)
+
+    def wobble(self) -> str:
+        """Says how far the lines shifted and shift now, in spacings of the stripes as they are drawn now."""
+        spacing = 360.0 / bpy.context.scene.reflection_lines.stripes.count
+        return f"{self.score_before / spacing:.2g} \u2192 {self.score_after / spacing:.2g} spacings"
 
     def measured_length(self) -> str:
         """Says the length at which the wobble was measured."""

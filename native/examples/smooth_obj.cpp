@@ -58,9 +58,9 @@ void smooth_obj(const std::string& input, const std::string& output, double leng
   reflines::ShapeOptimizer optimizer(mesh.V, mesh.F, reflines::Vector3::UnitZ(), {reflines::Vector3::UnitY()}, options);
   const reflines::Target target =
       reflines::build_smooth_target(optimizer.field(0), optimizer.smoother(0), {length}, 1.0, 0);
-  const double before = optimizer.score(length, 0);
+  const double before = optimizer.score(length, 0).shift;
   const reflines::Report report = optimizer.solve({target});
-  std::cout << report.message << "\nwobble " << before << " -> " << optimizer.score(length, 0) << " degrees\n";
+  std::cout << report.message << "\nwobble " << before << " -> " << optimizer.score(length, 0).shift << " degrees\n";
   write_obj(output, optimizer.positions(), mesh.F);
 }
 

@@ -143,8 +143,8 @@ class ShapeOptimizer:
         """Returns the energy that `solve` minimises, at the current heights; for several targets the sum of theirs."""
     def residual(self, target: Target) -> np.ndarray:
         """Returns |grad theta - target| of every triangle (#F), radians / length."""
-    def score(self, length: float, family: int = 0) -> float:
-        """Returns the wobble of the lines in degrees: their deviation within one `length` from their smoothed course."""
+    def score(self, length: float, family: int = 0) -> LineScore:
+        """Scores the lines against their course without detail finer than `length`, over the triangles that can change."""
     def solve(self, target: Target | list[Target], *, strategy: Strategy = "adaptive", gradient_tolerance: float = 1e-6,
               max_iterations: int = 100, limit: float | np.ndarray | None = None, progress: Progress | None = None) -> Report:
         """Moves the heights to a minimum of the energy, from where they are. Not converging is no error: see
@@ -161,6 +161,12 @@ class ShapeOptimizer:
     def reset(self) -> None:
         """Restores the heights that the optimizer was built with."""
 
+class LineScore:
+    """The score of lines: how far they are from their smooth course, in two numbers that can be checked on a picture."""
+    shift: float  # mean over the area, degrees of theta: sideways shift within one length, at most 45 counts; with n lines
+                  # round the circle it is n / 360 times as many distances of two lines
+    turn: float   # mean along the lines, degrees in the image plane: angle between a line and its smooth course
+
 class SmoothPanelReport:
     """The report of `smooth_panel`."""
     solve: Report              # of the last solve
@@ -172,6 +178,8 @@ class SmoothPanelReport:
     bumps: int                 # round dents and bumps that were taken away
     mirrored: int              # vertices of a symmetric panel; 0: it is not symmetric
     held_faces: int            # triangles that would have turned by more than 45 degrees and were held instead
+    score_before: list[LineScore]  # one for each light, at `length`
+    score_after: list[LineScore]
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
     unevenness_after: list[float]   # length, degrees, root mean square; creases are those of both shapes
     stray: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,

@@ -33,6 +33,9 @@ void bind_region(py::module_& module) {
 
 void bind_report(py::module_& module) {
   bind_region(module);
+  py::class_<LineScore>(module, "LineScore", py::module_local())
+      .def_readonly("shift", &LineScore::shift)
+      .def_readonly("turn", &LineScore::turn);
   py::class_<Progress, std::shared_ptr<Progress>>(module, "Progress", py::module_local())
       .def(py::init<>())
       .def_property_readonly("fraction", &Progress::fraction)

@@ -110,7 +110,7 @@ double energy(ShapeOptimizer& optimizer, const Targets& targets) {
   return optimizer.energy(list);
 }
 
-double score(ShapeOptimizer& optimizer, double length, int family) {
+LineScore score(ShapeOptimizer& optimizer, double length, int family) {
   const NativeCall call(optimizer);
   return optimizer.score(length, check_family(optimizer, family));
 }

@@ -102,6 +102,8 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("bumps", &Told::bumps)
       .def_readonly("mirrored", &Told::mirrored)
       .def_readonly("held_faces", &Told::held_faces)
+      .def_readonly("score_before", &Told::score_before)
+      .def_readonly("score_after", &Told::score_after)
       .def_readonly("unevenness_before", &Told::unevenness_before)
       .def_readonly("unevenness_after", &Told::unevenness_after)
       .def_readonly("stray", &Told::stray)

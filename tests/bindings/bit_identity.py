@@ -171,7 +171,7 @@ def solve_twice(optimizer: reflines.ShapeOptimizer, build_target: Step, options:
     optimizer.solve(build_target(optimizer), **options)
     assert not np.array_equal(optimizer.positions, first), "the case moves nothing"
     optimizer.solve(reflines.smooth(optimizer, length=0.3), **options)
-    return f"{digest(optimizer)} {optimizer.score(0.4).hex()}"
+    return f"{digest(optimizer)} {optimizer.score(0.4).shift.hex()}"
 
 
 def fit_cage(solver: str) -> str:

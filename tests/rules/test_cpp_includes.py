@@ -11,7 +11,7 @@ ROOTS = ("native/include", "native/src", "native")
 PUBLIC = {
     "image_plane": "geometry", "cage": "geometry", "subdivision": "geometry",
     "mirror_pairs": "geometry",
-    "target": "reflection", "region_field": "reflection", "smooth_target": "reflection",
+    "line_score": "reflection", "target": "reflection", "region_field": "reflection", "smooth_target": "reflection",
     "uniform_target": "targets", "kept_target": "targets", "warp_target": "targets", "pattern_target": "targets",
     "line_handles": "targets",
     "minimizer_options": "optimization", "report": "optimization",

@@ -10,6 +10,7 @@
 #include "reflines/border.h"
 #include "reflines/crease_options.h"
 #include "reflines/image_plane.h"
+#include "reflines/line_score.h"
 #include "reflines/linear_solver_kind.h"
 #include "reflines/minimizer_options.h"
 #include "reflines/move_limit.h"
@@ -109,10 +110,9 @@ class ShapeOptimizer {
   };
   Lines evaluate_lines(const Vector& heights, const Vector& weight, int family);
 
-  // Returns the wobble of the lines in degrees: the root mean square, over the triangles that can change and are no
-  // features, of |field - field smoothed at `length`| times `length`, which is the deviation of the lines from their
-  // smoothed course within one length.
-  double score(double length, int family);
+  // Scores the lines against their course without detail finer than `length`, over the triangles that can change.
+  LineScore score(double length, int family) { return score_field(field(family), length, family); }
+  LineScore score_field(const PlaneVectors& field, double length, int family);  // of other lines, #F x 2
 
   // Moves the heights to a minimum of the targets' energy, every piece on its own; for targets with reachable_only, see
   // ReachableTarget. On cancellation or failure the heights are unchanged. With a limit no vertex is beyond it, to the

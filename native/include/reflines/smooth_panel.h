@@ -43,6 +43,7 @@ struct SmoothPanelReport {
   int bumps = 0;                      // round dents and bumps that were taken away
   int mirrored = 0;                   // vertices of a symmetric panel; 0: it is not symmetric
   int held_faces = 0;                 // triangles that would have turned by more than 45 degrees and were held instead
+  std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
   Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
                   // result, radians / length

@@ -330,6 +330,15 @@ double Restoration::measure_change(const Vector& move) {
   return std::sqrt(squared) * 180.0 / std::numbers::pi;
 }
 
+std::vector<LineScore> Restoration::score(const Vector& z) {
+  ShapeOptimizer& optimizer = surface_.optimizer();
+  const TriangleFields fields = read_fields(z);
+  std::vector<LineScore> result;
+  for (int k = 0; k < optimizer.family_count(); ++k)
+    result.push_back(optimizer.score_field(fields.middleCols(2 * k, 2), report_.length, k));
+  return result;
+}
+
 std::vector<double> Restoration::measure_unevenness(const Vector& z, const Vector& creases, Vector& stray,
                                                     std::vector<double>& typical) {
   const TriangleFields fields = read_fields(z);
@@ -368,6 +377,8 @@ int Restoration::find_worse_light() const {
 
 SmoothPanelResult Restoration::judge(const Vector& move) {
   const Vector risen = surface_.surface_move(move);
+  report_.score_before = score(start_);
+  report_.score_after = score(start_ + risen);
   int turned = 0;
   find_turned(risen, turned);
   const int k = find_worse_light();

@@ -47,6 +47,7 @@ class Restoration {
   std::vector<double> measure_unevenness(const Vector& z, const Vector& creases, Vector& stray,
                                          std::vector<double>& typical);
   void measure_result(const Vector& move);
+  std::vector<LineScore> score(const Vector& z);
   int find_worse_light() const;
   SmoothPanelResult judge(const Vector& move);
   void tell();

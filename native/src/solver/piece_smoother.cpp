@@ -29,7 +29,8 @@ PieceSmoother::PieceSmoother(const HeightField& field, const Stencils& stencils,
       solver_(solver),
       isotropic_(families.size()),
       directional_(families.size()),
-      features_(families.size()) {}
+      features_(families.size()),
+      linear_(families.size()) {}
 
 bool PieceSmoother::Cache::serves(const SmoothOptions& options, const PlaneVectors& wanted_along) const {
   return smoother && length == options.length && wanted_along.rows() == along.rows() && wanted_along == along;
@@ -53,14 +54,30 @@ PieceSmoother::Cache& PieceSmoother::update(Cache& cache, const SmoothOptions& o
   if (cache.serves(options, along)) return cache;
   enter(0.0, "finding features");
   const Mask& held = features(options.length, family);
-  enter(0.1, "assembling the smoothing");
   SmoothOptions limited = options;
   limited.longest = longest_gradient(family);
-  auto smoother = std::make_unique<LineSmoother>(
-      field_, stencils_, limited, along, trust_[family], held,
-      [this](const SparseMatrix& matrix) { return factorize(matrix); }, progress_);
-  cache = {std::move(smoother), options.length, along, {}, {}};
+  cache = {build(limited, along, family, held), options.length, along, {}, {}};
   return cache;
+}
+
+std::unique_ptr<LineSmoother> PieceSmoother::build(const SmoothOptions& options, const PlaneVectors& along, int family,
+                                                   const Mask& features) const {
+  enter(0.1, "assembling the smoothing");
+  return std::make_unique<LineSmoother>(
+      field_, stencils_, options, along, trust_[family], features,
+      [this](const SparseMatrix& matrix) { return factorize(matrix); }, progress_);
+}
+
+PlaneVectors PieceSmoother::smooth_all(const PlaneVectors& gradient, double length, int family) {
+  // Families that see every triangle have the same system.
+  size_t same = 0;
+  while (trust_[same] != trust_[family]) ++same;
+  Cache& cache = linear_[same];
+  const SmoothOptions options{.length = length};
+  const PlaneVectors nothing(0, 2);
+  if (!cache.serves(options, nothing))
+    cache = {build(options, nothing, family, Mask::Constant(gradient.rows(), false)), length, nothing, {}, {}};
+  return cache.smooth(gradient);
 }
 
 SpdSolve PieceSmoother::factorize(const SparseMatrix& matrix) const {

@@ -27,6 +27,10 @@ class PieceSmoother {
   // Cancelled.
   PlaneVectors smooth(const PlaneVectors& gradient, const SmoothOptions& options, int family);
 
+  // Returns `gradient` (#T x 2) of a family without its detail finer than `length`: isotropic, linear, and through
+  // features, which `smooth` keeps. Throws Cancelled.
+  PlaneVectors smooth_all(const PlaneVectors& gradient, double length, int family);
+
   // Returns the strong_features (#T) at `length` of the field that the piece started with; valid until the family is
   // asked for at another length.
   const Mask& features(double length, int family);
@@ -49,6 +53,8 @@ class PieceSmoother {
     Mask mask;
   };
 
+  std::unique_ptr<LineSmoother> build(const SmoothOptions& options, const PlaneVectors& along, int family,
+                                      const Mask& features) const;
   Cache& update(Cache& cache, const SmoothOptions& options, const PlaneVectors& along, int family);
   SpdSolve factorize(const SparseMatrix& matrix) const;
   double longest_gradient(int family) const;
@@ -63,6 +69,7 @@ class PieceSmoother {
   Progress* progress_ = nullptr;
   std::vector<Cache> isotropic_, directional_;  // one for each family
   std::vector<Features> features_;              // likewise
+  std::vector<Cache> linear_;                   // likewise
 };
 
 }  // namespace reflines

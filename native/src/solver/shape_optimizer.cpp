@@ -8,6 +8,7 @@
 #include "geometry/mesh.h"
 #include "optimization/linear/linear_solver.h"
 #include "optimization/report_sums.h"
+#include "reflection/line_comparison.h"
 #include "reflines/errors.h"
 #include "solver/border_curvature.h"
 #include "solver/coupling.h"
@@ -181,18 +182,19 @@ SpdFactorize ShapeOptimizer::factorizer() const {
   };
 }
 
-double ShapeOptimizer::score(double length, int family) {
-  double sum = 0, area = 0;
+LineScore ShapeOptimizer::score_field(const PlaneVectors& field, double length, int family) {
+  check_family(family);
+  if (!(length > 0) || !std::isfinite(length))
+    throw InvalidInput("The length of the score must be a positive length in scene units.");
+  LineSums sums;
   for (const auto& piece : pieces_->pieces()) {
     if (piece->size() == 0) continue;
-    const PlaneVectors own = piece->lines(family).gradient;
-    const Vector A =
-        (piece->changeable() && !piece->smoother().features(length, family))
-            .select(piece->field().area.cwiseProduct(piece->visible(family)).array(), Vector::Zero(own.rows()).array());
-    sum += A.dot((own - piece->smoother().smooth(own, {length, false}, family)).rowwise().squaredNorm());
-    area += A.sum();
+    const Vector weight =
+        piece->changeable().select(piece->field().area.cwiseProduct(piece->visible(family)).array(), 0.0);
+    const PlaneVectors own = field(piece->triangles(), Eigen::all);
+    sums += compare_lines(own, piece->smoother().smooth_all(own, length, family), weight, length);
   }
-  return area > 0 ? std::sqrt(sum / area) * length * 180.0 / std::numbers::pi : 0.0;
+  return sums.score();
 }
 
 void ShapeOptimizer::measure(const std::vector<Target>& targets, Report& report) const {
