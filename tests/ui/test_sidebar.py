@@ -1,4 +1,5 @@
 """The sidebar's tab: the order of its panels, what a result moves, and that no name is cut at the default width."""
+import json
 from collections.abc import Callable, Generator
 from types import FunctionType
 
@@ -24,20 +25,20 @@ POINTS = 11          # of Blender's widget font
 class Recorder:
     """A layout that draws, and notes what was drawn where, to compare texts with the room that they have."""
 
-    def __init__(self, layout: bpy.types.UILayout, kind: str) -> None:
-        vars(self).update(layout=layout, kind=kind, items=[])
+    def __init__(self, layout: bpy.types.UILayout, kind: str, columns: int = 1) -> None:
+        vars(self).update(layout=layout, kind=kind, columns=columns, items=[])
 
     def __getattr__(self, name: str) -> object:
         made = getattr(self.layout, name)
-        if name in {"row", "column", "box"}:
-            return lambda **options: self.nest(made(**options), name)
-        return self.noting(name, made) if name in {"prop", "label", "operator"} else made
+        if name in {"row", "column", "box", "grid_flow"}:
+            return lambda **options: self.nest(made(**options), name, options.get("columns", 1))
+        return self.noting(name, made) if name in {"prop", "prop_search", "label", "operator"} else made
 
     def __setattr__(self, name: str, value: object) -> None:
         setattr(self.layout, name, value)
 
-    def nest(self, layout: bpy.types.UILayout, kind: str) -> "Recorder":
-        child = Recorder(layout, "row" if kind == "row" else "column")
+    def nest(self, layout: bpy.types.UILayout, kind: str, columns: int) -> "Recorder":
+        child = Recorder(layout, "row" if kind == "row" else "column", columns)
         self.items.append(child)
         return child
 
@@ -51,7 +52,7 @@ class Recorder:
         """Returns the texts that are wider than their room."""
         icons = [item for item in self.items if self.kind == "row" and is_icon(item)]
         fixed = sum(DIAL if "icon" not in item[2] else ICON for item in icons)
-        share = (width - fixed) / max(len(self.items) - len(icons), 1) if self.kind == "row" else width
+        share = (width - fixed) / max(len(self.items) - len(icons), 1) if self.kind == "row" else width / self.columns
         cut = []
         for item in self.items:
             if isinstance(item, Recorder):
@@ -62,10 +63,19 @@ class Recorder:
         return cut
 
 
+    def find_titles(self) -> set[str]:
+        """Returns the given texts of all buttons."""
+        nested = [item.find_titles() for item in self.items if isinstance(item, Recorder)]
+        return {item[2].get("text", item[1][0]) for item in self.items
+                if not isinstance(item, Recorder) and item[0] == "operator"}.union(*nested)
+
+
 def is_icon(item: object) -> bool:
     if isinstance(item, Recorder):
         return False
     name, given, options, _ = item
+    if name == "prop_search":
+        return False
     if options.get("text") != "":
         return False
     kept = find_property(*given) if name == "prop" else None
@@ -88,7 +98,7 @@ def list_texts(name: str, given: tuple, options: dict, split: bool, width: float
         return [(title, width - MARGIN - ICON * ("icon" in options))]
     if name == "label":
         return [(options.get("text", ""), width - ICON * ("icon" in options))]
-    return list_property_texts(find_property(*given), options, split, width)
+    return list_property_texts(find_property(*given[:2]), options, split, width)
 
 
 def list_property_texts(about: bpy.types.Property, options: dict, split: bool, width: float) -> list[tuple[str, float]]:
@@ -129,8 +139,10 @@ def panels() -> dict[str, type]:
             if name.startswith("VIEW3D_PT_reflines") and not name.endswith("presets")}
 
 
-def record_panels(driver: window.Window, drawn: dict[str, list[str]]) -> Generator[float, None, None]:
-    """Draws every panel into a popover, whose rows are those of the sidebar, and notes the cut texts of each."""
+def record_panels(driver: window.Window, drawn: dict[str, list[str]]) -> Generator[float, None, set[str]]:
+    """Draws every panel into a popover, whose rows are those of the sidebar, and notes the cut texts of each. Returns
+    the texts of buttons, or their commands where they are named by these."""
+    titles: set[str] = set()
     width = driver.region('UI').width - BESIDE_CONTENT
 
     def draw(popover: bpy.types.UIPopover, context: bpy.types.Context) -> None:
@@ -138,12 +150,14 @@ def record_panels(driver: window.Window, drawn: dict[str, list[str]]) -> Generat
             stand = Stand(kind, popover.layout.column())
             kind.draw(stand, SidebarContext(context, driver.region('UI')))
             drawn[name] = stand.layout.find_cut(width)
+            titles.update(stand.layout.find_titles())
 
     with driver.override():
         bpy.context.window_manager.popover(draw)
     yield 0.5
     driver.key('ESC')
     yield 0.2
+    return titles
 
 
 def choose_largest(settings: bpy.types.PropertyGroup) -> None:
@@ -169,6 +183,47 @@ def test_nothing_is_cut_at_the_default_width(driver: window.Window) -> Steps:
     assert len(drawn) == len(panels())
     assert not any(drawn.values()), {name: cut for name, cut in drawn.items() if cut}
     bpy.context.scene.reflection_lines.stripes.mode = 'REFLECTION'
+
+
+def pull(driver: window.Window, start: float, end: float, limit: float) -> None:
+    """Pulls a line upwards from one place to another."""
+    handle = {"start": (0.1, start, 0.0), "end": (0.1, end, 0.0), "radius": 0.5, "pinned": [], "muted": False}
+    with driver.override():
+        assert bpy.ops.reflines.pull_line('EXEC_DEFAULT', True, handles=json.dumps([handle]),
+                                          limit=limit) == {'FINISHED'}
+
+
+def nothing_is_cut(driver: window.Window, *titles: str) -> Steps:
+    """Nothing is cut in the panels as they are now, which have these buttons among others."""
+    drawn: dict[str, list[str]] = {}
+    found = yield from record_panels(driver, drawn)
+    assert all(any(shown.startswith(title) for shown in found) for title in titles), found
+    assert not any(drawn.values()), {name: cut for name, cut in drawn.items() if cut}
+
+
+def test_nothing_is_cut_in_what_tools_leave_behind(driver: window.Window) -> Steps:
+    """What is offered after a pull, its handles, a table of a check, a cage, and a panel that follows a lattice."""
+    blf.size(0, POINTS)
+    ob = panel(driver, cells=32)
+    yield from sidebar.open_tab(driver)
+    driver.move(300, 300)
+    yield 0.2
+    pull(driver, 0.6, 0.8, limit=1.0)
+    with driver.override():
+        bpy.context.scene.reflection_lines.marks.angle = 0.0
+        bpy.ops.reflines.check('EXEC_DEFAULT', True)
+    yield from nothing_is_cut(driver, "Solve with Border", "reflines.delete_handles", "reflines.export_check")
+    pull(driver, 0.0, 0.1, limit=2e-3)
+    ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+    yield from nothing_is_cut(driver, "Solve with Limit", "reflines.fit", "Curvature", "Clamped")
+    panel(driver)
+    with driver.override():
+        bpy.ops.reflines.add_warp_lattice()
+        bpy.ops.object.mode_set(mode='OBJECT')
+        bpy.ops.reflines.start_live_warp('EXEC_DEFAULT', True)
+    yield from nothing_is_cut(driver, "reflines.apply_live_warp", "reflines.discard_live_warp")
+    with driver.override():
+        bpy.ops.reflines.discard_live_warp('EXEC_DEFAULT', True)
 
 
 def note_name(order: list[str], name: str) -> Callable:
@@ -202,5 +257,5 @@ def test_a_result_does_not_move_the_button(driver: window.Window) -> Steps:
     assert (yield from sidebar.read_button(driver)) == "bpy.ops.reflines.smooth()"
 
 
-window.run(test_nothing_is_cut_at_the_default_width,
-           test_the_panels_are_in_the_order_of_the_work_and_tools_are_folded, test_a_result_does_not_move_the_button)
+window.run(test_nothing_is_cut_at_the_default_width, test_the_panels_are_in_the_order_of_the_work_and_tools_are_folded,
+           test_a_result_does_not_move_the_button, test_nothing_is_cut_in_what_tools_leave_behind)
