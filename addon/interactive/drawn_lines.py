@@ -39,9 +39,8 @@ def lay(session: Session, handle: LineHandle, points: np.ndarray) -> LineHandle:
 
 
 def trace_line(session: Session, place: Place) -> np.ndarray:
-    """Returns the line that is seen at a place, as it runs now, without its ends: #P x 3, world space."""
-    value = session.surface.read_theta(place, session.state)
-    return line_curve.trim_line(session.surface.trace(place, session.state, value))
+    """Returns the line that is seen at a place, as it runs now: #P x 3, world space."""
+    return session.surface.trace(place, session.state, session.surface.read_theta(place, session.state))
 
 
 def straighten_line(session: Session, handle: LineHandle, place: Place) -> LineHandle | None:

@@ -4,7 +4,6 @@ import numpy as np
 POINTS = 5          # of a new curve
 SAMPLES_BETWEEN = 8  # of a curve, from point to point
 ALONG = 0.7         # cosine of the angle between a line and the edges that it can follow
-TRIMMED = 0.08      # share of a line left out at each end, where borders hold it
 
 
 def sample_curve(points: np.ndarray, each: int = SAMPLES_BETWEEN) -> np.ndarray:
@@ -38,12 +37,6 @@ def fit_curve(stroke: np.ndarray, count: int = POINTS) -> np.ndarray:
     ends = weights[:, [0, -1]] @ even[[0, -1]]
     inner = np.linalg.lstsq(weights[:, 1:-1], even - ends, rcond=None)[0]
     return np.concatenate([even[:1], inner, even[-1:]])
-
-
-def trim_line(line: np.ndarray) -> np.ndarray:
-    """Returns a line without its ends."""
-    count = int(TRIMMED * len(line))
-    return line[count:len(line) - count]
 
 
 def straighten(line: np.ndarray, count: int = POINTS) -> np.ndarray:

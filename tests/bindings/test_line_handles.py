@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import reflines
 import sample_cages
+import sample_panels
 from sample_panels import LINE, VIEW
 
 STEP = 2 * np.pi / 40  # of theta from line to line
@@ -128,6 +129,40 @@ def test_a_line_is_laid_along_a_curve() -> None:
     assert lines.measure([handle], solver, line_step=STEP)[0].share > 0.1
     assert solver.solve(lines.build([handle])).converged
     assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.02
+
+
+def reach_of(lines: reflines.LineHandles, start: Array, way: Array) -> float:
+    """How far the region reaches from a point both ways, by bisection."""
+    low, high = 0.0, 2.0
+    while high - low > 1e-3:
+        at = 0.5 * (low + high)
+        try:
+            lines.read_theta(start + np.outer([-at, at], way))
+            low = at
+        except reflines.InvalidInput:
+            high = at
+    return low
+
+
+@pytest.mark.parametrize("cells", [12, 24, 48])
+def test_a_curve_from_border_to_border_is_met_where_lines_can_move(cells: int) -> None:
+    """A clamped border keeps the lines of the faces beside it, of a coarse panel a tenth of it: a curve that ends there
+    was refused, or bulged."""
+    points, triangles = sample_panels.grid(cells)
+    solver = reflines.ShapeOptimizer(crown((points - 0.5) * (1.5, 1.2)), triangles, view_direction=VIEW,
+                                     line_direction=LINE)
+    lines, way = reflines.LineHandles(solver), across(solver, 1.0)
+    along, bow = np.array([-way[1], way[0]]), np.linspace(-1.0, 1.0, 41)[:, None]
+    ends = reach_of(lines, middle(solver), along) - 0.005  # within the last face
+    curve = middle(solver) + bow * ends * along + 0.04 * (1.0 - bow**2) * way
+    centre = curve[20] - 0.02 * way
+    handle = reflines.Handle(curve, value=lines.read_theta(centre[None])[0], radius=RADIUS)
+    solver.solve(lines.build([handle]))
+    reach, = lines.measure([handle], solver, line_step=STEP)
+    assert reach.share < 0.05, reach.share
+    held = curve[:1] + np.linspace(0.0, 0.01, 5)[:, None] * along
+    with pytest.raises(reflines.InvalidInput, match="on a border that holds"):
+        lines.build([reflines.Handle(held, value=0.0, radius=RADIUS)])
 
 
 def test_several_handles_are_all_met() -> None:

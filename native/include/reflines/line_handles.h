@@ -63,8 +63,9 @@ class LineHandles {
   int family() const;
   const RegionField& field() const { return *field_; }  // as it was when this was made
 
-  // These are the parts that `build` puts together, for those who follow handles otherwise: the places of each handle,
-  // the vertices (#V) whose lines may change, and the weight of the values in a triangle beyond these or around a pull.
+  // These are the parts that `build` puts together, for those who follow handles otherwise: the places of each handle
+  // (of a curve those where no border holds the lines), the vertices (#V) whose lines may change, and the weight of the
+  // values in a triangle beyond these or around a pull.
   using Places = std::vector<std::vector<HandlePlace>>;
   Places find_places(const std::vector<Handle>& handles) const;
   Mask find_part(const std::vector<Handle>& handles, const Places& places) const;
@@ -78,6 +79,7 @@ class LineHandles {
   std::vector<HandleReach> measure(const std::vector<Handle>& handles, const RegionField& now, double line_step) const;
 
  private:
+  bool can_follow(int triangle) const;
   Vector compute_change(const std::vector<Handle>& handles, const Places& places, double radius);
   void weight_places(const std::vector<Handle>& handles, const Places& places, Vector& weight) const;
 

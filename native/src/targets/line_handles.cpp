@@ -30,6 +30,8 @@ constexpr double kRound = 1.0 / 3;
 constexpr double kPlaceEdges = 2.5;  // edges that the triangles around a place measure across
 constexpr int kMostPlaces = 64;      // of a polyline
 constexpr int kFewestVertices = 8;   // within a radius
+constexpr const char* kNothingFollows =
+    " lies outside its radius, at a pin or on a border that holds; move it, or take a larger radius.";
 
 std::string call(const Handle& handle, int number) {
   return handle.name.empty() ? "Handle " + std::to_string(number + 1) : "Handle " + handle.name;
@@ -145,18 +147,28 @@ LineHandles::LineHandles(RegionField field, const Mask& changeable, SpdFactorize
 
 LineHandles::~LineHandles() = default;
 
+// Returns whether the lines of a whole triangle can be moved. Those beside a held border keep their direction: asked to
+// run straight there, the line of a coarse panel bulged by 1.6 times what it was crooked before.
+bool LineHandles::can_follow(int triangle) const {
+  const auto& corners = field_->F.row(triangle);
+  return movable_(corners(0)) && movable_(corners(1)) && movable_(corners(2));
+}
+
 LineHandles::Places LineHandles::find_places(const std::vector<Handle>& handles) const {
   Places result(handles.size());
   for (size_t k = 0; k < handles.size(); ++k) {
     const Handle& handle = handles[k];
     check(handle, static_cast<int>(k), field_->F.rows());
     if (handle.points.rows() == 0) continue;
+    const bool pulled_curve = handle.kind == HandleKind::kPull && handle.points.rows() > 1;
     for (const Vector2& point : resample(handle.points, mean_edge(*field_))) {
       HandlePlace place{locate(*reader_, point, handle, static_cast<int>(k)), point, 0.0, 0.0};
+      if (pulled_curve && !can_follow(place.at.triangle)) continue;
       place.theta = evaluate_theta_near(*field_, place.at, point, 0.0);
       if (handle.kind == HandleKind::kPull) place.change = wrap_angle(handle.value - place.theta);
       result[k].push_back(place);
     }
+    if (result[k].empty()) throw InvalidInput(call(handle, static_cast<int>(k)) + kNothingFollows);
   }
   return result;
 }
@@ -192,9 +204,7 @@ Vector LineHandles::compute_change(const std::vector<Handle>& handles, const Pla
     if (handles[k].kind != HandleKind::kPull) continue;
     for (const HandlePlace& place : places[k]) {
       if (!part(field_->F.row(place.at.triangle)).any()) {
-        throw InvalidInput(call(handles[k], static_cast<int>(k)) +
-                           " lies outside its radius, at a pin or on a border that holds; move it, or take a larger "
-                           "radius.");
+        throw InvalidInput(call(handles[k], static_cast<int>(k)) + kNothingFollows);
       }
       at.push_back(place.at);
       values.push_back(place.change);
