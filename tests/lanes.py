@@ -79,10 +79,11 @@ def run_with_junit(command: Sequence[str], report: Path, env: dict[str, str] | N
     return judged(junit_counts(report), code, command[0])
 
 
-def pytest_lane(folder: str) -> Counts:
+def pytest_lane(tests: str) -> Counts:
+    """Runs a folder of tests, or one file of them."""
     env = os.environ | {"PYTHONPATH": os.environ.get("REFLINES_FOLDER", str(ROOT / "addon"))}
-    report = OUT / f"{folder}.xml"
-    command = [PYTHON, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", f"--junitxml={report}", f"tests/{folder}"]
+    report = OUT / f"{Path(tests).stem}.xml"
+    command = [PYTHON, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", f"--junitxml={report}", f"tests/{tests}"]
     return run_with_junit(command, report, env)
 
 
@@ -127,9 +128,10 @@ def script_options(script: str) -> list[str]:
     return ["--python-exit-code", "1", "--python", "tests/in_blender.py", "--", script]
 
 
-def addon_lane() -> Counts:
-    command = [BLENDER, "-b", "--factory-startup", *script_options("tests/addon/run.py")]
-    return run_reporting(command, blender_environment(), 1500)
+def addon_lane(*files: str) -> Counts:
+    """Runs the tests in background Blender: these files, or all."""
+    command = [BLENDER, "-b", "--factory-startup", *script_options("tests/addon/run.py"), *files]
+    return run_reporting(command, blender_environment(), 1800)
 
 
 def window_command(width: int = 1280, height: int = 900, display: int = 99) -> list[str]:
@@ -149,6 +151,13 @@ def ui_lane() -> Counts:
     files = sorted((ROOT / "tests/ui").glob("test_*.py"))
     with ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
         return sum(pool.map(window_counts, range(len(files)), files), Counts())
+
+
+def hostile_lane() -> Counts:
+    """Runs those tests of other lanes whose scenes, files and arguments are hostile on purpose."""
+    addon = [f"tests/addon/test_{name}.py" for name in ("hostile_scenes", "hostile_files", "tampered")]
+    return (pytest_lane("bindings/test_hostile.py") + addon_lane(*addon)
+            + window_counts(0, ROOT / "tests/ui/test_hostile.py"))
 
 
 def rooted_lane(*script: str) -> Counts:
@@ -175,6 +184,7 @@ class Lane:
     built: bool               # needs the native build
     rooms: tuple[str, ...]    # a change below one of these calls for the lane
     asked: bool = False       # runs only when it is asked for, by its name or by --all
+    within: bool = False      # its tests are those of other lanes, so that --all leaves it out
 
 
 def sanitizers_lane(kind: str) -> Counts:
@@ -188,6 +198,7 @@ LANES = {
     "bindings": Lane(lambda: pytest_lane("bindings"), True, ("native/", "tests/bindings/", *SHARED)),
     "addon": Lane(addon_lane, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
     "ui": Lane(ui_lane, True, ("addon/", "tests/ui/", *SHARED)),
+    "hostile": Lane(hostile_lane, True, (), asked=True, within=True),
     "matrix": Lane(lambda: packed_lane(".ci/matrix.py"), False, (), asked=True),
     "release": Lane(lambda: packed_lane(".ci/release.py", "--test"), False, (), asked=True),
     "windows": Lane(lambda: rooted_lane(".ci/windows.py"), False, (), asked=True),
@@ -215,7 +226,8 @@ def chosen_lanes(arguments: argparse.Namespace) -> list[str]:
     if arguments.changed:
         files = changed_files()
         return [name for name in present if any(file.startswith(LANES[name].rooms) for file in files)]
-    return arguments.lanes or [name for name in present if not LANES[name].asked or arguments.all]
+    return arguments.lanes or [name for name in present if not LANES[name].asked
+                               or arguments.all and not LANES[name].within]
 
 
 def succeeds(*command: str) -> bool:

@@ -97,7 +97,9 @@ def restore_start(ob: bpy.types.Object) -> None:
 
 
 def remove_start(ob: bpy.types.Object) -> None:
-    """Removes everything that `store_start` stored with the mesh."""
+    """Removes everything that `store_start` stored with the mesh; a changed file may name another kind of object."""
+    if ob.type != 'MESH':
+        return
     attribute = ob.data.attributes.get(ATTRIBUTE)
     if attribute is not None:
         ob.data.attributes.remove(attribute)

@@ -63,7 +63,7 @@ def triangulate(ob: bpy.types.Object, faces: np.ndarray, local: np.ndarray) -> n
 
 def compute_mean_normal(ob: bpy.types.Object) -> np.ndarray:
     """Returns the mean normal, in world space, of the selected faces, else of the stored region, else of all faces; +Z
-    for a closed body.
+    for a closed body, and where it is no direction.
     """
     if ob.mode == 'EDIT':
         ob.update_from_editmode()
@@ -75,7 +75,8 @@ def compute_mean_normal(ob: bpy.types.Object) -> np.ndarray:
     chosen = faces if faces.any() else np.ones(len(faces), dtype=bool)
     total = areas[chosen] @ directions.reshape(-1, 3)[chosen]
     matrix = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
-    if np.linalg.norm(total) < 1e-3 * areas[chosen].sum() or np.linalg.matrix_rank(matrix) < 3 or not len(areas):
+    known = len(areas) and np.isfinite(total).all() and np.isfinite(matrix).all()
+    if not known or np.linalg.norm(total) < 1e-3 * areas[chosen].sum() or np.linalg.matrix_rank(matrix) < 3:
         return np.array([0.0, 0.0, 1.0])
     normal = np.linalg.solve(matrix.T, total)
     return normal / np.linalg.norm(normal)

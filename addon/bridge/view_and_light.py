@@ -97,9 +97,10 @@ def read_shown_directions(scene: bpy.types.Scene, ob: bpy.types.Object) -> tuple
     what is missing.
     """
     settings, stored = scene.reflection_lines, ob.reflection_lines
+    camera = settings.picture_camera()
     center = ob.matrix_world @ stored.center if stored.report.termination else measure_extent(ob)[0]
     try:
-        seen = compute_view_direction(settings.camera, np.array(center)) if settings.present(settings.camera) else None
+        seen = compute_view_direction(camera, np.array(center)) if camera is not None else None
         return seen, read_z_axis(settings.light) if settings.present(settings.light) else None
     except Refusal:
         return None, None

@@ -3,9 +3,11 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
+from ..model.refusal import Refusal
 from . import read_patch, view_and_light
 
 MARGIN = 1.1    # size of the picture relative to the framed points
+FURTHEST = 1e15  # coordinate: what is made of larger ones is not finite in float32
 DISTANCE = 2.0  # from the camera to the middle of the framed points, relative to their size
 
 
@@ -21,7 +23,7 @@ def choose_frame(context: bpy.types.Context, ob: bpy.types.Object, direction: tu
 
 def read_framed_points(ob: bpy.types.Object) -> np.ndarray:
     """Reads the points to frame, in world space: the selected vertices in Edit Mode, else the corners of the object's
-    bounding box: #P x 3.
+    bounding box: #P x 3. Those that are nowhere are left out; refuses where no other is left.
     """
     points = np.array(ob.bound_box, dtype=np.float64)
     if ob.mode == 'EDIT':
@@ -32,7 +34,12 @@ def read_framed_points(ob: bpy.types.Object) -> np.ndarray:
         ob.data.vertices.foreach_get("select", selected)
         points = local.reshape(-1, 3)[selected] if selected.any() else points
     matrix = np.array(ob.matrix_world, dtype=np.float64)
-    return points @ matrix[:3, :3].T + matrix[:3, 3]
+    with np.errstate(invalid="ignore", over="ignore"):
+        points = points @ matrix[:3, :3].T + matrix[:3, 3]
+    points = points[(np.abs(points) < FURTHEST).all(axis=1)]
+    if not len(points):
+        raise Refusal(f"{ob.name} has no place to look at: its coordinates or its transform are no finite numbers")
+    return points
 
 
 def aim_camera(context: bpy.types.Context, camera: bpy.types.Object, frame: Matrix, points: np.ndarray) -> None:

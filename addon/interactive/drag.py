@@ -215,7 +215,7 @@ class Drag:
         self.end(context)
 
 
-_running: list[Drag] = []  # at most one
+_running: list[Drag] = []  # more than one only where a script started a tool over another: that hears the mouse first
 
 
 def is_running() -> bool:
@@ -230,5 +230,5 @@ def has_work() -> bool:
 
 
 def unregister() -> None:
-    for drag in list(_running):  # Blender drops the operator without calling it
+    for drag in reversed(_running[:]):  # Blender drops the operators without calling them
         drag.abort(bpy.context)

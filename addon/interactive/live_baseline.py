@@ -44,6 +44,8 @@ def find_subject(scene: bpy.types.Scene) -> bpy.types.Object:
     if not scene.reflection_lines.present(ob):
         raise BaselineChanged(f"The panel {ob.name} is no longer in the scene: bring it back by undo, or discard the "
                               "live warp")
+    if ob.type != 'MESH':
+        raise BaselineChanged(f"The live warp of {ob.name} cannot go on, since that is no mesh: discard it")
     if ob.mode == 'EDIT':
         raise Refusal(f"The live warp waits while {ob.name} is in Edit Mode")
     return ob

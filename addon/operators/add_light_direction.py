@@ -36,7 +36,7 @@ Turn the arrow to turn the reflection lines; it must not point along the view"""
         """Returns the axes of the view camera's picture; without a camera those of the 3D view, in background of a view
         from above.
         """
-        if settings.present(settings.camera):
+        if settings.picture_camera() is not None:
             return settings.camera.matrix_world.to_3x3().normalized()
         return view_and_light.read_viewport_frame(context) or Matrix.Identity(3)
 

@@ -12,8 +12,7 @@ Reflection lines are judged, and the panel is moved, along its direction of view
     bl_label = "Add View Camera"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        self.aim(context, None)
-        return {'FINISHED'}
+        return self.aim(context, None)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_add_view_camera])

@@ -3,6 +3,7 @@ import bpy
 from bpy.props import FloatVectorProperty
 
 from ..bridge import scene_objects, view_camera
+from ..model.refusal import Refusal
 from ..state import last_panels
 
 
@@ -20,12 +21,18 @@ class CameraAim:
         cls.poll_message_set("Make the panel's mesh the active object")
         return last_panels.find_panel(context) is not None
 
-    def aim(self, context: bpy.types.Context, camera: bpy.types.Object | None) -> None:
+    def aim(self, context: bpy.types.Context, camera: bpy.types.Object | None) -> set[str]:
         """Aims a camera at the panel, a new one where it is None, and makes it the view camera of scene and panel."""
         context.view_layer.update()
         ob = last_panels.find_panel(context)
+        try:
+            points = view_camera.read_framed_points(ob)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
         frame = view_camera.choose_frame(context, ob, self.direction)
         camera = camera or view_camera.add_camera(scene_objects.find_editable_collection(context))
-        view_camera.aim_camera(context, camera, frame, view_camera.read_framed_points(ob))
+        view_camera.aim_camera(context, camera, frame, points)
         context.scene.reflection_lines.camera = camera
         ob.reflection_lines.keep_view(context.scene)
+        return {'FINISHED'}

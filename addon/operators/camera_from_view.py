@@ -21,8 +21,7 @@ Adds a camera where there is none"""
         return super().poll(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        self.aim(context, context.scene.reflection_lines.picture_camera())
-        return {'FINISHED'}
+        return self.aim(context, context.scene.reflection_lines.picture_camera())
 
 
 class REFLINES_OT_use_panel_view(bpy.types.Operator):

@@ -29,7 +29,7 @@ has its lines. Select that mesh, then the cage"""
         if not self.properties.is_property_set("border"):
             self.border = 'free'
         if not self.properties.is_property_set("result"):
-            self.result = scene.reflection_lines.result
+            self.result = scene.reflection_lines.result or 'MESH'  # a changed file may hold no choice
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         """Returns the active object alone, for the other mesh may be in Edit Mode too."""

@@ -92,8 +92,11 @@ class SolveTool:
             shared = name in SHARED and name not in own.bl_rna.properties
             holder = scene.reflection_lines if shared else own
             taken = holder.bl_rna.properties.get(name)
-            if taken is not None and taken.type != 'POINTER' and not self.properties.is_property_set(name):
-                setattr(self, name, getattr(holder, name))
+            if taken is None or taken.type == 'POINTER' or self.properties.is_property_set(name):
+                continue
+            value = getattr(holder, name)
+            if value != "" or taken.type != 'ENUM':  # a changed file may hold a choice that there is not
+                setattr(self, name, value)
 
     def solve(self, context: bpy.types.Context, ob: bpy.types.Object) -> Solution:
         return self.solve_patch(context, ob, self.gather_patch(ob))

@@ -90,7 +90,7 @@ def explain_light(scene: bpy.types.Scene, ob: bpy.types.Object) -> str:
     settings = scene.reflection_lines
     if not settings.present(settings.light):
         return settings.describe_absent(settings.light) or "No light direction: press Add Light Direction"
-    if not settings.present(settings.camera):
+    if settings.picture_camera() is None:
         return settings.describe_absent(settings.camera) or (
             "No view camera: the stripes are as this view sees them. Press Add View Camera")
     center = np.array(view_and_light.measure_extent(ob)[0])

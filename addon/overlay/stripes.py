@@ -90,13 +90,15 @@ def compute_area_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
 
 def pack_uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.ndarray, eye: Eye, lights: Lights,
              look: Look) -> np.ndarray:
-    """Packs the shader's uniform block (shader.STRUCT) as float32. Matrices are 4 x 4 for column vectors."""
+    """Packs the shader's uniform block (shader.STRUCT) as float32. Matrices are 4 x 4 for column vectors. A mode that
+    there is not, of a changed file, is drawn as the first.
+    """
     blocks = [
         (projection @ view_matrix @ model).T, model.T, compute_normal_matrix(model).T, compute_depth_axis(projection),
         np.append(eye.direction, 0.0) if eye.position is None else np.append(eye.position, 1.0),
         np.append(lights.v_a, 0.0), np.append(lights.a_perp, 0.0), np.append(lights.line, 0.0),
         [look.count / TURN, look.width, look.softness, look.depth_offset],
-        look.color, look.gap_color, [look.opacity, MODES[look.mode], look.image_rotation / TURN, 0.0],
+        look.color, look.gap_color, [look.opacity, MODES.get(look.mode, 0), look.image_rotation / TURN, 0.0],
     ]
     return np.concatenate([np.ravel(block) for block in blocks]).astype(np.float32)
 

@@ -18,6 +18,8 @@ MOST_BOUNDED = 20_000  # unknowns; larger solves with bounds take minutes, see t
 
 def choose_limit(patch: Patch, settings: SolveSettings) -> float:
     """Returns the largest move: the given one, or for 0 a fraction of the length of what changes."""
+    if not settings.limit >= 0.0:  # a changed file may hold any number
+        raise Refusal(f"{patch.name}: the limit {settings.limit} is no length: set it to 0, automatic, or to a length")
     return settings.limit or AUTOMATIC_LIMIT * (settings.limit_length or patch.diagonal)
 
 

@@ -41,7 +41,7 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
         column = layout.column()
         row = column.row(align=True)
         row.prop(settings, "camera", text="", icon='CAMERA_DATA')
-        if settings.present(settings.camera):
+        if settings.picture_camera() is not None:
             through = context.window_manager.reflection_lines.is_looking_through(context)
             row.operator("reflines.look_through", text="", icon='HIDE_OFF', depress=through)
             row.operator("reflines.add_view_camera", text="", icon='ADD')

@@ -273,7 +273,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
 
     def missing(self) -> str:
         """Returns what is missing before any tool can run, as a sentence; empty where nothing is."""
-        if not self.present(self.camera):
+        if self.picture_camera() is None:
             return self.describe_absent(self.camera) or (
                 "No view camera: press Add View Camera, or pick one in the sidebar's Reflection tab")
         return self.missing_light()
@@ -298,8 +298,8 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
         return ob is not None and scene_objects.contains_object(self.id_data.objects, ob)
 
     def picture_camera(self) -> bpy.types.Object | None:
-        """Returns the view camera, None where there is none."""
-        return self.camera if self.present(self.camera) else None
+        """Returns the view camera, None where there is none; a changed file may point at another kind of object."""
+        return self.camera if self.present(self.camera) and is_camera(self, self.camera) else None
 
     def explain_fixed_light(self) -> str:
         """Returns why the light cannot be turned, as a sentence; empty where it can."""
@@ -328,7 +328,8 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
             light_angles.point_light(self.picture_camera(), self.light, Vector(direction))
 
     def is_perspective(self) -> bool:
-        return self.present(self.camera) and self.camera.data.type != 'ORTHO'
+        camera = self.picture_camera()
+        return camera is not None and camera.data.type != 'ORTHO'
 
 
 CLASSES = (ReflinesReport, ReflinesRun, ReflinesObject, ReflinesLive, ReflinesScene)

@@ -48,7 +48,9 @@ class Walker:
         return scenes.positions(ob).copy() if ob is not None and ob.type == 'MESH' else np.zeros((0, 3))
 
     def check_taken_back(self, tool: str, before: np.ndarray, *, alone: bool) -> None:
-        """A tool that was left has changed no bit; another below it goes on, and may."""
+        """A tool that was left has changed no bit; another below it goes on where the mouse is now, and may: what both
+        leave is tested in test_drag_over_drag.py.
+        """
         assert not alone or np.array_equal(self.positions(), before), f"{tool} was left, and has changed the mesh"
 
     def tools(self) -> list[str]:

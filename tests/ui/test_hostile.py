@@ -1,0 +1,118 @@
+"""Hostile scenes and tampered files in a window: stripes, marks and panels are drawn, or say why not. What Blender
+prints of errors in drawing goes to the standard error.
+"""
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Generator
+
+import bpy
+
+import hostile_files
+import hostile_scenes
+import scenes
+import sidebar
+import window
+
+Steps = Generator[float, None, None]
+STILL = 0.1  # seconds for a drawing
+# Not drawn: what tools alone read, and a second value where there is one.
+UNSEEN = ("record", "run: ", "handles: ", "endless ", f"report with {-hostile_scenes.HUGE}")
+PATH = os.path.join(tempfile.mkdtemp(), "hostile.blend")
+
+
+def read_errors(steps: Steps) -> Generator[float, None, str]:
+    """Takes the steps; returns what was written to the standard error meanwhile."""
+    with tempfile.TemporaryFile(mode="w+", errors="replace") as errors:
+        kept = os.dup(2)
+        os.dup2(errors.fileno(), 2)
+        try:
+            yield from steps
+        finally:
+            sys.stderr.flush()
+            os.dup2(kept, 2)
+        errors.seek(0)
+        return errors.read()
+
+
+def draw(driver: window.Window) -> Steps:
+    for _ in range(2):
+        driver.redraw()
+        yield STILL
+
+
+def draw_modes(driver: window.Window) -> Steps:
+    """As it is, and as a map of the last solve with the shape before."""
+    stripes = bpy.context.scene.reflection_lines.stripes
+    stripes.show = True
+    yield from draw(driver)
+    stripes.mode, stripes.before = 'DEVIATION', True
+    yield from draw(driver)
+
+
+def draw_other_mode(driver: window.Window) -> Steps:
+    """With an image, in Object Mode where it was in Edit Mode."""
+    mode = bpy.context.view_layer.objects.active.mode
+    with driver.override():
+        bpy.ops.object.mode_set(mode='OBJECT' if mode == 'EDIT' else 'EDIT')
+    bpy.context.scene.reflection_lines.stripes.mode = 'IMAGE'
+    yield from draw(driver)
+
+
+def clear(driver: window.Window) -> None:
+    """Away with all, the scene's settings too; the window stays."""
+    with driver.override():
+        if bpy.context.mode != 'OBJECT':
+            bpy.ops.object.mode_set(mode='OBJECT')
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
+    driver.window = bpy.context.window_manager.windows[0]
+
+
+def show_scene(driver: window.Window, build: Callable[[], bpy.types.Object]) -> Steps:
+    with driver.override():
+        build()
+    yield from draw_modes(driver)
+    yield from draw_other_mode(driver)
+
+
+def show_file(driver: window.Window, change: Callable[[bpy.types.Object], None]) -> Steps:
+    with driver.override():
+        ob = scenes.panel()
+        scenes.look_from_above()
+        scenes.edit_inner(ob)
+        scenes.smooth()
+        scenes.object_mode()
+        sys.modules["reflection_lines.state.persistence"].save_solves()
+        bpy.context.scene.reflection_lines.stripes.show = True
+        change(ob)
+        hostile_files.save_past_the_addon(PATH)
+        bpy.ops.wm.open_mainfile(filepath=PATH, load_ui=False)
+    yield STILL
+    driver.window = bpy.context.window_manager.windows[0]
+    with driver.override():
+        scenes.activate(next(ob for ob in bpy.data.objects if ob.type == 'MESH'))
+    yield from draw_modes(driver)
+
+
+def show_each(driver: window.Window, show: Callable, every: dict[str, Callable]) -> Steps:
+    wrong = []
+    for name, one in every.items():
+        written = yield from read_errors(show(driver, one))
+        clear(driver)
+        if "Traceback" in written:
+            print(f"{name}:\n{written}", flush=True)
+            wrong.append(name)
+    assert not wrong, wrong
+
+
+def test_scenes_are_drawn(driver: window.Window) -> Steps:
+    yield from sidebar.open_tab(driver)  # stays open
+    yield from show_each(driver, show_scene, hostile_scenes.SCENES)
+
+
+def test_files_are_drawn(driver: window.Window) -> Steps:
+    yield from show_each(driver, show_file, {name: change for name, change in hostile_files.FILES.items()
+                                             if not name.startswith(UNSEEN)})
+
+
+window.run(test_scenes_are_drawn, test_files_are_drawn)
