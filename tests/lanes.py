@@ -188,7 +188,7 @@ class Lane:
 
 
 def sanitizers_lane(kind: str) -> Counts:
-    return run_reporting([PYTHON, "tests/sanitizers.py", kind], os.environ, 5400)
+    return run_reporting([PYTHON, "tests/sanitizers.py", kind], os.environ, 10800)
 
 
 SHARED = ("CMakeLists.txt", "CMakePresets.json", "tests/lanes.py", "run", ".ci/")

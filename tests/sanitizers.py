@@ -10,15 +10,26 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from lanes import CRASHED, PYTHON, ROOT, Counts, native_lane, run_with_junit
 
 # Seconds of one input. A press fits small matrices to look for dents: with sanitizers that takes 160 times as long.
 FUZZERS = {"shape": 5, "cage": 5, "grids": 5, "press": 25}
-# What the bindings do with memory and objects; others compute what the native tests do, for an hour and more.
-BINDING_TESTS = ("hostile", "subdivision", "turn", "builders")
+# All files of tests/bindings run, in processes of their own, but these, and those tests.
+LEFT_OUT = {
+    "test_bit_identity": "has the bits of another compiler",
+    "test_installed_library": "builds the library anew, without sanitizers",
+    "test_wheel": "builds the module anew, likewise",
+    "test_processors": "compares processes with each other: what each does is done by other files",
+    "test_thread_count": "likewise, and takes a quarter of an hour",
+    "test_careless": "presses on whole car bodies: half an hour of what test_smooth_panel does",
+    "test_smooth_panel::test_real_panels_are_restored": "likewise",
+}
+LONGEST = 2400  # seconds of a file
 SLOWER = 20  # times
 MOST_MEMORY = 2048  # MiB of one input
 # OpenBLAS and the interpreter keep what they have for the whole run.
@@ -66,10 +77,21 @@ def binding_tests(env: dict[str, str]) -> Counts:
     env = env | {"ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1", "LD_PRELOAD": runtime,
                  "PYTHONPATH": str(ROOT / "build/asan/module"), "PYTHONMALLOC": "malloc",
                  "REFLINES_SLOWER": str(SLOWER)}
-    report = ROOT / "build/tests/asan_bindings.xml"
-    files = [f"tests/bindings/test_{name}.py" for name in BINDING_TESTS]
-    return run_with_junit([PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}", *files],
-                          report, env, timeout=2400)
+    files = [path for path in sorted((ROOT / "tests/bindings").glob("test_*.py")) if path.stem not in LEFT_OUT]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return sum(pool.map(lambda path: binding_file(path, env), files), Counts())
+
+
+def binding_file(path: Path, env: dict[str, str]) -> Counts:
+    """A process of its own: a crash costs no other file's counts."""
+    report = ROOT / f"build/tests/asan_{path.stem}.xml"
+    skipped = [f"--deselect={path.relative_to(ROOT)}::{name.partition('::')[2]}" for name in LEFT_OUT
+               if name.startswith(f"{path.stem}::")]
+    command = [PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}", *skipped, str(path)]
+    start = time.monotonic()
+    counts = run_with_junit(command, report, env, timeout=LONGEST)
+    print(f"asan {path.stem}: {counts} ({time.monotonic() - start:.0f} s)", flush=True)
+    return counts
 
 
 def asan() -> Counts:
