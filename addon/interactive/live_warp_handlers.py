@@ -5,6 +5,7 @@ None of them works in the background, where no timer would take the thread's res
 import bpy
 from bpy.app.handlers import persistent
 
+from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
 from .live_warp import LiveWarp
 
 TICK_INTERVAL = 0.01  # seconds between two checks for the threads' results
@@ -96,16 +97,14 @@ LISTENERS = (("depsgraph_update_post", note_change), ("undo_post", note_step), (
 
 
 def register() -> None:
-    for name, function in LISTENERS:
-        getattr(bpy.app.handlers, name).append(function)
+    add_app_handlers(LISTENERS)
     # Before the optimizer cache is cleared: a live warp that ends gives its optimizer back to it.
     bpy.app.handlers.load_pre.insert(0, end_all_live_warps)
 
 
 def unregister() -> None:
     bpy.app.handlers.load_pre.remove(end_all_live_warps)
-    for name, function in LISTENERS:
-        getattr(bpy.app.handlers, name).remove(function)
+    remove_app_handlers(LISTENERS)
     if bpy.app.timers.is_registered(tick):
         bpy.app.timers.unregister(tick)
     end_all_live_warps()

@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import native
 from ..bridge import image_pixels, view_region, viewport_cage, viewport_surface
+from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
 from ..model.solution import LastSolve
 from ..model.surface import Surface, Topology
 from ..state import last_panels, solve_history
@@ -316,15 +317,13 @@ HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", note_all_chan
 def register() -> None:
     if bpy.app.background:
         return
-    for name, handler in HANDLERS:
-        getattr(bpy.app.handlers, name).append(handler)
+    add_app_handlers(HANDLERS)
     for draw, kind in ((draw_stripes, 'POST_VIEW'), (legend.draw_legend, 'POST_PIXEL')):
         _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), 'WINDOW', kind))
 
 
 def unregister() -> None:
-    for name, handler in HANDLERS if _cache.handles else ():
-        getattr(bpy.app.handlers, name).remove(handler)
+    remove_app_handlers(HANDLERS)
     while _cache.handles:
         bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
     if bpy.app.timers.is_registered(poll_fits):

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 
 from ..bridge import border_segments
+from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
 from ..bridge.border_segments import BorderEdges
 from ..model import border
 from . import surface_lines
@@ -80,14 +81,12 @@ HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", clear_cache),
 def register() -> None:
     if bpy.app.background:
         return
-    for name, handler in HANDLERS:
-        getattr(bpy.app.handlers, name).append(handler)
+    add_app_handlers(HANDLERS)
     _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw_borders, (), 'WINDOW', 'POST_VIEW'))
 
 
 def unregister() -> None:
-    for name, handler in HANDLERS if _cache.handles else ():
-        getattr(bpy.app.handlers, name).remove(handler)
+    remove_app_handlers(HANDLERS)
     while _cache.handles:
         bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
     clear_cache()

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 
 from ..bridge import read_mesh
+from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
 
 
 @dataclass(frozen=True)
@@ -48,11 +49,9 @@ HANDLERS = (("depsgraph_update_post", forget_changed), ("undo_post", forget_all)
 
 
 def register() -> None:
-    for name, handler in HANDLERS:
-        getattr(bpy.app.handlers, name).append(handler)
+    add_app_handlers(HANDLERS)
 
 
 def unregister() -> None:
-    for name, handler in HANDLERS:
-        getattr(bpy.app.handlers, name).remove(handler)
+    remove_app_handlers(HANDLERS)
     forget_all()

@@ -1,5 +1,4 @@
 """What tests of sessions with handles share: their begin, moves of the mouse, and what they show."""
-import os
 import sys
 from collections.abc import Generator
 
@@ -57,9 +56,7 @@ def pull(driver: window.Window, first: tuple[int, int], last: tuple[int, int], *
 
 
 def picture(name: str) -> Steps:
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{name}.png"))
-        yield 0.3
+    return window.take_picture(window.Window(), name)
 
 
 def missed() -> float:

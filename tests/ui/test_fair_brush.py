@@ -1,5 +1,4 @@
 """Fair Brush in a real window: strokes smooth what they pass over, each is one undo step, and Escape takes it back."""
-import os
 from collections.abc import Generator
 
 import bpy
@@ -51,19 +50,11 @@ def paint(driver: window.Window, first: tuple[int, int], last: tuple[int, int], 
         yield 0.3
 
 
-def picture(driver: window.Window, name: str) -> Steps:
-    if "REFLINES_PICTURES" in os.environ:
-        driver.redraw()
-        yield 0.3
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{name}.png"))
-        yield 0.3
-
-
 def test_a_stroke_smooths_what_it_passes_over_in_one_undo_step(driver: window.Window) -> Steps:
     before = yield from begin(driver)
-    yield from picture(driver, "fair_brush_before")
+    yield from window.take_picture(driver, "fair_brush_before")
     yield from paint(driver, LEFT, RIGHT, hold=True)
-    yield from picture(driver, "fair_brush")
+    yield from window.take_picture(driver, "fair_brush")
     driver.event('LEFTMOUSE', 'RELEASE')
     yield 0.3
     after = shown(driver)
@@ -123,7 +114,7 @@ def test_a_stroke_beside_the_panel_changes_nothing(driver: window.Window) -> Ste
 def test_a_stroke_on_a_cage_moves_it_and_escape_restores_every_bit(driver: window.Window) -> Steps:
     before = yield from begin(driver, cells=24, levels=2)
     yield from paint(driver, LEFT, RIGHT, hold=True)
-    yield from picture(driver, "fair_brush_cage")
+    yield from window.take_picture(driver, "fair_brush_cage")
     driver.event('LEFTMOUSE', 'RELEASE')
     yield 0.3
     after = shown(driver)

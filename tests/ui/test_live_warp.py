@@ -65,12 +65,6 @@ def warped(driver: window.Window) -> np.ndarray:
     return positions()
 
 
-def picture(name: str) -> Steps:
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], name))
-        yield 0.3
-
-
 def test_the_panel_follows_while_the_lattice_is_dragged(driver: window.Window) -> Steps:
     yield from started(driver)
     before = positions()
@@ -78,7 +72,7 @@ def test_the_panel_follows_while_the_lattice_is_dragged(driver: window.Window) -
     yield from dragging.settled(driver)
     held = positions()
     assert np.abs(held - before).max() > 1e-4
-    yield from picture("live.png")
+    yield from window.take_picture(driver, "live")
     driver.key('ESC')
     yield from dragging.settled(driver)
     assert np.array_equal(positions(), before)

@@ -1,5 +1,4 @@
 """The toolbar's tool in a real window: its arrow drags Smooth, its ring turns the light, Numpad 0 looks through."""
-import os
 import sys
 from collections.abc import Generator
 from math import radians
@@ -73,14 +72,6 @@ def grab(driver: window.Window, place: np.ndarray) -> Steps:
     yield 0.3
 
 
-def picture_of(driver: window.Window, name: str) -> Steps:
-    if "REFLINES_PICTURES" in os.environ:
-        driver.redraw()
-        yield 0.3
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{name}.png"))
-        yield 0.3
-
-
 def test_dragging_the_arrow_smooths_and_letting_go_keeps_it(driver: window.Window) -> Steps:
     panel(driver)
     before = shown(driver)
@@ -92,7 +83,7 @@ def test_dragging_the_arrow_smooths_and_letting_go_keeps_it(driver: window.Windo
         driver.move(*(place + (step, 20)))
         yield 0.1
     yield from settled(driver)
-    yield from picture_of(driver, "toolbar_arrow")
+    yield from window.take_picture(driver, "toolbar_arrow")
     assert np.abs(shown(driver) - before).max() > 1e-4
     driver.event('LEFTMOUSE', 'RELEASE')
     yield from ended(driver)
@@ -131,7 +122,7 @@ def test_the_ring_turns_the_light_in_edit_mode(driver: window.Window) -> Steps:
         for degrees in (-60.0, -30.0, 0.0):
             driver.move(*(middle + radius * np.array([np.cos(radians(degrees)), np.sin(radians(degrees))])))
             yield 0.1
-        yield from picture_of(driver, "toolbar_ring")
+        yield from window.take_picture(driver, "toolbar_ring")
         driver.key(key) if key else driver.event('LEFTMOUSE', 'RELEASE')
         yield 0.3
         driver.event('LEFTMOUSE', 'RELEASE')
@@ -174,7 +165,7 @@ def test_the_gizmos_stay_beside_the_sidebar(driver: window.Window) -> Steps:
     _, radius = yield from ring(driver)
     pixels = yield from found(driver, gizmos().LIGHT_COLOR)
     edge = driver.region('UI').x - driver.region().x
-    yield from picture_of(driver, "toolbar_sidebar")
+    yield from window.take_picture(driver, "toolbar_sidebar")
     driver.area().spaces.active.show_region_ui = False
     assert radius > 30 and pixels[:, 0].max() < edge, (pixels[:, 0].max(), edge)
 

@@ -11,6 +11,9 @@ import installation
 Test = Callable[["Window"], Generator[float, None, None]]
 
 
+Steps = Generator[float, None, None]
+
+
 class Window:
     """The one window, its 3D view, and the simulated mouse and keyboard."""
 
@@ -45,6 +48,15 @@ class Window:
     def redraw(self) -> None:
         for area in self.window.screen.areas:
             area.tag_redraw()
+
+
+def take_picture(driver: Window, name: str) -> Steps:
+    """Saves the window as NAME.png in the folder that REFLINES_PICTURES names; does nothing where it names none."""
+    if "REFLINES_PICTURES" in os.environ:
+        driver.redraw()
+        yield 0.3
+        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{name}.png"))
+        yield 0.3
 
 
 def run(*tests: Test) -> None:

@@ -1,0 +1,20 @@
+"""Registration of functions with Blender's application handlers."""
+from collections.abc import Callable, Sequence
+
+import bpy
+
+Handlers = Sequence[tuple[str, Callable[..., None]]]  # name in bpy.app.handlers, function
+
+
+def add_app_handlers(handlers: Handlers) -> None:
+    """Registers the functions, each behind those that are there."""
+    for name, function in handlers:
+        getattr(bpy.app.handlers, name).append(function)
+
+
+def remove_app_handlers(handlers: Handlers) -> None:
+    """Removes the functions; those that are not registered, as in the background, are passed over."""
+    for name, function in handlers:
+        registered = getattr(bpy.app.handlers, name)
+        if function in registered:
+            registered.remove(function)
