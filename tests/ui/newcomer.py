@@ -54,7 +54,7 @@ def use_sample(note: Note) -> Steps:
     yield 1.5
     driver = window.Window()
     assert driver.area().spaces.active.show_region_ui  # no key N: that would close the sidebar
-    yield from sidebar.open_tab(driver)
+    assert (yield from sidebar.shows_tab(driver))
     yield from scroll_up(driver)
     yield from note("sample")
     before = shown(driver)

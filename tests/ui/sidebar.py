@@ -41,6 +41,17 @@ def open_tab(driver: window.Window) -> Steps:
     assert drawn, "no tab of the sidebar has the add-on's panels"
 
 
+def shows_tab(driver: window.Window) -> Generator[float, None, bool]:
+    """Returns whether the add-on's tab is the one in front of the open sidebar."""
+    drawn: list[bool] = []
+    panel, note = bpy.types.VIEW3D_PT_reflines_setup, lambda *_: drawn.append(True)
+    panel.append(note)
+    driver.redraw()
+    yield 0.5
+    panel.remove(note)
+    return bool(drawn)
+
+
 def read_button(driver: window.Window) -> Generator[float, None, str]:
     """Returns the command of the button under the mouse, which Ctrl C copies; empty where there is none."""
     manager = bpy.context.window_manager
