@@ -17,6 +17,7 @@ from .tool_properties import (ReflinesBrush, ReflinesDirection, ReflinesPattern,
                               ReflinesWarp, SmoothSettings)
 
 LONGEST = 1e15  # length that is read from a file
+FLOAT_EPSILON = 2.0**-23  # of the coordinates of a mesh
 KINDS = (
     ('CAGE', "Cage", "Below a Subdivision Surface: move the cage so that the subdivided surface reflects well"),
     ('MESH', "Mesh", "Move the mesh's own faces, as if it were not subdivided"),
@@ -95,7 +96,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
 
     def headline(self) -> str:
         """Says what the solve did in an artist's words, the largest first."""
-        if not self.largest_move:
+        if self.largest_move <= FLOAT_EPSILON * max(self.id_data.dimensions):  # no bit of a coordinate
             return "Nothing moved"
         held = f" (the limit held {self.limited} back)" if self.limited else ""
         return f"{self.gain()}, moved at most {self.moved(2)}{self.moved_cage()}{held}"

@@ -41,6 +41,9 @@ def test_a_smoothing_tells_first_how_much_smoother_the_lines_are(capfd: pytest.C
 
 def test_nothing_moved_is_said_plainly() -> None:
     assert solved(strength=0.0).headline() == "Nothing moved"
+    report = solved(length=0.414)
+    report.largest_move = 1e-8  # of a panel of 2 x 2: no bit of a coordinate
+    assert report.headline() == "Nothing moved"
 
 
 def test_another_tool_tells_how_much_of_the_target_was_reached() -> None:

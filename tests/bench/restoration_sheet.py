@@ -2,8 +2,9 @@
 
     PYTHONPATH=addon:tests python3 -m bench.restoration_sheet    writes build/bench/restoration.png
 
-A row a panel: flawed by dents and healed, then clean and pressed, each in the light given and in the crossed one. The
-stripes are drawn from the normals of the triangles, by the judge's own formula of theta.
+A row a panel: flawed by dents and healed, then clean and pressed, each in the light given and in the crossed one; then
+the samples, before and after a press, where tests/bench/sample_presses.py has pressed them. The stripes are drawn from
+the normals of the triangles, by the judge's own formula of theta.
 """
 from collections.abc import Iterator
 
@@ -11,7 +12,7 @@ import matplotlib
 import numpy as np
 import reflines
 
-from bench.restoration import JUDGE, ROOT, load_judge, read_cage, read_panels
+from bench.restoration import ROOT, load_judge, read_cage, read_panels
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (after the choice of what draws)
@@ -46,6 +47,25 @@ def press_cage(judge: object, panel: dict) -> Iterator[tuple[str, Shape]]:
         yield f"{selected}, pressed", (surface.positions(pressed), F)
 
 
+def read_samples() -> dict[str, tuple[list[tuple[str, Shape]], np.ndarray, np.ndarray]]:
+    """Returns the shapes of each sample's row with their titles, its view and its light."""
+    rows = {}
+    for path in sorted((ROOT / "build/bench/samples").glob("*.npz")):
+        data = np.load(path)
+        rows[path.stem] = ([("before", (data["V"], data["F"])), ("pressed", (data["pressed"], data["F"]))],
+                           data["view"], data["light"])
+    return rows
+
+
+def read_rows(judge: object) -> dict[str, tuple[list[tuple[str, Shape]], np.ndarray, np.ndarray]]:
+    """Returns the same of all panels and samples."""
+    rows = {}
+    for name, panel in (read_panels(cages=False) | read_panels(cages=True)).items():
+        shapes = list((press_cage if panel["cage"] else press_mesh)(judge, panel))
+        rows[name] = shapes, judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
+    return rows | read_samples()
+
+
 def draw(axes: pyplot.Axes, judge: object, shape: Shape, view: np.ndarray, light: np.ndarray) -> None:
     V, F = shape
     x, y, _ = reflines.image_plane(view, light)
@@ -59,18 +79,19 @@ def draw(axes: pyplot.Axes, judge: object, shape: Shape, view: np.ndarray, light
 
 def main() -> None:
     judge = load_judge()
-    panels = read_panels(cages=False) | read_panels(cages=True)
-    figure, grid = pyplot.subplots(len(panels), 8, figsize=(24, 3 * len(panels)))
-    for row, (name, panel) in zip(grid, panels.items(), strict=True):
-        v, a = judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
-        for k, (title, shape) in enumerate((press_cage if panel["cage"] else press_mesh)(judge, panel)):
+    rows = read_rows(judge)
+    figure, grid = pyplot.subplots(len(rows), 8, figsize=(24, 3 * len(rows)))
+    for axes in grid.ravel():
+        axes.axis("off")
+    for row, (name, (shapes, v, a)) in zip(grid, rows.items(), strict=True):
+        for k, (title, shape) in enumerate(shapes):
             for light in (0, 1):
                 draw(row[k + 4 * light], judge, shape, v, (a, judge.unit(np.cross(v, a)))[light])
                 row[k + 4 * light].set_title(f"{name}: {title}{', crossed' if light else ''}", fontsize=7)
     out = ROOT / "build/bench/restoration.png"
     out.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(out, dpi=80, bbox_inches="tight")
-    print(f"{out.relative_to(ROOT)}: {len(panels)} panels of {JUDGE.parent.name}")
+    print(f"{out.relative_to(ROOT)}: {len(rows)} panels and samples")
 
 
 if __name__ == "__main__":
