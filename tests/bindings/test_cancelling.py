@@ -15,7 +15,8 @@ import pytest
 import reflines
 from sample_panels import LINE, VIEW, panel, rippled
 
-SOONEST = 0.3  # seconds
+SLOWER = float(os.environ.get("REFLINES_SLOWER", "1"))  # times that the module is slower, as under sanitizers
+SOONEST = 0.3 * SLOWER  # seconds
 ATTEMPTS = 3   # on a machine with other work
 
 Work = Callable[[reflines.Progress], object]
@@ -41,12 +42,18 @@ def waited(stage: str, work: Work) -> float:
     return end - asked[0]
 
 
+def smaller(cells: int) -> int:
+    """So many cells a side that a slower module takes about as long."""
+    return max(4, round(cells / SLOWER**0.5))
+
+
 def flawed_panel(cells: int) -> tuple[np.ndarray, np.ndarray]:
-    V, F = panel(cells)
+    V, F = panel(smaller(cells))
     return rippled(V, amplitude=2e-4, wavelength=0.15), F
 
 
-def sheet(cells: int) -> dict[str, np.ndarray]:
+def sheet(most: int) -> dict[str, np.ndarray]:
+    cells = smaller(most)
     corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
     quads = np.stack([corner, corner + 1, corner + cells + 2, corner + cells + 1], 1)
     x, y = (axis.ravel() for axis in np.meshgrid(np.linspace(-1, 1, cells + 1), np.linspace(-1, 1, cells + 1)))
