@@ -1,9 +1,9 @@
 """Draws the sheet of the press of Smooth: stripes of real panels before and after it, in both lights, to be looked at.
 
-    PYTHONPATH=addon:tests python3 -m bench.restoration_sheet    writes build/bench/restoration.png
+    PYTHONPATH=addon:tests:tests/bindings python3 -m bench.restoration_sheet    writes build/bench/restoration.png
 
 A row a panel: flawed by dents and healed, then clean and pressed, each in the light given and in the crossed one; then
-the samples, before and after a press, where tests/bench/sample_presses.py has pressed them. The stripes are drawn from
+careless selections of a bonnet, a boot and a scoop, and the samples, before and after a press, where tests/bench/sample_presses.py has pressed them. The stripes are drawn from
 the normals of the triangles, by the judge's own formula of theta.
 """
 from collections.abc import Iterator
@@ -12,11 +12,13 @@ import matplotlib
 import numpy as np
 import reflines
 
+import careless
 from bench.restoration import ROOT, load_judge, read_cage, read_panels
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (after the choice of what draws)
 
+CARELESS = ("bonnet", "boot", "Subaru scoop")
 STRIPES = 24  # over the circle of theta
 Shape = tuple[np.ndarray, np.ndarray]  # V #V x 3, F #F x 3
 
@@ -47,6 +49,17 @@ def press_cage(judge: object, panel: dict) -> Iterator[tuple[str, Shape]]:
         yield f"{selected}, pressed", (surface.positions(pressed), F)
 
 
+def read_careless(judge: object) -> dict[str, tuple[list[tuple[str, Shape]], np.ndarray, np.ndarray]]:
+    """Returns the shapes of careless selections with their titles, their views and lights."""
+    rows = {}
+    for selection in careless.SELECTIONS:
+        if selection.name in CARELESS:
+            V, F = careless.select(selection)
+            v, a = judge.unit(np.array(selection.view, float)), judge.unit(np.array(selection.light, float))
+            rows[selection.name] = [("before", (V, F)), ("pressed", (judge.present(V, F, v, a), F))], v, a
+    return rows
+
+
 def read_samples() -> dict[str, tuple[list[tuple[str, Shape]], np.ndarray, np.ndarray]]:
     """Returns the shapes of each sample's row with their titles, its view and its light."""
     rows = {}
@@ -63,7 +76,7 @@ def read_rows(judge: object) -> dict[str, tuple[list[tuple[str, Shape]], np.ndar
     for name, panel in (read_panels(cages=False) | read_panels(cages=True)).items():
         shapes = list((press_cage if panel["cage"] else press_mesh)(judge, panel))
         rows[name] = shapes, judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
-    return rows | read_samples()
+    return rows | read_careless(judge) | read_samples()
 
 
 def draw(axes: pyplot.Axes, judge: object, shape: Shape, view: np.ndarray, light: np.ndarray) -> None:
