@@ -3,8 +3,9 @@
     PYTHONPATH=addon:tests:tests/bindings python3 -m bench.restoration_sheet    writes build/bench/restoration.png
 
 A row a panel: flawed by dents and healed, then clean and pressed, each in the light given and in the crossed one; then
-careless selections of a bonnet, a boot and a scoop, and the samples, before and after a press, where tests/bench/sample_presses.py has pressed them. The stripes are drawn from
-the normals of the triangles, by the judge's own formula of theta.
+careless selections of a bonnet, a boot and a scoop, and the samples, before and after a press: these where
+tests/bench/sample_presses.py has pressed them. The stripes are drawn from the normals of the triangles, by the judge's
+own formula of theta.
 """
 from collections.abc import Iterator
 
