@@ -1,10 +1,15 @@
 // Solves within a limit of the move, and the free ones that they are compared with.
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <random>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "tests/bench/bench.h"
@@ -36,6 +41,25 @@ struct NoisyBump {
   double largest = 0.0;  // of the free solve
 };
 
+constexpr auto kLongest = std::chrono::seconds(40);  // of one solve; with 100,000 vertices some take longer
+
+// Cancels a progress after the longest time, unless it is destroyed before.
+class TimeLimit {
+ public:
+  TimeLimit()
+      : watch_([this](const std::stop_token& stop) {
+          std::unique_lock lock(mutex_);
+          if (!ended_.wait_for(lock, stop, kLongest, [&] { return stop.stop_requested(); })) progress_.cancel();
+        }) {}
+  Progress* progress() { return &progress_; }
+
+ private:
+  Progress progress_;
+  std::mutex mutex_;
+  std::condition_variable_any ended_;
+  std::jthread watch_;  // last: it ends before what it uses
+};
+
 void count(benchmark::State& state, const Report& report) {
   state.counters["iterations"] = report.iterations;
   state.counters["factorizations"] = report.factorizations;
@@ -51,8 +75,9 @@ void solve(benchmark::State& state, int unknowns, double share) {
     state.PauseTiming();
     const std::unique_ptr<ShapeOptimizer> optimizer = bump.optimizer();
     const MoveLimit limit = share > 0 ? bump.limit(share) : MoveLimit::none();
+    TimeLimit time;
     state.ResumeTiming();
-    count(state, optimizer->solve(target, {}, nullptr, limit));
+    count(state, optimizer->solve(target, {}, time.progress(), limit));
   }
 }
 
@@ -62,7 +87,9 @@ void warm_step(benchmark::State& state, int unknowns, double share) {
   const std::vector<Target> targets[2] = {{bump.problem.target(0.0)}, {bump.problem.target(0.01)}};
   const std::unique_ptr<ShapeOptimizer> optimizer = bump.optimizer();
   const MoveLimit limit = share > 0 ? bump.limit(share) : MoveLimit::none();
-  optimizer->solve(targets[1], {}, nullptr, limit);
+  TimeLimit time;
+  if (optimizer->solve(targets[1], {}, time.progress(), limit).termination == Termination::kCancelled)
+    return state.SkipWithError("the first solve does not end");
   MinimizerOptions drag;
   drag.gradient_tolerance = 1e-2;
   int update = 0;
