@@ -164,12 +164,12 @@ def strategy_rows(sizes: tuple[int, ...]) -> list[Row]:
     times = medians(runs)
     (OUT / "strategies.json").write_text(json.dumps(
         {name: entries[0] | {"real_time": times[name]} for name, entries in runs.items()}, indent=1))
-    early = [compare_strategies(runs, times, sizes, "linearized", goal) for goal in EARLY_GOALS]
-    return [*early, *(compare_strategies(runs, times, sizes, other) for other in ("linearized", "gauss_newton", "newton"))]
+    raced = [("linearized", goal) for goal in ("", *EARLY_GOALS)] + [("gauss_newton", ""), ("newton", "")]
+    return [compare_strategies(runs, times, sizes, other, goal) for other, goal in raced]
 
 
 def compare_strategies(runs: dict[str, list[dict]], times: Times, sizes: tuple[int, ...], other: str,
-                       goal: str = "") -> Row:
+                       goal: str) -> Row:
     """Returns how many times as long as ours another strategy takes to the same energy."""
     ratios, missed = [], 0
     for task in TASKS:
