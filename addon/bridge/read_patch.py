@@ -47,8 +47,7 @@ def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:
     else:
         faces = region_faces.read_stored_region(mesh)
     if not faces.any():
-        raise Refusal(f"{ob.name} has no stored region: "
-                      "select the faces of the panel in Edit Mode and run the tool there once")
+        raise Refusal(region_faces.describe_missing_region(ob.name))
     return faces
 
 

@@ -16,6 +16,11 @@ def has_stored_region(mesh: bpy.types.Mesh) -> bool:
     return attribute is not None and attribute.domain == 'FACE' and attribute.data_type == 'INT'
 
 
+def describe_missing_region(name: str) -> str:
+    """Says that the mesh of an object has no region from a run before."""
+    return f"{name} has no stored region: select the faces of the panel in Edit Mode and run the tool there once"
+
+
 def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     """Reads the selected visible faces: #faces, bool. In Edit Mode the mesh must have been updated from it."""
     return read_visible_faces(mesh) & read_face_flags(mesh, "select")

@@ -2,6 +2,7 @@
 import bpy
 
 from ..model.refusal import Refusal
+from . import region_faces
 
 
 def contains_object(objects: bpy.types.bpy_prop_collection, ob: bpy.types.Object) -> bool:
@@ -38,10 +39,30 @@ def find_subjects(context: bpy.types.Context) -> list[bpy.types.Object]:
     chosen = find_active_object(context)
     if chosen is None or chosen.mode != 'EDIT':
         return [chosen]
-    editing = {ob.data: ob for ob in context.view_layer.objects if ob.mode == 'EDIT' and ob.type == 'MESH'}
-    selected = [ob for ob in editing.values() if ob.data.total_face_sel > 0]
+    editing = list_edited_meshes(context)
+    selected = [ob for ob in editing if ob.data.total_face_sel > 0]
     if not selected:
-        loose = sum(ob.data.total_vert_sel for ob in editing.values())
-        also = f" (the {loose} selected vertices span no face)" if loose else ""
-        raise Refusal(f"No faces are selected{also}: select the faces of the panel")
+        raise Refusal(describe_empty_selection(editing))
     return selected
+
+
+def list_edited_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Returns the objects in Edit Mode, one for each mesh."""
+    return list({ob.data: ob for ob in context.view_layer.objects if ob.mode == 'EDIT' and ob.type == 'MESH'}.values())
+
+
+def describe_empty_selection(editing: list[bpy.types.Object]) -> str:
+    """Says that none of the edited meshes has a selected face."""
+    loose = sum(ob.data.total_vert_sel for ob in editing)
+    also = f" (the {loose} selected vertices span no face)" if loose else ""
+    return f"No faces are selected{also}: select the faces of the panel"
+
+
+def explain_missing_region(context: bpy.types.Context, ob: bpy.types.Object) -> str:
+    """Says why there are no faces that a tool could work on; empty where there are."""
+    if ob.mode != 'EDIT':
+        return "" if region_faces.has_stored_region(ob.data) else region_faces.describe_missing_region(ob.name)
+    if ob.data.total_face_sel > 0:
+        return ""
+    editing = list_edited_meshes(context)
+    return "" if any(each.data.total_face_sel > 0 for each in editing) else describe_empty_selection(editing)

@@ -5,7 +5,7 @@ from ..bridge import facing, read_patch, region_faces, scene_objects, warp_latti
 from ..model.refusal import Refusal
 from ..solver import live_optimizer
 from ..ui.tool_properties import SPLINES
-from .solve_tool import SolveTool
+from .solve_tool import is_ready
 
 
 class REFLINES_OT_add_warp_lattice(bpy.types.Operator):
@@ -24,7 +24,7 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return SolveTool.poll.__func__(cls, context)
+        return is_ready(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()

@@ -20,6 +20,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
     bl_idname = "reflines.fair_brush"
     bl_label = "Fair Brush"
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING'}
+    needs_faces = False  # a press in the view says what is missing
 
     lights: lights_property()
     limit: limit_property()

@@ -18,6 +18,7 @@ class REFLINES_OT_fit(SolveTool, bpy.types.Operator):
 has its lines. Select that mesh, then the cage"""
     bl_idname = "reflines.fit"
     bl_label = "Fit Cage to Mesh"
+    needs_faces = False  # without a region all of the cage is fitted
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines

@@ -10,7 +10,7 @@ from ..model.refusal import Refusal
 from ..model.solution import Solution
 from ..state import optimizer_cache, solve_history
 from ..targets import warp
-from .solve_tool import SolveTool
+from .solve_tool import is_ready
 
 
 class LiveWarpEnd:
@@ -69,7 +69,7 @@ shape, Discard takes it back; both can wait until the file is opened again"""
             cls.poll_message_set(f"{live.panel.name} already follows its lattice: apply or discard that first")
             return False
         return context.mode == 'EDIT_LATTICE' and active.reflection_lines.panel is not None \
-            or SolveTool.poll.__func__(cls, context)
+            or is_ready(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()

@@ -33,6 +33,7 @@ where a line was pulled to; Enter applies them all"""
     bl_idname = "reflines.pull_line"
     bl_label = "Pull Line"
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING'}
+    needs_faces = False  # a press in the view says what is missing
 
     handles: StringProperty(name="Handles", options={'HIDDEN', 'SKIP_SAVE'},
                             description="As JSON, see model/line_handle.py; empty in Re-solve: those of the object")

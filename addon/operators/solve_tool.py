@@ -19,9 +19,24 @@ LOST_START = ("The run began with the mesh as it is now: the shape before the la
               "was changed, undone, renamed or duplicated after it")
 
 
+def is_ready(operator: type[bpy.types.Operator], context: bpy.types.Context, *, needs_faces: bool = True) -> bool:
+    """Returns whether a tool can run on the active object; sets the message that says why not."""
+    ob = scene_objects.find_active_object(context)
+    if ob is None or ob.type != 'MESH' or ob.mode not in {'EDIT', 'OBJECT'}:
+        operator.poll_message_set("Make the panel's mesh the active object, in Edit Mode or Object Mode")
+        return False
+    obstacle = (view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
+                or (scene_objects.explain_missing_region(context, ob) if needs_faces else ""))
+    operator.poll_message_set(obstacle)
+    return not obstacle
+
+
 class SolveTool:
     """A tool adds its settings, names the property group that holds the scene's, and builds a target from them."""
     bl_options = {'REGISTER', 'UNDO'}
+
+    # Whether the buttons are grey where there are no faces to work on. A press in the view would go unheard then.
+    needs_faces = True
 
     border: border_property()
     solve_for: solve_for_property(options={'SKIP_SAVE'})
@@ -52,13 +67,7 @@ class SolveTool:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = scene_objects.find_active_object(context)
-        if ob is None or ob.type != 'MESH' or ob.mode not in {'EDIT', 'OBJECT'}:
-            cls.poll_message_set("Make the panel's mesh the active object, in Edit Mode or Object Mode")
-            return False
-        obstacle = view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
-        cls.poll_message_set(obstacle)
-        return not obstacle
+        return is_ready(cls, context, needs_faces=cls.needs_faces)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()  # scripts may have set transforms that are not evaluated yet

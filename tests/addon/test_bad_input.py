@@ -99,6 +99,29 @@ def test_no_stored_region() -> None:
     refused(ob, "Panel has no stored region: select the faces of the panel in Edit Mode")
 
 
+def test_buttons_are_grey_where_there_are_no_faces_to_work_on() -> None:
+    """Those that a press in the view begins say why then instead; a cage is fitted without a region."""
+    tools, pressed = ([getattr(bpy.ops.reflines, name) for name in names]
+                      for names in (("smooth", "direction", "untwist", "warp", "pattern"),
+                                    ("pull_line", "fair_brush", "fit")))
+    ob = scenes.panel()
+    scenes.look_from_above()
+    states = [False]
+    for change in (lambda: scenes.edit_inner(ob), lambda: bpy.ops.mesh.select_all(action='DESELECT'),
+                   lambda: scenes.select_faces(ob, scenes.inner()), scenes.object_mode, lambda: run_once(ob)):
+        assert {tool.poll() for tool in tools} == {states[-1]} and all(tool.poll() for tool in pressed)
+        change()
+        states.append(tools[0].poll())
+    assert states == [False, True, False, True, False, True]
+
+
+def run_once(ob: bpy.types.Object) -> None:
+    """In Edit Mode, and back."""
+    scenes.edit(ob)
+    assert scenes.smooth() == {'FINISHED'}
+    scenes.object_mode()
+
+
 def test_closed_body() -> None:
     bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
     ob = bpy.context.object
