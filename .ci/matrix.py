@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from debian import CACHE, Unavailable, mirror, output
+from wheel import version
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
@@ -142,8 +143,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("suites", nargs="*", default=["bookworm", "trixie", "sid"])
     arguments = parser.parse_args()
-    package = max((ROOT / "build/package").glob(f"{NAME}-*.zip"), key=lambda path: path.stat().st_mtime, default=None)
-    if package is None:
+    package = ROOT / "build/package" / f"{NAME}-{version()}.zip"
+    if not package.is_file():
         sys.exit("no package in build/package: ./run package")
     total = Counts()
     for suite in arguments.suites:

@@ -1,6 +1,10 @@
-"""Makes what a user installs, in build/package: reflection_lines-VERSION.zip, wheels, and the folder of the extension.
+"""Makes what a user installs, in build/package: zips for Linux and Windows, wheels, and the folder of the extension.
 
-The zip has one top-level folder, so that Blender 3.4 takes it as a legacy add-on and 4.2 and later as an extension,
+    .ci/package.py [linux]
+
+linux: leaves Windows out. Modules for Windows are those that .ci/windows.py has linked into build/package/windows.
+
+A zip has one top-level folder, so that Blender 3.4 takes it as a legacy add-on and 4.2 and later as an extension,
 with the native module once for each Python side by side. The folder of the extension has the module as wheels instead,
 as Blender wants it from 4.2 on; `./run release` makes a repository of it. Headers of the Pythons come from the Debian
 suites that have them: 3.11 and 3.13 are those of Blender 4.1 to 5.0 and of 5.1 and later from blender.org, too
@@ -28,7 +32,8 @@ BUILD = ROOT / "build/package"
 NAME = "reflection_lines"
 SUITES = ("bookworm", "trixie", "sid")  # Blender 3.4, 4.3, 5.2
 NEWEST_GLIBC = 28  # 2.28, which Blender's own builds need
-PLATFORM = f"manylinux_2_{NEWEST_GLIBC}_x86_64"
+PLATFORMS = {".so": f"manylinux_2_{NEWEST_GLIBC}_x86_64", ".pyd": "win_amd64"}  # of wheels
+BLENDER_PLATFORMS = {".so": "linux-x64", ".pyd": "windows-x64"}
 CHOLMOD = ("cholmod", "metis", "amd", "camd", "ccolamd", "colamd", "suitesparseconfig")  # in the order of linking
 NO_ARCHIVE = 75  # the exit code that says so, "try again later"
 ALLOWED = {"libm.so.6", "libc.so.6", "libgomp.so.1", "ld-linux-x86-64.so.2"}
@@ -98,11 +103,25 @@ def addon_files() -> list[Path]:
     return [ROOT / name for name in sorted(set(listing.splitlines())) if (ROOT / name).is_file()]
 
 
-def make_zip(built: list[Path]) -> Path:
-    path = BUILD / f"{NAME}-{version()}.zip"
-    inside = {file.relative_to(ROOT / "addon"): file for file in addon_files()}
-    inside |= {Path("LICENSE"): ROOT / "LICENSE"} | {Path(module.name): module for module in built}
-    write_zip(path, {f"{NAME}/{name.as_posix()}": file.read_bytes() for name, file in inside.items()})
+def windows_modules() -> list[Path]:
+    return sorted((BUILD / "windows").glob("reflines.cp*.pyd"))
+
+
+def manifest(modules: list[Path], wheels: list[Path]) -> str:
+    """The add-on's manifest, for the platforms of these modules, and with the names of wheels where there are any."""
+    platforms = ", ".join(f'"{BLENDER_PLATFORMS[suffix]}"' for suffix in sorted({path.suffix for path in modules}))
+    text = (ROOT / "addon/blender_manifest.toml").read_text()
+    head, tables = re.sub(r"platforms = \[.*\]", f"platforms = [{platforms}]", text).split("\n[", maxsplit=1)
+    rows = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
+    return head + (f"\nwheels = [\n{rows}]\n" if wheels else "") + f"\n[{tables}"
+
+
+def make_zip(path: Path, built: list[Path]) -> Path:
+    inside = {file.relative_to(ROOT / "addon"): file.read_bytes() for file in addon_files()}
+    inside |= {Path("LICENSE"): (ROOT / "LICENSE").read_bytes()}
+    inside |= {Path("blender_manifest.toml"): manifest(built, []).encode()}
+    inside |= {Path(module.name): module.read_bytes() for module in built}
+    write_zip(path, {f"{NAME}/{name.as_posix()}": content for name, content in inside.items()})
     return path
 
 
@@ -110,10 +129,12 @@ def make_wheels(built: list[Path]) -> list[Path]:
     folder = BUILD / "wheels"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
-    return [write_wheel(folder, module, f"cp{module.name.split('-')[1]}", PLATFORM) for module in built]
+    pythons = [re.search(r"reflines\.(?:cpython-|cp)(\d+)-", module.name)[1] for module in built]
+    return [write_wheel(folder, module, f"cp{python}", PLATFORMS[module.suffix])
+            for module, python in zip(built, pythons, strict=True)]
 
 
-def make_extension(wheels: list[Path]) -> Path:
+def make_extension(built: list[Path], wheels: list[Path]) -> Path:
     """The folder that `blender --command extension build` takes: the add-on, the wheels, a manifest that names them."""
     folder = BUILD / "extension"
     shutil.rmtree(folder, ignore_errors=True)
@@ -125,10 +146,7 @@ def make_extension(wheels: list[Path]) -> Path:
     (folder / "wheels").mkdir()
     for wheel in wheels:
         shutil.copy(wheel, folder / "wheels")
-    manifest = folder / "blender_manifest.toml"
-    rows = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
-    head, tables = manifest.read_text().split("\n[", maxsplit=1)
-    manifest.write_text(f"{head}\nwheels = [\n{rows}]\n\n[{tables}")
+    (folder / "blender_manifest.toml").write_text(manifest(built, wheels))
     return folder
 
 
@@ -145,9 +163,15 @@ def main() -> None:
     built = modules(pythons)
     for module in built:
         print(check(module))
-    path = make_zip(built)
-    print(f"{make_extension(make_wheels(built)).relative_to(ROOT)}: for ./run release")
-    print(f"{path.relative_to(ROOT)}: {path.stat().st_size / 1e6:.1f} MB, {time.monotonic() - start:.0f} s")
+    for older in BUILD.glob(f"{NAME}-*.zip"):
+        older.unlink()
+    zips = [make_zip(BUILD / f"{NAME}-{version()}.zip", built)]
+    windows = windows_modules() if sys.argv[1:] != ["linux"] else []
+    if windows:
+        zips.append(make_zip(BUILD / f"{NAME}-{version()}-windows.zip", windows))
+    print(f"{make_extension(built + windows, make_wheels(built + windows)).relative_to(ROOT)}: for ./run release")
+    for path in zips:
+        print(f"{path.relative_to(ROOT)}: {path.stat().st_size / 1e6:.1f} MB, {time.monotonic() - start:.0f} s")
 
 
 if __name__ == "__main__":

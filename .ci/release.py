@@ -1,8 +1,9 @@
 """Makes build/repository, which any static host serves as a repository of Blender extensions, of what package.py made.
 
-In it: a zip for each platform, the listing that Blender reads (index.json) and one for people (index.html), the zip
-for Blender 3.4 to 4.1 in a folder of its own, and the hashes of all. Blender's own command line makes zips and listing,
-that of the oldest Blender here that knows extensions; this one and the newest validate. Needs root, as the matrix does.
+In it: a zip for each platform, the listing that Blender reads (index.json) and one for people (index.html), the zips
+for Blender 3.4 to 4.1 in a folder of their own, and the hashes of all. Blender's own command line makes zips and
+listing, that of the oldest Blender here that knows extensions; this one and the newest validate. Needs root, as the
+matrix does.
 
     .ci/release.py [--test]
 
@@ -76,7 +77,8 @@ def release() -> None:
     shutil.rmtree(REPOSITORY, ignore_errors=True)
     shutil.copytree(made, REPOSITORY)
     (REPOSITORY / "legacy").mkdir()
-    shutil.copy(BUILD / f"reflection_lines-{version()}.zip", REPOSITORY / "legacy")
+    for package in BUILD.glob(f"reflection_lines-{version()}*.zip"):
+        shutil.copy(package, REPOSITORY / "legacy")
     write_hashes(REPOSITORY)
     for path in sorted(path for path in REPOSITORY.rglob("*") if path.is_file()):
         print(f"{path.relative_to(ROOT)}: {path.stat().st_size / 1e6:.2f} MB")
@@ -89,7 +91,7 @@ def next_version(folder: Path) -> Path:
     for wheel in sorted((folder / "wheels").iterdir()):
         _, _, python, _, platform = wheel.stem.split("-")
         with zipfile.ZipFile(wheel) as archive:
-            name = next(name for name in archive.namelist() if name.startswith("reflines.cpython-"))
+            name = next(name for name in archive.namelist() if name.startswith("reflines."))
             library = folder / name
             library.write_bytes(archive.read(name) + b"another build")
         write_wheel(wheel.parent, library, python, platform, NEXT)

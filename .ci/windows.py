@@ -1,72 +1,158 @@
-"""Compiles the solver for 64-bit Windows, in a Debian with the compiler for it: code that only Linux has does not pass.
+"""Builds the solver for 64-bit Windows, in a Debian with the compiler for it, and runs its native tests under Wine.
 
-Nothing is linked and nothing runs: that takes the solver's own libraries built for Windows. A warning is a failure. The
-root is kept in the cache folder. Needs root.
+Then the Python module is linked for each Python that Blender for Windows embeds, and looked into: it may ask for
+Windows's own libraries and Python's only, and show nothing but its entry point. No Python loads it here. A warning of
+the compiler is a failure. The root is kept in the cache folder, with the solver's libraries in it. Needs root.
+
+    .ci/windows.py [--modules FOLDER]
+
+--modules: builds the modules only, without tests, and puts them into a folder, for .ci/package.py.
 """
+import argparse
 import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from debian import BUILT_WITH, CACHE, Suite, Unavailable
+from debian import Unavailable, output
 from matrix import ROOT, inside, ready_root
-from static_libraries import static_libraries
+from windows_libraries import COMPILER, windows_libraries
+from windows_libraries import PLACE as LIBRARIES
+from windows_python import PLACE as PYTHONS
+from windows_python import SUITES as PYTHON_SUITES
+from windows_python import ready_python
+
+sys.path.insert(0, str(ROOT / "tests"))
+
+from lanes import CRASHED, Counts, junit_counts  # noqa: E402  (found through the line above)
 
 SUITE = "trixie"  # the first that has this compiler
-SOURCES = ("native", "CMakeLists.txt", "CMakePresets.json")
-LIBRARIES = ("CHOLMOD", "UMFPACK", "OPENBLAS", "OSD_CPU")
+SOURCES = ("native", "tests/native", ".ci/package", "CMakeLists.txt", "CMakePresets.json")
+BUILD = "src/build/windows"
+REPORTS = "src/build/tests"
+WINE = {"WINEDEBUG": "-all", "WINEPREFIX": "/tmp/wine"}
+CHOLMOD = ("cholmod", "metis", "amd", "camd", "ccolamd", "colamd", "suitesparseconfig")  # in the order of linking
+OWN_LIBRARIES = re.compile(r"KERNEL32\.dll|api-ms-win-crt-[a-z]+-l1-1-0\.dll")
+LARGEST = 40e6  # bytes of a module
 
 
-def cblas(folder: Path) -> None:
-    """Puts OpenBLAS's headers of Debian into a folder, as they are where its build is not for Linux."""
-    unpacked = CACHE / "windows" / "openblas"
-    if not unpacked.is_dir():
-        suite = Suite(BUILT_WITH)
-        suite.update()
-        suite.unpack(["libopenblas-pthread-dev"], unpacked)
-    for header in unpacked.rglob("openblas-pthread/*.h"):
-        text = re.sub(r"#define OPENBLAS_OS_LINUX.*\n", "", header.read_text())
-        (folder / header.name).write_text(text)
+def built(command: list[str]) -> bool:
+    """Whether a command ends well and warns of nothing; shows the end of what it says if not."""
+    result = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    well = result.returncode == 0 and "warning:" not in result.stdout
+    if not well:
+        first = max(result.stdout.find("warning:") - 3000, 0)
+        print(result.stdout[first:][:5000] if "warning:" in result.stdout else result.stdout[-5000:])
+    return well
 
 
-def copy_sources(root: Path) -> None:
-    place = root / "src"
+def ready() -> Path:
+    """The root with compiler, libraries, headers and this project's sources."""
+    root = ready_root(SUITE, "windows", ("windows", "build"))
+    windows_libraries(root)
+    for tag in PYTHON_SUITES:
+        ready_python(root, tag)
     for name in SOURCES:
-        shutil.rmtree(place / name, ignore_errors=True)
-        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy2)(ROOT / name, place / name)
-    shutil.rmtree(place / "include", ignore_errors=True)
-    shutil.copytree(static_libraries() / "include", place / "include")
-    cblas(place / "include")
+        target = root / "src" / name
+        shutil.rmtree(target, ignore_errors=True)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy2)(ROOT / name, target)
+    return root
 
 
-def compile_in(root: Path) -> bool:
-    """Whether everything compiles without a warning."""
-    given = [*(f"-D{name}=none" for name in LIBRARIES), "-DSUITESPARSE_INCLUDE=/src/include/suitesparse",
-             "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O0 -isystem /src/include"]  # no code is wanted
-    configure = ["cmake", "-S", "/src", "--preset", "windows", *given]
-    build = ["cmake", "--build", "/src/build/windows"]
-    said = ""
-    for command in (configure, build):
-        result = subprocess.run(inside(root, *command), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        said += result.stdout
-        if result.returncode != 0 or "warning:" in said:
-            print(said[-5000:])
-            return False
-    return True
+def build(root: Path, targets: Sequence[str]) -> bool:
+    """Builds targets; whether without a warning."""
+    lib = f"/{LIBRARIES}/lib"
+    pythons = [f"{tag}|/{PYTHONS}/{tag}/include" for tag in PYTHON_SUITES]
+    values = {"CHOLMOD": ";".join(f"{lib}/lib{name}.a" for name in CHOLMOD), "UMFPACK": f"{lib}/libumfpack.a",
+              "OPENBLAS": f"{lib}/libblas.a", "REFLINES_SERIAL_BLAS": "ON", "OSD_CPU": f"{lib}/libosdCPU.a",
+              "SUITESPARSE_INCLUDE": f"/{LIBRARIES}/include/suitesparse", "CMAKE_PREFIX_PATH": f"/{LIBRARIES}",
+              "CMAKE_CXX_FLAGS": f"-Wa,-muse-unaligned-vector-move -isystem /{LIBRARIES}/include",
+              "REFLINES_PACKAGE_PYTHONS": ";".join(pythons)}
+    given = [f"-D{name}={value}" for name, value in values.items()]
+    configure = ["cmake", "-S", "/src", "--fresh", "--preset", "windows", *given]
+    make = ["cmake", "--build", f"/{BUILD}", "--target", *targets]
+    return built(inside(root, *configure)) and built(inside(root, *make))
+
+
+def run_tests(root: Path) -> Counts:
+    """Runs each program of native tests under Wine; one that leaves no report counts as one failure."""
+    shutil.rmtree(root / REPORTS, ignore_errors=True)
+    shutil.rmtree(root / WINE["WINEPREFIX"][1:], ignore_errors=True)
+    output(*inside(root, "sh", "-c", "wineboot --init && wineserver --wait", env=WINE))
+    total = Counts()
+    for program in sorted((root / BUILD).glob("test_*.exe")):
+        report = root / REPORTS / f"{program.stem}.xml"
+        options = ["--gtest_brief=1", f"--gtest_output=xml:Z:/{REPORTS}/{report.name}"]
+        command = ["wine", f"/{BUILD}/{program.name}", *options]
+        subprocess.run(inside(root, *command, env=WINE), stderr=subprocess.DEVNULL)
+        counts = junit_counts(report) if report.is_file() else CRASHED
+        print(f"{program.stem}: {counts}", flush=True)
+        total += counts
+    return total
+
+
+def modules(root: Path) -> list[Path]:
+    return sorted((root / BUILD).rglob("reflines.cp*.pyd"))
+
+
+def faults(root: Path, module: Path) -> Iterator[str]:
+    """What is wrong with a module: what it asks for or shows beyond what it may, and its size."""
+    tables = output(*inside(root, f"{COMPILER}-objdump", "-p", f"/{module.relative_to(root)}"))
+    python = re.sub(r"reflines\.cp(\d+)-.*", r"python\1.dll", module.name)
+    needed = set(re.findall(r"DLL Name: (\S+)", tables))
+    if strange := sorted(name for name in needed - {python} if not OWN_LIBRARIES.fullmatch(name)):
+        yield f"needs {', '.join(strange)}"
+    if python not in needed:
+        yield f"does not need {python}"
+    shown = re.findall(r"^\s+\[ *\d+\] \+base\[ *\d+\]\s+[0-9a-f]+ (\S+)$", tables, re.MULTILINE)
+    if shown != ["PyInit_reflines"]:
+        yield f"shows {shown[:5]}"
+    if module.stat().st_size > LARGEST:
+        yield "is too large"
+
+
+def inspect(root: Path) -> Counts:
+    found = modules(root)
+    total = Counts(failed=len(PYTHON_SUITES) - len(found))
+    for module in found:
+        wrong = list(faults(root, module))
+        print(f"{module.name}: {module.stat().st_size / 1e6:.1f} MB, {'; '.join(wrong) or 'as it should be'}")
+        total += Counts(passed=not wrong, failed=bool(wrong))
+    return total
+
+
+def give_modules(root: Path, folder: Path) -> Counts:
+    """Builds the modules and copies them where none has a fault."""
+    folder.mkdir(parents=True)
+    if not build(root, [f"reflines_{tag}" for tag in PYTHON_SUITES]):
+        return CRASHED
+    counts = inspect(root)
+    for module in modules(root) if counts.failed == 0 else ():
+        shutil.copy(module, folder)
+    return counts
+
+
+def test(root: Path) -> Counts:
+    return run_tests(root) + inspect(root) if build(root, ["all"]) else CRASHED
 
 
 def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--modules", type=Path)
+    folder = parser.parse_args().modules
+    if folder:
+        shutil.rmtree(folder, ignore_errors=True)
     try:
-        root = ready_root(SUITE, "windows", ("windows", "build"))
-        (root / "src").mkdir(exist_ok=True)
-        copy_sources(root)
+        root = ready()
     except Unavailable as reason:
         print(f"skipped, Debian's archive cannot be had: {reason}\n0 passed, 0 failed, 1 skipped")
         return 0
-    compiled = compile_in(root)
-    print(f"{int(compiled)} passed, {int(not compiled)} failed, 0 skipped")
-    return int(not compiled)
+    total = give_modules(root, folder) if folder else test(root)
+    print(total)
+    return int(total.failed > 0)
 
 
 if __name__ == "__main__":

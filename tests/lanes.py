@@ -169,7 +169,7 @@ def rooted_lane(*script: str) -> Counts:
 
 def packed_lane(*script: str) -> Counts:
     """Packs the add-on and runs a script that tests the package in other Debians."""
-    packed = subprocess.run(["./run", "package"], cwd=ROOT).returncode
+    packed = subprocess.run(["./run", "package", "linux"], cwd=ROOT).returncode
     if packed == NO_ARCHIVE:
         return Counts(skipped=1)
     if packed != 0:

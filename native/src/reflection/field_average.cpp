@@ -33,9 +33,9 @@ Mask find_surrounded(const HeightField& field) {
 bool fit(const HeightField& field, int v, double* weight) {
   const Incidence& around = field.triangles_of_vertex;
   const int count = around.end(v) - around.begin(v);
-  Eigen::Matrix3Xd P(3, count);
+  Eigen::Matrix3Xd P = Eigen::Matrix3Xd::Ones(3, count);
   for (int k = 0; k < count; ++k) {
-    P.col(k) << 1.0, centroid(field, around.items[around.begin(v) + k]) - field.xy.row(v).transpose();
+    P.col(k).tail<2>() = centroid(field, around.items[around.begin(v) + k]) - field.xy.row(v).transpose();
   }
   P.bottomRows<2>() /= P.bottomRows<2>().cwiseAbs().maxCoeff();
   const Eigen::LDLT<Eigen::Matrix3d> moments(P * P.transpose());

@@ -1,6 +1,8 @@
 #include "optimization/linear/linear_solver.h"
 
+#if !defined(REFLINES_SERIAL_BLAS)
 #include <cblas.h>
+#endif
 #include <cholmod.h>
 #include <omp.h>
 #include <umfpack.h>
@@ -52,8 +54,10 @@ constexpr Eigen::Index kWorthAbandoning = 20000;
 // reset: it belongs to the whole process, and resetting it while another thread solves would change that solve's
 // threads.
 void keep_blas_to_one_thread() {
+#if !defined(REFLINES_SERIAL_BLAS)
   static std::once_flag flag;
   std::call_once(flag, [] { openblas_set_num_threads(1); });
+#endif
 }
 
 // Makes CHOLMOD's own loops serial for a scope: they request four threads on any machine. On two cores they take as
