@@ -1,5 +1,4 @@
 """Buttons in a real window: the tool's button solves at once, the handle beside it drags, and F3 does as the button."""
-import os
 import sys
 from collections.abc import Generator
 
@@ -71,9 +70,7 @@ def test_the_handle_drags_from_the_present_value_wherever_the_mouse_is(driver: w
     yield from sidebar.press(driver, handle, y)
     yield from settled(driver)
     begun = shown(driver)
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "handle.png"))
-        yield 0.3
+    yield from window.take_picture(driver, "handle")
     middle = sys.modules["reflection_lines"].bridge.view_region.find_view_middle(driver.area())[0] - driver.region().x
     assert 100 < middle < driver.region('UI').x - driver.region().x - 100
     driver.move(middle - 150, 300)

@@ -1,5 +1,4 @@
 """Tools under the mouse, in a window: a drag, typed numbers, the ways out of it, and what is left of it afterwards."""
-import os
 import sys
 from collections.abc import Generator
 
@@ -27,9 +26,7 @@ def test_a_drag_follows_and_escape_leaves_no_bit_changed(driver: window.Window) 
     assert not np.array_equal(pressed, halved)
     move = np.abs(pressed - shown(driver)).max()
     assert move > 1e-5
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "drag.png"))
-        yield 0.3
+    yield from window.take_picture(driver, "drag")
     driver.key('ESC')
     yield 0.3
     assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
@@ -124,9 +121,7 @@ def test_a_typed_expression_with_a_unit_is_shown_with_its_value(driver: window.W
     header = running_drag().texts[0]
     assert "Strength: [3|] = 1.000" in header and "> Length: [2*25cm|] = 50 cm" in header, header
     assert blf.dimensions(0, header)[0] < driver.area().width
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "typed.png"))
-        yield 0.3
+    yield from window.take_picture(driver, "typed")
     driver.key('RET')
     yield from ended(driver)
     assert np.array_equal(shown(driver), expected)

@@ -1,5 +1,4 @@
 """Every tool under the mouse, in a window: what is kept is what the operator makes with the values of the drag."""
-import os
 from collections.abc import Generator
 
 import bpy
@@ -38,9 +37,7 @@ def test_untwist_with_the_wheel_for_its_radius(driver: window.Window) -> Steps:
         driver.event('WHEELUPMOUSE', 'PRESS')
         yield 0.05
     yield from dragging.settled(driver)
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "untwist.png"))
-        yield 0.3
+    yield from window.take_picture(driver, "untwist")
     yield from kept_equals_executed(driver, "untwist", ("angle", "radius"))
     operator = bpy.context.window_manager.operators[-1].properties
     assert abs(np.degrees(operator.angle) - 15.0) < 1e-3

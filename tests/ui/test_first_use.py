@@ -1,5 +1,4 @@
 """README's first use with the mouse, and the tools by F3's search, in a real window."""
-import os
 from collections.abc import Generator
 
 import bpy
@@ -24,9 +23,7 @@ def search(driver: window.Window, text: str) -> Steps:
         driver.event(letter.upper() if letter != " " else 'SPACE', 'RELEASE')
         yield 0.05
     yield 0.3
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"search_{text[:5]}.png"))
-        yield 0.3
+    yield from window.take_picture(driver, f"search_{text[:5]}")
     driver.key('RET')
     yield 0.5
 
@@ -54,10 +51,7 @@ def test_search_finds_stripes_by_the_trades_words(driver: window.Window) -> Step
 
 def noted(name: str) -> Steps:
     """Takes a picture of a step of the first use, where one is asked for."""
-    if "REFLINES_PICTURES" in os.environ:
-        yield 0.5
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"first_use_{name}.png"))
-        yield 0.3
+    yield from window.take_picture(window.Window(), f"first_use_{name}")
 
 
 def test_the_newcomer_smooths_a_sample(_driver: window.Window) -> Steps:

@@ -1,5 +1,4 @@
 """Turning the light in a real window without leaving Edit Mode: by the sidebar, and by Sweep Light."""
-import os
 from collections.abc import Generator
 from math import radians
 
@@ -94,9 +93,7 @@ def test_turn_and_tilt_can_be_typed_while_the_light_is_swept(driver: window.Wind
         yield 0.05
     driver.move(500, 300)  # what is typed stays
     yield 0.1
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "sweep_typed.png"))
-        yield 0.3
+    yield from window.take_picture(driver, "sweep_typed")
     driver.key('NUMPAD_ENTER')
     yield 0.3
     assert abs(settings().light_turn - radians(50.0)) < 1e-4, np.degrees(settings().light_turn)

@@ -1,5 +1,4 @@
 """Every mode, eye and scope of the stripes in a real window: pixels against theta or the formula of the mode."""
-import os
 import sys
 from collections.abc import Callable, Generator
 from math import pi
@@ -339,9 +338,7 @@ def test_before_and_after_side_by_side(driver: window.Window) -> Steps:
     before = yield from captured(driver)
     stripes().side_by_side = True
     both = yield from captured(driver)
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "sides.png"))
-        yield 0.3
+    yield from window.take_picture(driver, "sides")
     stripes().before = False
     view_region = sys.modules["reflection_lines"].bridge.view_region
     middle = view_region.find_view_middle(driver.area())[0] - driver.region().x
@@ -370,11 +367,7 @@ def test_the_legend_has_units_and_sign(driver: window.Window) -> Steps:
     assert legend.describe_ends(bpy.context.scene, 'RESIDUAL', 0.2) == ("0", "100", "200 rad/m")
     units.scale_length = 1.0
     stripes().mode = 'DEVIATION'
-    if "REFLINES_PICTURES" in os.environ:
-        driver.redraw()
-        yield 0.3
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], "legend.png"))
-        yield 0.3
+    yield from window.take_picture(driver, "legend")
 
 
 LARGE = 160  # cells a side of a panel that is fitted in a thread

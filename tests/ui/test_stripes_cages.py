@@ -34,9 +34,7 @@ def share_as_theta_says(driver: window.Window, ob: bpy.types.Object, picture_nam
     """Share of thousands of pixels whose brightness is that of theta of the limit normals, within 3/255."""
     reflines = sys.modules["reflection_lines"].native.reflines
     picture = yield from captured(driver)
-    if "REFLINES_PICTURES" in os.environ:
-        bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["REFLINES_PICTURES"], f"{picture_name}.png"))
-        yield 0.3
+    yield from window.take_picture(driver, picture_name)
     V, F, limit = limit_of(ob)
     pixel, triangle, barycentric = samples(driver, V, F)
     normals = (limit[F[triangle]] * barycentric[:, :, None]).sum(axis=1)
