@@ -89,8 +89,10 @@ class FairBrushTool:
 
     @staticmethod
     def draw_cursor(context: bpy.types.Context, _tool: object, place: tuple[int, int]) -> None:
-        """Draws the brush around the mouse."""
-        brush_circle.draw_brush(place, context.scene.reflection_lines.brush.size)
+        """Draws the brush around the mouse; nothing once the add-on is disabled, which Blender goes on to call."""
+        settings = getattr(context.scene, "reflection_lines", None)
+        if settings is not None:
+            brush_circle.draw_brush(place, settings.brush.size)
 
 
 def add_modes(tool: type) -> list[type]:

@@ -13,26 +13,13 @@ import hostile_scenes
 import scenes
 import sidebar
 import window
+from errors import read_errors
 
 Steps = Generator[float, None, None]
 STILL = 0.1  # seconds for a drawing
 # Not drawn: what tools alone read, and a second value where there is one.
 UNSEEN = ("record", "run: ", "handles: ", "endless ", f"report with {-hostile_scenes.HUGE}")
 PATH = os.path.join(tempfile.mkdtemp(), "hostile.blend")
-
-
-def read_errors(steps: Steps) -> Generator[float, None, str]:
-    """Takes the steps; returns what was written to the standard error meanwhile."""
-    with tempfile.TemporaryFile(mode="w+", errors="replace") as errors:
-        kept = os.dup(2)
-        os.dup2(errors.fileno(), 2)
-        try:
-            yield from steps
-        finally:
-            sys.stderr.flush()
-            os.dup2(kept, 2)
-        errors.seek(0)
-        return errors.read()
 
 
 def draw(driver: window.Window) -> Steps:
