@@ -155,6 +155,8 @@ def put(block: bpy.types.ID, path: str, value: object) -> None:
         if name not in group:
             group[name] = {}
         group = group[name]
+    if names[-1] in group:
+        del group[names[-1]]  # from Blender 5 on a value cannot take the place of one of another type
     group[names[-1]] = value
 
 
