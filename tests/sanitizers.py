@@ -1,10 +1,11 @@
 """Runs the native code under clang's sanitizers, and its fuzzers; the last line is "N passed, N failed, N skipped".
 
-    tests/sanitizers.py asan | tsan | fuzz [MINUTES]
+    tests/sanitizers.py asan | tsan | fuzz [MINUTES [SEED]]
 
 asan: memory errors, undefined behaviour and leaks in the native tests and in those of the bindings. tsan: data races
 in the native tests, with Archer, which tells ThreadSanitizer how OpenMP synchronizes; a program with a race of its own
-must be caught, else nothing was looked for. fuzz: each fuzzer of tests/fuzz from its seeds on.
+must be caught, else nothing was looked for. fuzz: each fuzzer of tests/fuzz from its seeds on, with
+other random numbers each time unless SEED is given; REFLINES_SLOWER lengthens the limit of time of an input.
 """
 import os
 import subprocess
@@ -121,18 +122,20 @@ def tsan() -> Counts:
     return Counts(passed=1) + native_lane("tsan", env)
 
 
-def fuzz(minutes: float) -> Counts:
+def fuzz(minutes: float = 1.0, seed: int = 0) -> Counts:
     if not built("asan", *(f"fuzz_{name}" for name in FUZZERS)):
         return CRASHED
-    return sum((fuzzed(name, minutes) for name in FUZZERS), Counts())
+    return sum((fuzzed(name, minutes, seed) for name in FUZZERS), Counts())
 
 
-def fuzzed(name: str, minutes: float) -> Counts:
+def fuzzed(name: str, minutes: float, seed: int) -> Counts:
     """New inputs that reach new code are kept in build/fuzz, findings beside them; seeds only those of the project."""
     kept = ROOT / "build/fuzz" / name
     kept.mkdir(parents=True, exist_ok=True)
+    longest = round(FUZZERS[name] * float(os.environ.get("REFLINES_SLOWER", 1.0)))
     command = [str(ROOT / "build/asan" / f"fuzz_{name}"), str(kept), str(ROOT / "tests/fuzz/seeds" / name),
-               f"-max_total_time={round(60 * minutes)}", f"-timeout={FUZZERS[name]}", f"-rss_limit_mb={MOST_MEMORY}",
+               f"-max_total_time={round(60 * minutes)}", f"-timeout={longest}", f"-rss_limit_mb={MOST_MEMORY}",
+               f"-seed={seed}",
                "-max_len=600", "-print_final_stats=1", "-verbosity=0", f"-artifact_prefix={kept}-"]
     code = subprocess.run(command, cwd=ROOT, env=asan_environment() | {"OMP_NUM_THREADS": "1"}).returncode
     print(f"fuzz {name}: exit code {code}", flush=True)
@@ -142,7 +145,7 @@ def fuzzed(name: str, minutes: float) -> Counts:
 def main() -> int:
     kind = sys.argv[1]
     lanes: dict[str, Callable[[], Counts]] = {
-        "asan": asan, "tsan": tsan, "fuzz": lambda: fuzz(float(sys.argv[2]) if len(sys.argv) > 2 else 1.0)}
+        "asan": asan, "tsan": tsan, "fuzz": lambda: fuzz(*map(float, sys.argv[2:3]), *map(int, sys.argv[3:]))}
     total = lanes[kind]()
     print(total)
     return 0 if total.failed == 0 else 1
