@@ -35,7 +35,7 @@ def main(folder: pathlib.Path) -> None:
     smooth(panel)
     report = panel.reflection_lines.report
     change = f"wobble {report.score_before:.2f} to {report.score_after:.2f} degrees"
-    pictures.picture(after, f"after: {change}, {report.seconds:.1f} s")
+    pictures.picture(after, f"after: {change}, {1000.0 * report.seconds:.0f} ms")
     pictures.side_by_side([before, after], folder / "comparison.png")
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "hood_smoothed.blend"), compress=True, copy=True)
     print(f"demo: look at {folder / 'comparison.png'}")
