@@ -55,6 +55,18 @@ def pull(driver: window.Window, first: tuple[int, int], last: tuple[int, int], *
     yield from settled(driver)
 
 
+def draw(driver: window.Window, places: tuple[tuple[int, int], ...]) -> Steps:
+    """Draws a stroke through places, pixels of the view."""
+    yield from move(driver, *places[0])
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield 0.1
+    for place in places[1:]:
+        yield from move(driver, *place)
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.1
+    yield from settled(driver)
+
+
 def picture(name: str) -> Steps:
     return window.take_picture(window.Window(), name)
 

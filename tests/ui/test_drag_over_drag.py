@@ -59,26 +59,25 @@ def test_disabling_the_add_on_takes_both_back(driver: window.Window) -> Steps:
     assert np.array_equal(after, before)
 
 
+def move_and_keep(driver: window.Window) -> Steps:
+    driver.move(470, 300)
+    yield 0.2
+    yield from settled(driver)
+    driver.key('RET')
+    yield 0.5
+    yield from settled(driver)
+
+
 def test_the_lower_one_is_kept_after_the_upper_one_was_left(driver: window.Window) -> Steps:
     """What is kept is what the lower one alone would have made: nothing of the pull is left in it."""
     yield from start_both(driver)
     yield from left(driver, 1)
-    driver.move(470, 300)
-    yield 0.2
-    yield from settled(driver)
-    driver.key('RET')
-    yield 0.5
-    yield from settled(driver)
+    yield from move_and_keep(driver)
     assert not is_running()
     kept = shown(driver)
     panel(driver, cells=24)
     yield from press(driver)
-    driver.move(470, 300)
-    yield 0.2
-    yield from settled(driver)
-    driver.key('RET')
-    yield 0.5
-    yield from settled(driver)
+    yield from move_and_keep(driver)
     assert np.abs(kept - shown(driver)).max() < 1e-6
 
 

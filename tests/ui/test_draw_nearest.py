@@ -3,26 +3,18 @@ import bpy
 import numpy as np
 
 import window
-from dragging import settled
-from pulling import Steps, applied, missed, move, picture, session, start, taken_back
+from pulling import Steps, applied, draw, missed, picture, session, start, taken_back
 
 STROKE = [(270 + 10 * k, 280 + 2 * k) for k in range(13)]  # pixels; it crosses lines, which run from left to right
 
 
-def draw(driver: window.Window, *keys: str) -> Steps:
+def draw_stroke(driver: window.Window, *keys: str) -> Steps:
     """Begins a session, presses the keys, and draws the stroke."""
     yield from start(driver, cells=48)
     for key in keys:
         driver.key(key)
         yield 0.1
-    yield from move(driver, *STROKE[0])
-    driver.event('LEFTMOUSE', 'PRESS')
-    yield 0.1
-    for place in STROKE[1:]:
-        yield from move(driver, *place)
-    driver.event('LEFTMOUSE', 'RELEASE')
-    yield 0.1
-    yield from settled(driver)
+    yield from draw(driver, STROKE)
 
 
 def theta_along(state: object) -> np.ndarray:
@@ -40,7 +32,7 @@ def theta_of_handle() -> float:
 def test_the_nearest_line_changes_those_below_the_stroke_less_than_the_one_at_its_start(driver: window.Window) -> Steps:
     changes = []
     for keys in (('D',), ('D', 'N')):
-        yield from draw(driver, *keys)
+        yield from draw_stroke(driver, *keys)
         theta, value = theta_along(session().surface.start), theta_of_handle()
         wanted = theta[0] if len(keys) == 1 else theta.mean()
         assert abs(value - wanted) < 0.03 * np.ptp(theta), (value, theta)
@@ -53,17 +45,17 @@ def test_the_nearest_line_changes_those_below_the_stroke_less_than_the_one_at_it
 
 def test_the_status_bar_says_which_line_is_taken_and_enter_keeps_the_choice(driver: window.Window) -> Steps:
     settings = bpy.context.scene.reflection_lines.pull
-    yield from draw(driver, 'D')
+    yield from draw_stroke(driver, 'D')
     assert session().texts[1].startswith("Drag: draw the line at its start   N: the nearest line"), session().texts
     driver.key('N')
     yield 0.2
     assert session().texts[1].startswith("Drag: draw the nearest line   N: the line at its start"), session().texts
     yield from taken_back(driver)
     assert not settings.nearest
-    yield from draw(driver, 'D', 'N')
+    yield from draw_stroke(driver, 'D', 'N')
     yield from applied(driver)
     assert settings.nearest
-    yield from draw(driver, 'D')
+    yield from draw_stroke(driver, 'D')
     assert session().nearest
     yield from taken_back(driver)
     settings.property_unset("nearest")

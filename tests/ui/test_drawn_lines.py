@@ -7,20 +7,9 @@ import numpy as np
 
 import window
 from dragging import settled, shown, undone_and_redone
-from pulling import MIDDLE, UP, Steps, applied, begin, missed, move, picture, pull, session, start, taken_back
+from pulling import MIDDLE, UP, Steps, applied, begin, draw, missed, move, picture, pull, session, start, taken_back
 
 STROKE = ((270, 290), (290, 294), (310, 299), (330, 302), (350, 299), (370, 294), (390, 290))  # pixels
-
-
-def draw(driver: window.Window, places: tuple[tuple[int, int], ...]) -> Steps:
-    yield from move(driver, *places[0])
-    driver.event('LEFTMOUSE', 'PRESS')
-    yield 0.1
-    for place in places[1:]:
-        yield from move(driver, *place)
-    driver.event('LEFTMOUSE', 'RELEASE')
-    yield 0.1
-    yield from settled(driver)
 
 
 def shown_line() -> np.ndarray:

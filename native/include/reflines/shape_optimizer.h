@@ -111,6 +111,7 @@ class ShapeOptimizer {
   Lines evaluate_lines(const Vector& heights, const Vector& weight, int family);
 
   // Scores the lines against their course without detail finer than `length`, over the triangles that can change.
+  // Throws InvalidInput for a length that is not positive.
   LineScore score(double length, int family) { return score_field(field(family), length, family); }
   LineScore score_field(const PlaneVectors& field, double length, int family);  // of other lines, #F x 2
 

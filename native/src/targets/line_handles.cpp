@@ -148,7 +148,7 @@ LineHandles::LineHandles(RegionField field, const Mask& changeable, SpdFactorize
 LineHandles::~LineHandles() = default;
 
 // Returns whether the lines of a whole triangle can be moved. Those beside a held border keep their direction: asked to
-// run straight there, the line of a coarse panel bulged by 1.6 times what it was crooked before.
+// run straight there, the line of a panel of 12 cells was bent twice as far as before.
 bool LineHandles::can_follow(int triangle) const {
   const auto& corners = field_->F.row(triangle);
   return movable_(corners(0)) && movable_(corners(1)) && movable_(corners(2));
