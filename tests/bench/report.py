@@ -226,7 +226,7 @@ def main() -> None:
             *restoration.rows(), *design_tools.rows(), *handle_steps.rows()]
     if not quick:
         rows += [*million_rows(times), *live.rows()]
-    values = [asdict(row) for row in rows]
+    values = [asdict(row) | {"value": row.value if math.isfinite(row.value) else None} for row in rows]  # JSON
     (OUT / "report.json").write_text(json.dumps(values, indent=1) + "\n")
     if arguments.keep:
         keep(values)
