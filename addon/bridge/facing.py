@@ -37,7 +37,7 @@ def is_seen_from_behind(V: np.ndarray, F: np.ndarray, direction: np.ndarray) -> 
 
 
 def describe_turned_away(ob: bpy.types.Object, patch: Patch, *, inside_out: bool) -> str:
-    all_faces = f"All {len(patch.F)} faces of the region turn away from the view"
+    all_faces = f"All {int(patch.faces.sum())} faces of the region turn away from the view"
     if inside_out:
         return (f"{all_faces}, for the normals of {ob.name} point inwards there: select the faces and choose "
                 "Mesh > Normals > Flip")

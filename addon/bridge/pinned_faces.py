@@ -6,9 +6,6 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..model.patch import Patch
-from . import read_mesh
-
 ATTRIBUTE = "reflines_pinned"
 
 
@@ -38,10 +35,3 @@ def pin_selected_faces(mesh: bpy.types.Mesh, *, pinned: bool) -> int:
     for face in chosen:
         face[layer] = int(pinned)
     return len(chosen)
-
-
-def find_face_of_triangles(ob: bpy.types.Object, patch: Patch) -> np.ndarray:
-    """Returns the mesh's face of each of the patch's triangles: #F."""
-    sizes = read_mesh.read_corners(ob.data)[1]
-    own = np.flatnonzero(patch.faces)
-    return np.repeat(own, sizes[own] - 2)

@@ -69,6 +69,12 @@ def read_region_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray
     return vertices[faces[polygons]]
 
 
+def find_face_of_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
+    """Finds the face of each triangle of the chosen faces (#faces, bool), in the order of both triangulations."""
+    own = np.flatnonzero(faces)
+    return np.repeat(own, read_corners(mesh)[1][own] - 2)
+
+
 SAMPLE = 64  # positions compared to detect a changed mesh
 
 

@@ -32,9 +32,10 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
         around = Surroundings(around.V, around.F[:, ::-1])
     local, V = local[index], whole[index]
     mirror = read_mirror.read_mirror(ob, local)
-    return Patch(ob.name, faces, index, local, V, np.ascontiguousarray(F), matrix, key, mirror,
-                 read_creases.read_creases(ob, index), border_segments.read_border(ob, index),
-                 around, read_limit_share.read_limit_share(ob, index))
+    return Patch(ob.name, faces, index, local, V, np.ascontiguousarray(F),
+                 read_mesh.find_face_of_triangles(ob.data, faces), matrix, key, mirror,
+                 read_creases.read_creases(ob, index), border_segments.read_border(ob, index), around,
+                 read_limit_share.read_limit_share(ob, index))
 
 
 def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:

@@ -53,7 +53,8 @@ def decode_solve(ob: bpy.types.Object, text: str) -> tuple[Patch, np.ndarray, np
     index, local, key = stored["index"], stored["local"].astype(np.float64), str(stored["key"])
     matrix = stored["matrix"]
     V = local @ matrix[:3, :3].T + matrix[:3, 3]
-    patch = Patch(ob.name, stored["faces"], index, local, V, stored["F"], matrix, key, None, AUTOMATIC,
+    patch = Patch(ob.name, stored["faces"], index, local, V, stored["F"],
+                  read_mesh.find_face_of_triangles(ob.data, stored["faces"]), matrix, key, None, AUTOMATIC,
                   np.full(len(index), border.UNSET), NOTHING_AROUND, None)
     move = read_mesh.read_coordinates(ob, key)[index] - local
     return patch, V + move @ matrix[:3, :3].T, stored["residual"].astype(np.float64)
@@ -99,6 +100,8 @@ def fits_mesh(stored: dict[str, np.ndarray], mesh: bpy.types.Mesh) -> bool:
     shapes = {"faces": (len(mesh.polygons),), "index": (n,), "F": (triangles, 3), "local": (n, 3), "matrix": (4, 4),
               "key": (), "residual": (triangles,)}
     if not n or not triangles or any(stored[name].shape != shape for name, shape in shapes.items()):
+        return False
+    if triangles != len(read_mesh.find_face_of_triangles(mesh, stored["faces"])):
         return False
     return bool(index[0] >= 0 and (np.diff(index) > 0).all() and index[-1] < len(mesh.vertices)
                 and F.min() >= 0 and F.max() < n

@@ -67,7 +67,8 @@ class Cage:
         offsets = np.append(0, np.cumsum(self.sizes))
         return dict(self.rules, V=self.V, face_offsets=offsets, face_vertices=self.corners, region=region,
                     creases=self.creases, crease_sharpness=self.sharpness, corners=self.sharp_corners,
-                    corner_sharpness=self.corner_sharpness, partner=self.partner if symmetric else None)
+                    corner_sharpness=self.corner_sharpness, partner=self.partner if symmetric else None,
+                    image_of=np.arange(len(self.sizes)) % self.own_faces)
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ class Patch:
     local: np.ndarray    # #V x 3, object space
     V: np.ndarray        # #V x 3, world space
     F: np.ndarray        # #F x 3, oriented so that normals point outwards in world space
+    face_of_triangle: np.ndarray  # #F: the mesh's face that each was cut from
     matrix: np.ndarray   # 4 x 4, object to world
     key: str             # the shape key that the result goes to; empty for the mesh itself
     mirror: Mirror | None
@@ -49,6 +50,10 @@ class Patch:
         """The length of the bounding box's diagonal, without the image."""
         low, high = compute_bounds(self.V)
         return float(np.linalg.norm(high - low))
+
+    def count_faces(self, triangles: np.ndarray) -> int:
+        """Counts the faces of the mesh that have a triangle in the mask (#F, bool)."""
+        return len(np.unique(self.face_of_triangle[triangles]))
 
     def to_world(self, local: np.ndarray) -> np.ndarray:
         """Transforms #points x 3 from object space to world space."""

@@ -80,16 +80,15 @@ where a line was pulled to; Enter applies them all"""
         images, handles = (handles if sign is None else line_handle.mirror_handles(handles, sign)
                            for sign in (formulation.follow_sign, formulation.image_sign))
         if self.pinned is None:
-            self.pinned = pinned_faces.read_pinned_faces(ob), pinned_faces.find_face_of_triangles(ob, patch)
-        faces, face_of_triangle = self.pinned
-        choose_pinned = partial(formulation.choose_triangles, chosen=faces, face_of_triangle=face_of_triangle)
+            self.pinned = pinned_faces.read_pinned_faces(ob)
+        choose_pinned = partial(formulation.choose_triangles, chosen=self.pinned)
         return HandleBuild(self.builder, handles, images, patch.matrix, choose_pinned)
 
     def begin(self, context: bpy.types.Context, *, in_session: bool) -> None:
         """Begins a run: what it keeps for itself, beside the properties."""
         self.builder = HandleTargets(2.0 * np.pi / context.scene.reflection_lines.stripes.count)
         self.in_session = in_session
-        self.pinned: tuple[np.ndarray, np.ndarray] | None = None  # faces, and the face of each triangle
+        self.pinned: np.ndarray | None = None  # #faces, bool
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         self.begin(context, in_session=False)

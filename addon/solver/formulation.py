@@ -90,6 +90,7 @@ class Formulation:
         """
         return native.reflines.ShapeOptimizer(self.patch.V, self.patch.F, **self.choose_directions(), progress=progress,
                                               **self.choose_edges(border), fixed=held,
+                                              face_of_triangle=self.patch.face_of_triangle,
                                               **self.patch.creases.build_arguments())
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -104,12 +105,9 @@ class Formulation:
         """Reads the triangles that lines are read on: #F x 3; of a patch joined with its image its own half."""
         return self.patch.F
 
-    def choose_triangles(self, _optimizer: "native.ShapeOptimizer", chosen: np.ndarray,
-                         face_of_triangle: np.ndarray) -> np.ndarray:
-        """Returns the numbers of the optimizer's triangles that lie in chosen faces (#mesh faces, bool);
-        `face_of_triangle` (#F) is that of the patch's triangles.
-        """
-        return np.flatnonzero(chosen[face_of_triangle])
+    def choose_triangles(self, _optimizer: "native.ShapeOptimizer", chosen: np.ndarray) -> np.ndarray:
+        """Returns the numbers of the optimizer's triangles that lie in chosen faces (#mesh faces, bool)."""
+        return np.flatnonzero(chosen[self.patch.face_of_triangle])
 
     def measure_cage_move(self, _optimizer: "native.ShapeOptimizer") -> float:
         """Measures the largest move of a cage's vertices, world units; 0 where vertices are those of the surface."""
@@ -140,7 +138,8 @@ class Formulation:
         """Calls the native press of Smooth; raises the native module's errors."""
         positions, told = native.reflines.smooth_panel(
             self.patch.V, self.patch.F, **self.choose_press_directions(), fixed=self.hold_marked_creases(),
-            **self.choose_edges(border), limit_share=self.choose_share(), **settings)
+            **self.choose_edges(border), face_of_triangle=self.patch.face_of_triangle, limit_share=self.choose_share(),
+            **settings)
         return Press(positions, told.stray, told)
 
 
@@ -217,6 +216,7 @@ class JoinedFormulation(Formulation):
         fixed = None if held is None else np.append(held, held[partner[len(held):]])
         return native.reflines.ShapeOptimizer(V, F, **self.choose_directions(), progress=progress,
                                               **self.choose_edges(border), fixed=fixed,
+                                              face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
                                               **self.patch.creases.build_arguments(partner))
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -234,6 +234,7 @@ class JoinedFormulation(Formulation):
         held = np.append(own, own[partner[len(own):]])
         positions, told = native.reflines.smooth_panel(V, F, **self.choose_press_directions(), fixed=held,
                                                        **self.choose_edges(border),
+                                                       face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
                                                        limit_share=self.choose_share(), **settings)
         return Press(self.average_images(positions - V, partner), told.stray[:len(self.patch.F)], told)
 
@@ -289,9 +290,7 @@ class CageFormulation(Formulation):
     def read_triangles(self, optimizer: "native.CageOptimizer") -> np.ndarray:
         return optimizer.triangles
 
-    def choose_triangles(self, optimizer: "native.CageOptimizer", chosen: np.ndarray,
-                         face_of_triangle: np.ndarray) -> np.ndarray:
-        del face_of_triangle  # a cage's optimizer knows the faces of its triangles
+    def choose_triangles(self, optimizer: "native.CageOptimizer", chosen: np.ndarray) -> np.ndarray:
         own = self.patch.cage.own_faces  # the images of the mesh's faces come after them, in their order
         return np.flatnonzero(chosen[optimizer.parent % own])
 

@@ -54,14 +54,14 @@ def describe_unfinished(report: "native.Report | SolveReport") -> tuple[str, ...
 
 
 def describe_held_faces(count: int) -> tuple[str, ...]:
-    """Says how many triangles were held since they would have turned far."""
-    return (f"{count} triangle{'s' if count > 1 else ''} seen at a slant stayed: they would have turned by more than "
+    """Says how many faces were held since they would have turned far."""
+    return (f"{count} face{'s' if count > 1 else ''} seen at a slant stayed: they would have turned by more than "
             f"{np.degrees(TURNED):.0f} degrees",) if count else ()
 
 
 def describe_turned_faces(count: int) -> tuple[str, ...]:
-    """Warns where triangles turned by more than turned_faces.TURNED all the same."""
+    """Warns where faces turned by more than turned_faces.TURNED all the same."""
     if count == 0:
         return ()
-    return (f"{count} triangle{'s turn' if count > 1 else ' turns'} by more than {np.degrees(TURNED):.0f} degrees: "
+    return (f"{count} face{'s turn' if count > 1 else ' turns'} by more than {np.degrees(TURNED):.0f} degrees: "
             "deselect the faces that the view sees at a slant, or turn the view camera towards them",)

@@ -57,9 +57,9 @@ def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveS
         left = turned_faces.find_turned(live.patch, firmer.positions)
         if left.sum() >= turned.sum():
             break
-        solution, turned, count = firmer, left, count + int((turned & ~left).sum())
+        solution, turned, count = firmer, left, count + live.patch.count_faces(turned & ~left)
     return replace(solution, notes=(*solution.notes, *remarks.describe_held_faces(count),
-                                    *remarks.describe_turned_faces(int(turned.sum()))))
+                                    *remarks.describe_turned_faces(live.patch.count_faces(turned))))
 
 
 def solve_held(live: LiveOptimizer, held: np.ndarray, build_target: BuildTarget, settings: SolveSettings,

@@ -49,14 +49,15 @@ constexpr double kCageCreaseAngle = 1.5 * kCreaseAngle;
 std::unique_ptr<CageOptimizer> build_optimizer(
     const Positions& V, const Indices& face_offsets, const Indices& face_vertices, const Vector3& view_direction,
     const Eigen::MatrixXd& line_direction, const std::optional<Mask>& region, const Codes& border,
-    const std::optional<Mask>& fixed, const std::optional<Indices>& partner, int level, const std::string& scheme,
-    const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness, const Indices& corners,
-    const Numbers& corner_sharpness, bool limit, bool sparse, const std::string& stencil,
-    const std::string& linear_solver, const std::string& crease_rule, double crease_angle, double proximity,
-    std::shared_ptr<Progress> progress) {
+    const std::optional<Mask>& fixed, const std::optional<Indices>& partner, const std::optional<Indices>& image_of,
+    int level, const std::string& scheme, const std::string& boundary, const Indices& creases,
+    const Numbers& crease_sharpness, const Indices& corners, const Numbers& corner_sharpness, bool limit, bool sparse,
+    const std::string& stencil, const std::string& linear_solver, const std::string& crease_rule, double crease_angle,
+    double proximity, std::shared_ptr<Progress> progress) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions options = cage_options_of(region, border, V.rows(), fixed, partner);
+  if (image_of) options.image_of = index_vector(*image_of);
   options.subdivision = subdivision_options(level, scheme, boundary, limit);
   options.sparse = sparse;
   options.shape.stencil = find_named(kStencils, stencil, "stencil");
@@ -79,11 +80,12 @@ void bind_cage_optimizer(py::module_& module) {
   py::class_<CageOptimizer>(module, "CageOptimizer", BaseIsSurface(), py::multiple_inheritance(), py::module_local())
       .def(py::init(&build_optimizer), "V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a,
            "line_direction"_a, "region"_a = py::none(), "border"_a = "clamped", "fixed"_a = py::none(),
-           "partner"_a = py::none(), "level"_a = defaults.subdivision.level, "scheme"_a = "catmull_clark",
-           "boundary"_a = "all", "creases"_a = Indices(), "crease_sharpness"_a = Numbers(), "corners"_a = Indices(),
-           "corner_sharpness"_a = Numbers(), "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse,
-           "stencil"_a = "consistent", "linear_solver"_a = "cholmod", "crease_rule"_a = "automatic",
-           "crease_angle"_a = kCageCreaseAngle, "proximity"_a = defaults.shape.proximity, "progress"_a = py::none())
+           "partner"_a = py::none(), "image_of"_a = py::none(), "level"_a = defaults.subdivision.level,
+           "scheme"_a = "catmull_clark", "boundary"_a = "all", "creases"_a = Indices(),
+           "crease_sharpness"_a = Numbers(), "corners"_a = Indices(), "corner_sharpness"_a = Numbers(),
+           "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse, "stencil"_a = "consistent",
+           "linear_solver"_a = "cholmod", "crease_rule"_a = "automatic", "crease_angle"_a = kCageCreaseAngle,
+           "proximity"_a = defaults.shape.proximity, "progress"_a = py::none())
       .def_property_readonly("region", py::cpp_function(release_gil(&CageOptimizer::region)))
       .def_property_readonly("cage_positions", py::cpp_function(release_gil(&CageOptimizer::cage_positions)))
       .def_property_readonly("cage_free", &CageOptimizer::cage_free)

@@ -49,20 +49,20 @@ class PythonTurn:
         """Ends the turn and waits for the next. For the worker."""
 
 class Region:
-    """Counts of a region's triangles and vertices by their roles; `messages` are sentences for the user."""
+    """Counts of a region's faces and vertices by their roles; `messages` are sentences for the user."""
     triangles: int
     free: int
     fixed: int
     clamped: int
     pieces: int        # height-field pieces, each solved on its own
-    silhouettes: int   # triangles with |n.v| < 0.2 (12 degrees), their vertices held
-    turned_away: int   # triangles with n.v <= 0, their vertices held
+    silhouettes: int   # faces with |n.v| < 0.2 (12 degrees), their vertices held; see `face_of_triangle` of ShapeOptimizer
+    turned_away: int   # faces with n.v <= 0, their vertices held
     unused_pieces: int # pieces without a free vertex
     creases: int       # edges held as creases
     marked_creases: int  # those of them that were marked
-    features: int      # triangles whose lines are kept: strong bends that run on for more than the smoothing length, or,
+    features: int      # faces whose lines are kept: strong bends that run on for more than the smoothing length, or,
                        # before any smoothing and for the other tools, than a sixth of the region's diagonal
-    hidden: int        # triangles of less weight: the reflected ray is nearly parallel to the lines
+    hidden: int        # faces of less weight: the reflected ray is nearly parallel to the lines
     closed: bool       # the region has no border edge
     messages: list[str]
 
@@ -128,6 +128,8 @@ class ShapeOptimizer:
                  around: tuple[np.ndarray, np.ndarray] | None = None,  # for the border "curvature": positions #S x 3 of
                                                                  # vertices around, and triangles that name the region's
                                                                  # by 0 .. #V - 1 and those by #V and more
+                 face_of_triangle: np.ndarray | None = None,     # #F: the face that each was cut from, by any numbers;
+                                                                 # counts are those of faces. None: each is its own
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
                  crease_rule: CreaseRule = "automatic",          # creases are held, no stencil reaches across
                  marked_creases: np.ndarray = ...,               # #M x 2 vertices of edges; used unless the rule is "none"
@@ -177,7 +179,7 @@ class SmoothPanelReport:
     limited: int               # vertices that the limit holds back
     bumps: int                 # round dents and bumps that were taken away
     mirrored: int              # vertices of a symmetric panel; 0: it is not symmetric
-    held_faces: int            # triangles that would have turned by more than 45 degrees and were held instead
+    held_faces: int            # faces that would have turned by more than 45 degrees and were held instead
     score_before: list[LineScore]  # one for each light, at `length`
     score_after: list[LineScore]
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
@@ -192,6 +194,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature
                  fixed: np.ndarray | None = None,                   # #V bool: held whatever the border says
                  around: tuple[np.ndarray, np.ndarray] | None = None,  # as in ShapeOptimizer
+                 face_of_triangle: np.ndarray | None = None,        # #F, as in ShapeOptimizer
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
                  length: float | None = None,                       # size of the flaws; None: the diagonal / 14
                  strength: float = 1.0,                             # share of the move that is made, 0 to 1
@@ -207,7 +210,8 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
 def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
                       view_direction: Sequence[float], line_direction: Sequence[float],
                       region: np.ndarray | None = None, border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None,
-                      partner: np.ndarray | None = None, level: int = 2, scheme: Scheme = "catmull_clark",
+                      partner: np.ndarray | None = None, image_of: np.ndarray | None = None, level: int = 2,
+                      scheme: Scheme = "catmull_clark",
                       boundary: Boundary = "all", creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                       corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,
                       limit_surface: bool = True,          # Subdivision's `limit`
@@ -277,6 +281,8 @@ class CageOptimizer(ShapeOptimizer):
                                                       # stay; or #V codes 0 free, 1 fixed, 2 clamped, see cage_border.h
                  fixed: np.ndarray | None = None,     # #V bool: held whatever the border says
                  partner: np.ndarray | None = None,   # #V of mirror_pairs, mutual, -1: none. Partners keep equal moves
+                 image_of: np.ndarray | None = None,  # #faces: the one that each is the mirror image of, or its own
+                                                      # number; counts take both for one
                  level: int = 2, scheme: Scheme = "catmull_clark", boundary: Boundary = "all",
                  creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                  corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit: bool = True,

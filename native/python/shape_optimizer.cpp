@@ -40,6 +40,7 @@ std::vector<Target> list_targets(const Targets& targets) {
 std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
                                                 const Eigen::MatrixXd& line_direction, const Codes& border,
                                                 const std::optional<Mask>& fixed, const Around& around,
+                                                const std::optional<Indices>& face_of_triangle,
                                                 const std::string& stencil, const std::string& linear_solver,
                                                 const std::string& crease_rule, const Indices& marked_creases,
                                                 double crease_angle, double proximity,
@@ -48,6 +49,7 @@ std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indice
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   options.around = surroundings_of(around);
+  if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
   options.stencil = find_named(kStencils, stencil, "stencil");
   options.linear_solver = find_named(kSolvers, linear_solver, "linear solver");
   options.creases = {find_named(kCreaseRules, crease_rule, "rule of creases"), crease_angle, edges_of(marked_creases)};
@@ -125,10 +127,10 @@ void bind_optimizer(py::module_& module) {
   py::class_<ShapeOptimizer>(module, "ShapeOptimizer", py::module_local())
       .def(py::init(&build_optimizer), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
            py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
-           py::arg("around") = py::none(), py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
-           py::arg("crease_rule") = "automatic", py::arg("marked_creases") = Indices(),
-           py::arg("crease_angle") = shape.creases.angle, py::arg("proximity") = shape.proximity,
-           py::arg("progress") = py::none())
+           py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(), py::arg("stencil") = "consistent",
+           py::arg("linear_solver") = "cholmod", py::arg("crease_rule") = "automatic",
+           py::arg("marked_creases") = Indices(), py::arg("crease_angle") = shape.creases.angle,
+           py::arg("proximity") = shape.proximity, py::arg("progress") = py::none())
       .def_property_readonly("region", py::cpp_function(release_gil(&Shape::region)))
       .def_property_readonly("frame", &frame_rows)
       .def_property_readonly("heights", py::cpp_function(release_gil(&Shape::heights)))

@@ -58,13 +58,14 @@ py::tuple run_unlocked(const Press& press) {
 
 py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
                       const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
-                      const Around& around, const std::string& lights, const std::optional<double>& length,
-                      double strength, const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
-                      std::shared_ptr<Progress> progress) {
+                      const Around& around, const std::optional<Indices>& face_of_triangle, const std::string& lights,
+                      const std::optional<double>& length, double strength, const std::optional<double>& limit,
+                      const Shares& limit_share, bool symmetric, std::shared_ptr<Progress> progress) {
   SmoothPanelOptions options = options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   options.around = surroundings_of(around);
+  if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
   const Triangles triangles = triangles_of(F);
   return run_unlocked([&] { return smooth_panel(V, triangles, view_direction, line_direction, options); });
 }
@@ -72,16 +73,18 @@ py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_
 py::tuple smooth_cage(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
                       const Vector3& view_direction, const Vector3& line_direction, const std::optional<Mask>& region,
                       const Codes& border, const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
-                      int level, const std::string& scheme, const std::string& boundary, const Indices& creases,
-                      const Numbers& crease_sharpness, const Indices& corners, const Numbers& corner_sharpness,
-                      bool limit_surface, const std::string& lights, const std::optional<double>& length,
-                      double strength, const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
+                      const std::optional<Indices>& image_of, int level, const std::string& scheme,
+                      const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness,
+                      const Indices& corners, const Numbers& corner_sharpness, bool limit_surface,
+                      const std::string& lights, const std::optional<double>& length, double strength,
+                      const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
                       std::shared_ptr<Progress> progress) {
   const SmoothPanelOptions options =
       options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions cage_options = cage_options_of(region, border, V.rows(), fixed, partner);
+  if (image_of) cage_options.image_of = index_vector(*image_of);
   cage_options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
   return run_unlocked(
       [&] { return smooth_cage_panel(cage, V, view_direction, line_direction, cage_options, options); });
@@ -112,16 +115,17 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("messages", &Told::messages);
   module.def("smooth_panel", &smooth_mesh, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
              py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
-             py::arg("around") = py::none(), py::arg("lights") = "crossed", py::arg("length") = py::none(),
-             py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
+             py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(), py::arg("lights") = "crossed",
+             py::arg("length") = py::none(), py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
              py::arg("limit_share") = py::none(), py::arg("symmetric") = defaults.symmetric,
              py::arg("progress") = py::none());
   const SubdivisionOptions subdivision;
   module.def("smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
              py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),
              py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
-             py::arg("level") = subdivision.level, py::arg("scheme") = "catmull_clark", py::arg("boundary") = "all",
-             py::arg("creases") = Indices(), py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
+             py::arg("image_of") = py::none(), py::arg("level") = subdivision.level,
+             py::arg("scheme") = "catmull_clark", py::arg("boundary") = "all", py::arg("creases") = Indices(),
+             py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
              py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
              py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("strength") = defaults.strength,
              py::arg("limit") = py::none(), py::arg("limit_share") = py::none(),

@@ -134,7 +134,7 @@ def test_closed_body() -> None:
 def test_all_faces_turned_away() -> None:
     ob = edited(nothing)
     bpy.ops.mesh.flip_normals()
-    refused(ob, "All 512 faces of the region turn away")
+    refused(ob, "All 256 faces of the region turn away")
 
 
 def one_face_flipped(mesh: bmesh.types.BMesh) -> None:

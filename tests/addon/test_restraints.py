@@ -94,8 +94,8 @@ def test_few_faces_that_would_turn_far_are_found_and_held() -> None:
     """A strip of triangles of which one is steep: along the view its corners need to slide little to turn it over."""
     V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [1.01, 0, 0.5], [1.01, 1, 0.5]], dtype=float)
     F = np.array([[0, 1, 2], [1, 3, 2], [1, 4, 3], [4, 5, 3]])
-    patch = Patch("strip", np.ones(4, bool), np.arange(6), V, V, F, np.eye(4), "", None, None, np.full(6, -1),
-                  None, None)
+    patch = Patch("strip", np.ones(4, bool), np.arange(6), V, V, F, np.arange(4), np.eye(4), "", None, None,
+                  np.full(6, -1), None, None)
     moved = V + np.array([0, 0, 0, 0, -1, -1])[:, None] * [0, 0, 1]
     turned = turned_faces.find_turned(patch, moved)
     assert turned.tolist() == [False, False, True, True]

@@ -88,3 +88,28 @@ def test_the_press_tells_the_score_that_the_optimizer_has() -> None:
 def test_a_length_that_is_none_is_refused(length) -> None:
     with pytest.raises(reflines.InvalidInput, match="positive length"):
         score(dent, length)
+
+
+def stage_of_score(solver: reflines.ShapeOptimizer, length: float, family: int) -> str:
+    """The last stage that a score reports; none where it only solves."""
+    progress = reflines.Progress()
+    solver.watch(progress)
+    solver.score(length, family)
+    return progress.stage
+
+
+def test_smoothing_and_score_factor_one_system_for_both_lights() -> None:
+    """Where no feature is kept they are the same matrix; it is that of one length, and not of lines kept sharp."""
+    plane, F = grid(24)
+    x, y = plane.T - 0.5
+    smooth, sharp = (reflines.ShapeOptimizer(np.column_stack([x, y, -0.15 * x**2 - 0.1 * y**2 + step]), F,
+                                             view_direction=VIEW, line_direction=[LINE, (0.0, 1.0, 0.0)],
+                                             crease_rule="none")
+                     for step in (np.zeros_like(x), 0.05 * np.tanh(y / 0.05)))
+    for solver in (smooth, sharp):
+        assert stage_of_score(solver, 0.2, 0) == "smoothing"
+        assert stage_of_score(solver, 0.2, 1) == ""
+        assert stage_of_score(solver, 0.3, 1) == "smoothing"
+        reflines.smooth(solver, length=0.4)
+    assert stage_of_score(smooth, 0.4, 0) == stage_of_score(smooth, 0.4, 1) == ""
+    assert sharp.region.features > 0 and stage_of_score(sharp, 0.4, 0) == "smoothing"

@@ -199,7 +199,7 @@ def test_the_systems_of_both_lights_are_kept(directional):
         for family in (0, 1):
             reflines.smooth(solver, length=LENGTH, strength=strength, directional=directional, family=family)
         stages.append(progress.stage)
-    assert stages == ["smoothing", ""]
+    assert stages[0] and not stages[1]
 
 
 @pytest.mark.parametrize(("share", "kept"), [(0.5, 1 / 17), (1.0, 1 / 2), (2.0, 16 / 17)])

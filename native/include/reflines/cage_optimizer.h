@@ -20,12 +20,14 @@ struct CageOptions {
   std::vector<Border> border;  // #V, or empty: clamped everywhere; of the region's border on the subdivided surface
   Mask held;                   // #V or empty: vertices that stay whatever the border says
   IndexVector partner;         // #V or empty: see mirror_pairs; partners keep equal moves along the view
+  // The face whose mirror image each face is, or its own number (#cage faces), or empty: reports count both as one.
+  IndexVector image_of;
   SubdivisionOptions subdivision;
   // Samples the energy: from level 3 on only every eighth triangle (Loop: fourth), evenly spread, with a larger weight.
   // Meant for drags: updates take a fraction of the time, and shapes differ by 0.6 % of the move (those of level 2 by 7
   // %).
   bool sparse = false;
-  ShapeOptions shape;  // its border, held, B, start and quadrature_weight are not read
+  ShapeOptions shape;  // its border, held, B, start, face_of_triangle and quadrature_weight are not read
 };
 
 class CageOptimizer {

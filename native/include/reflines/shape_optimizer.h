@@ -46,6 +46,8 @@ struct ShapeOptions {
   Vector start;
   double proximity = -1.0;             // weight of the quadratic pull to the start; negative: see PieceProblem
   std::shared_ptr<Progress> progress;  // null or the watcher of building and later work, see ShapeOptimizer::watch
+  // The face that each triangle was cut from (#F), by any numbers, or empty: each is its own. Reports count faces.
+  IndexVector face_of_triangle;
   // The quadrature weights (#F, or empty for 1 everywhere): factors of each triangle's term in the energy. A triangle
   // of weight 0 is not evaluated.
   Vector quadrature_weight;
@@ -69,6 +71,7 @@ class ShapeOptimizer {
   const ImagePlane& frame() const;
   int triangle_count() const;
   int family_count() const { return family_count_; }
+  int count_faces(const Mask& triangles) const;  // those that have a triangle in the mask (#F)
 
   // These depend on the image plane only, not on the heights.
   PlanePositions xy() const;       // #V x 2
@@ -166,7 +169,8 @@ class ShapeOptimizer {
   std::shared_ptr<Progress> progress_;
   std::vector<int> free_unknowns_;
   std::vector<Target> border_;  // continue the surroundings' curvature; see continue_curvature
-  bool sampled_ = false;        // some triangles have the quadrature weight 0
+  IndexVector face_of_triangle_;
+  bool sampled_ = false;                                      // some triangles have the quadrature weight 0
   std::map<int, RegionField> region_fields_, vertex_fields_;  // of the families asked for, at the current heights
 };
 

@@ -20,9 +20,10 @@ enum class Lights {
 };
 
 struct SmoothPanelOptions {
-  std::vector<Border> border;  // #V, or empty: clamped everywhere
-  Mask held;                   // #V, or empty: vertices that stay
-  Surroundings around;         // or none; see ShapeOptions
+  std::vector<Border> border;    // #V, or empty: clamped everywhere
+  Mask held;                     // #V, or empty: vertices that stay
+  Surroundings around;           // or none; see ShapeOptions
+  IndexVector face_of_triangle;  // #F or empty; see ShapeOptions
   Lights lights = Lights::kCrossed;
   double length = 0.0;    // size of the flaws, in units of V; 0: the diagonal / 14
   double strength = 1.0;  // share of the move that is made, 0 to 1
@@ -42,7 +43,7 @@ struct SmoothPanelReport {
   int limited = 0;                    // vertices that the limit holds back
   int bumps = 0;                      // round dents and bumps that were taken away
   int mirrored = 0;                   // vertices of a symmetric panel; 0: it is not symmetric
-  int held_faces = 0;                 // triangles that would have turned by more than 45 degrees and were held instead
+  int held_faces = 0;                 // faces that would have turned by more than 45 degrees and were held instead
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
   Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the

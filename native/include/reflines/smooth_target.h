@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 
 #include "reflines/target.h"
 #include "reflines/types.h"
@@ -12,9 +11,6 @@ namespace reflines {
 struct SmoothOptions {
   double length = 0.0;       // wavelength that is halved, in the mesh's unit of length; 0 changes nothing
   bool directional = false;  // only along the lines: they become straight, their spacing across stays
-  // The largest trusted |grad theta| in radians / length: longer gradients, and longer changes by smoothing, are
-  // shortened to it, since they are artefacts of thin triangles.
-  double longest = std::numeric_limits<double>::infinity();
 };
 
 // A function that returns a region's field of gradients (#F x 2) without its detail finer than options.length; see

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <string>
 
 #include "geometry/union_find.h"
 #include "reflines/errors.h"
@@ -23,9 +22,10 @@ Facing facing(const Positions& V, const Triangles& F, int t, const Vector3& view
   return cosine > 0 ? Facing::kViewer : Facing::kAway;
 }
 
-// Fills F, source and the counts; returns the vertices of the triangles that are left out.
+// Fills F, source and the masks of the other triangles; returns the vertices of those.
 Mask keep_facing(const Positions& V, const Triangles& F, const Vector3& view, HeightField& field) {
   Mask left_out = Mask::Constant(V.rows(), false);
+  field.silhouette = field.turned_away = Mask::Constant(F.rows(), false);
   field.F.resize(F.rows(), 3);
   for (int t = 0; t < F.rows(); ++t) {
     const Facing side = facing(V, F, t, view);
@@ -34,7 +34,7 @@ Mask keep_facing(const Positions& V, const Triangles& F, const Vector3& view, He
       field.source.push_back(t);
       continue;
     }
-    (side == Facing::kAway ? field.turned_away_count : field.silhouette_count) += 1;
+    (side == Facing::kAway ? field.turned_away : field.silhouette)(t) = true;
     for (int i = 0; i < 3; ++i) left_out(F(t, i)) = true;
   }
   field.F.conservativeResize(static_cast<int>(field.source.size()), 3);
@@ -150,8 +150,7 @@ HeightField make_height_field(const Positions& V, const Triangles& F, const Imag
   const Mask left_out = keep_facing(V, F, frame.z(), field);
   if (field.F.rows() == 0) {
     throw InvalidInput(
-        "All " + std::to_string(F.rows()) +
-        " faces of the region turn away from the view or are seen edge on: turn the view towards the panel's "
+        "All faces of the region turn away from the view or are seen edge on: turn the view towards the panel's "
         "outside.");
   }
   const Triangles neighbors = edge_neighbors(F);

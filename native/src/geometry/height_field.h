@@ -30,7 +30,7 @@ struct Boundary {
 // The |n.v| of a unit normal n below which a triangle is a silhouette, seen at less than 12 degrees: there a move along
 // the view slides the surface five times as far as it lifts it. On 25 careless selections of car bodies (smoothed, all
 // automatic) 254 faces turn by more than 90 degrees with 0.02, and 112 with 0.2 (18 with the gradients that smoothing
-// shortens, see SmoothOptions::longest); selections without such faces keep their bits.
+// shortens, see LineSmoother::smooth); selections without such faces keep their bits.
 constexpr double kSilhouette = 0.2;
 
 // The triangles of a region that face the viewer, over the image plane. Coordinates and heights are relative to the
@@ -47,11 +47,11 @@ struct HeightField {
   std::vector<VertexRole> role;   // #V
   std::vector<int> piece;         // #T: 0 .. piece_count - 1
   int piece_count = 0;
-  int silhouette_count = 0;   // triangles left out: |n.v| < kSilhouette
-  int turned_away_count = 0;  // triangles left out: n.v < 0, turned away or folded over
-  int crease_count = 0;       // edges that are creases
-  int marked_count = 0;       // marked edges among the creases
-  bool closed = false;        // the region has no border edge
+  Mask silhouette;       // of the region's triangles: left out, |n.v| < kSilhouette
+  Mask turned_away;      // of the region's triangles: left out, n.v < 0, turned away or folded over
+  int crease_count = 0;  // edges that are creases
+  int marked_count = 0;  // marked edges among the creases
+  bool closed = false;   // the region has no border edge
 
   int vertex_count() const { return static_cast<int>(xy.rows()); }
   int triangle_count() const { return static_cast<int>(F.rows()); }

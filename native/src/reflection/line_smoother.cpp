@@ -82,10 +82,7 @@ Energy::ElementHessians elements(const HeightField& field, const SmoothOptions& 
 LineSmoother::LineSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
                            const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize,
                            const Progress* progress)
-    : field_(field),
-      longest_(options.longest),
-      features_(std::move(features)),
-      weight_(data_weights(field, trust, features_)) {
+    : field_(field), options_(options), features_(std::move(features)), weight_(data_weights(field, trust, features_)) {
   if (!(options.length > 0) || !std::isfinite(options.length)) {
     throw InvalidInput("The smoothing length must be a positive length in scene units, not " +
                        std::to_string(options.length) + ".");
@@ -103,9 +100,14 @@ LineSmoother::LineSmoother(const HeightField& field, const Stencils& stencils, c
   solve_ = factorize(assembly.assemble(hessians, corner_weights(field, weight_)));
 }
 
-PlaneVectors LineSmoother::smooth(const PlaneVectors& gradient) const {
+bool LineSmoother::is_same(double length, const Vector& trust, const Mask& features) const {
+  return !options_.directional && options_.length == length && (features_ == features).all() &&
+         weight_ == data_weights(field_, trust, features);
+}
+
+PlaneVectors LineSmoother::smooth(const PlaneVectors& gradient, double longest) const {
   PlaneVectors result(field_.triangle_count(), 2);
-  const PlaneVectors data = shorten(gradient, longest_);
+  const PlaneVectors data = shorten(gradient, longest);
   for (int component = 0; component < 2; ++component) {
     Vector G = Vector::Zero(field_.vertex_count());
     for (int t = 0; t < field_.triangle_count(); ++t) {
@@ -117,7 +119,7 @@ PlaneVectors LineSmoother::smooth(const PlaneVectors& gradient) const {
       result(t, component) = features_(t) ? gradient(t, component) : mean;
     }
   }
-  return gradient + shorten(result - gradient, longest_);
+  return gradient + shorten(result - gradient, longest);
 }
 
 }  // namespace reflines

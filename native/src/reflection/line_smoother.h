@@ -7,6 +7,8 @@
 // harmonic border wave).
 #pragma once
 
+#include <limits>
+
 #include "geometry/stencil.h"
 #include "reflines/progress.h"
 #include "reflines/smooth_target.h"
@@ -24,12 +26,17 @@ class LineSmoother {
                const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize,
                const Progress* progress = nullptr);
 
-  // Returns the smoothed field (#T x 2) of `gradient` (#T x 2).
-  PlaneVectors smooth(const PlaneVectors& gradient) const;
+  // Returns the smoothed field (#T x 2) of `gradient` (#T x 2). `longest` is the largest trusted |grad theta| in
+  // radians / length: longer gradients, and longer changes by smoothing, are shortened to it, since they are artefacts
+  // of thin triangles.
+  PlaneVectors smooth(const PlaneVectors& gradient, double longest = std::numeric_limits<double>::infinity()) const;
+
+  // Returns true where an isotropic smoother with these arguments would have this one's system.
+  bool is_same(double length, const Vector& trust, const Mask& features) const;
 
  private:
   const HeightField& field_;
-  double longest_;
+  SmoothOptions options_;
   Mask features_;
   Vector weight_;  // #T: weight of the data term
   SpdSolve solve_;

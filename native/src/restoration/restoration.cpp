@@ -152,11 +152,10 @@ Vector Restoration::attempt() {
   surface_.optimizer().reset();
   Vector move = restore();
   for (int retry = 0; retry < kRetries; ++retry) {
-    int count = 0;
-    const Mask turned = find_turned(surface_.surface_move(move), count);
-    if (count == 0) break;
-    report_.held_faces += count;
-    surface_.hold(turned);
+    const Mask turned = find_turned(surface_.surface_move(move));
+    if (!turned.any()) break;
+    report_.held_faces += surface_.optimizer().count_faces(turned);
+    surface_.hold(find_corners(turned));
     flawless_.reset();
     move = restore();
   }
@@ -303,15 +302,22 @@ Positions Restoration::lift(const Positions& V, const Vector& move) const {
   return result;
 }
 
-Mask Restoration::find_turned(const Vector& move, int& count) const {
+// Finds the triangles (#F) that a move of the surface's vertices turns by more than kTurned.
+Mask Restoration::find_turned(const Vector& move) const {
   const Triangles& F = surface_.triangles();
   const Positions before = triangle_normals(surface_.positions(), F),
                   after = triangle_normals(lift(surface_.positions(), move), F);
-  Mask result = Mask::Constant(move.size(), false);
-  for (Eigen::Index t = 0; t < F.rows(); ++t) {
-    if (before.row(t).dot(after.row(t)) >= std::cos(kTurned) * before.row(t).norm()) continue;
-    ++count;
-    for (int i = 0; i < 3; ++i) result(F(t, i)) = true;
+  Mask result(F.rows());
+  for (Eigen::Index t = 0; t < F.rows(); ++t)
+    result(t) = before.row(t).dot(after.row(t)) < std::cos(kTurned) * before.row(t).norm();
+  return result;
+}
+
+// Returns the vertices (#V) of triangles (#F).
+Mask Restoration::find_corners(const Mask& triangles) const {
+  Mask result = Mask::Constant(surface_.positions().rows(), false);
+  for (Eigen::Index t = 0; t < triangles.size(); ++t) {
+    for (int i = 0; i < 3 && triangles(t); ++i) result(surface_.triangles()(t, i)) = true;
   }
   return result;
 }
@@ -379,17 +385,16 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   const Vector risen = surface_.surface_move(move);
   report_.score_before = score(start_);
   report_.score_after = score(start_ + risen);
-  int turned = 0;
-  find_turned(risen, turned);
+  const bool turned = find_turned(risen).any();
   const int k = find_worse_light();
-  if (turned > 0 || k >= 0) {
+  if (turned || k >= 0) {
     report_.applied = false;
     report_.stray = stray_before_;
     report_.messages.push_back(
-        turned > 0 ? "Nothing was changed: faces would have turned by more than 45 degrees. Select less."
-                   : "Nothing was changed: the lines would have become less even in one light (" +
-                         degrees(report_.unevenness_before[k]) + " to " + degrees(report_.unevenness_after[k]) +
-                         " degrees). Select less, or give a Length.");
+        turned ? "Nothing was changed: faces would have turned by more than 45 degrees. Select less."
+               : "Nothing was changed: the lines would have become less even in one light (" +
+                     degrees(report_.unevenness_before[k]) + " to " + degrees(report_.unevenness_after[k]) +
+                     " degrees). Select less, or give a Length.");
     return {surface_.control_positions(), report_};
   }
   report_.largest_move = risen.cwiseAbs().maxCoeff();
@@ -413,7 +418,7 @@ void Restoration::tell() {
         "finish.");
   }
   if (report_.held_faces > 0) {
-    report_.messages.push_back(count_of(report_.held_faces, "triangle was", "triangles were") +
+    report_.messages.push_back(count_of(report_.held_faces, "face was", "faces were") +
                                " left alone that would have turned by more than 45 degrees.");
   }
 }

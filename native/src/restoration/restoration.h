@@ -42,7 +42,8 @@ class Restoration {
   TriangleFields read_fields(const Vector& z);
   Positions lift(const Positions& V, const Vector& move) const;
   // Vertices of triangles that the move turns by more than 45 degrees, and the number of these triangles.
-  Mask find_turned(const Vector& move, int& count) const;
+  Mask find_turned(const Vector& move) const;
+  Mask find_corners(const Mask& triangles) const;
   double measure_change(const Vector& move);
   std::vector<double> measure_unevenness(const Vector& z, const Vector& creases, Vector& stray,
                                          std::vector<double>& typical);

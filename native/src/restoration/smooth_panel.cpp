@@ -79,6 +79,7 @@ SmoothPanelResult press_used_vertices(const Positions& V, const UsedVertices& us
   if (!options.border.empty()) shape.border = gather(options.border, used.index);
   if (options.held.size() > 0) shape.held = options.held(used.index);
   if (options.around.exist()) shape.around = renumber_surroundings(options.around, used, static_cast<int>(V.rows()));
+  shape.face_of_triangle = options.face_of_triangle;
   set_restoration_rules(options, kMeshProximity, shape);
   MeshSurface surface(V(used.index, Eigen::all), used.F, view_direction,
                       make_families(view_direction, line_direction, options.lights), shape);
@@ -99,6 +100,7 @@ SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vec
   check(options, V.rows());
   check_surroundings(options.around, V.rows());
   check_surface(V, F);
+  check_face_of_triangle(options.face_of_triangle, F.rows());
   return run_press(options.progress, [=] {
     const UsedVertices used = find_used_vertices(F, static_cast<int>(V.rows()));
     return press_used_vertices(V, used, view_direction, line_direction, options);

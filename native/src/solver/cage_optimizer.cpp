@@ -19,12 +19,14 @@ constexpr double kUnseen = 1e-9;
 // given it.
 constexpr double kHeightsRule = 4.0;
 
-ShapeOptions make_shape_options(const CageSurface& surface, ShapeOptions shape) {
+ShapeOptions make_shape_options(const CageSurface& surface, const IndexVector& image_of, ShapeOptions shape) {
   shape.border.assign(surface.S.rows(), Border::kFree);
   shape.held.resize(0);
   shape.B = surface.S * surface.B;
   shape.start = surface.start;
   shape.quadrature_weight = surface.quadrature_weight;
+  shape.face_of_triangle = surface.parent;
+  if (image_of.size() > 0) shape.face_of_triangle = image_of(surface.parent);
   return shape;
 }
 
@@ -50,7 +52,7 @@ CageOptimizer::CageOptimizer(const Cage& cage, const Positions& V, const Vector3
     : V_(V),
       cage_surface_(std::make_unique<const CageSurface>(make_cage_surface(cage, V, view_direction, options))),
       surface_optimizer_(cage_surface_->positions, cage_surface_->F, view_direction, line_directions,
-                         make_shape_options(*cage_surface_, options.shape)) {}
+                         make_shape_options(*cage_surface_, options.image_of, options.shape)) {}
 
 CageOptimizer::~CageOptimizer() = default;
 

@@ -44,6 +44,7 @@ void check_arrays(const Cage& cage, const Positions& V, const CageOptions& optio
   check_length(static_cast<Eigen::Index>(options.border.size()), cage.vertices, "list of border codes");
   check_length(options.held.size(), cage.vertices, "held mask");
   check_length(options.partner.size(), cage.vertices, "list of mirror partners");
+  check_length(options.image_of.size(), cage.face_offsets.size() - 1, "list of mirrored faces");
   check_partners(options.partner);
 }
 

@@ -71,11 +71,8 @@ void PieceProblem::find_hidden() {
   TriangleDerivatives u;
   apply_stencils(stencils_, z_, u);
   for (const ReflectionFunction& family : families_) visible_.push_back(visibility_weights(family, u));
-  for (int t = 0; t < stencils_.triangle_count(); ++t) {
-    bool hidden = false;
-    for (size_t k = 0; k + 1 < families_.size(); ++k) hidden = hidden || visible_[k](t) < 1;
-    hidden_count_ += hidden;
-  }
+  hidden_ = Mask::Constant(stencils_.triangle_count(), false);
+  for (size_t k = 0; k + 1 < families_.size(); ++k) hidden_ = hidden_ || visible_[k].array() < 1;
   const Mask held = held_at_border(piece_.field);
   for (Vector& weight : visible_) weight = held.select(0.0, weight.array());
 }

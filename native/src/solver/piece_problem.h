@@ -35,8 +35,8 @@ class PieceProblem : public Problem {
   const std::vector<int>& vertices() const { return piece_.vertex; }         // index in the region of each vertex
   const std::vector<int>& triangles() const { return piece_.field.source; }  // index in the region of each triangle
   const Stencils& stencils() const { return stencils_; }
-  const Vector& heights() const { return z_; }  // #V of the piece
-  int hidden_count() const { return hidden_count_; }
+  const Vector& heights() const { return z_; }    // #V of the piece
+  const Mask& hidden() const { return hidden_; }  // #T: lines have less than full weight there
   const std::vector<ReflectionFunction>& families() const { return families_; }  // the last one crosses the first
   const std::vector<Vector>& trust() const { return visible_; }                  // #T for each family
   double pull_density() const { return energy_.pull_density(); }
@@ -117,7 +117,7 @@ class PieceProblem : public Problem {
   std::vector<std::optional<ReflectionField>> lines_;  // of each family at the current heights, once asked for
   std::optional<FieldAverage> average_;                // built on first use
   Vector height_rounding_;                             // of the moving vertices: the diagonal of their own Hessian
-  int hidden_count_ = 0;                               // triangles with less than full weight
+  Mask hidden_;                                        // #T
   Vector x_, z_;                                       // current unknowns and heights
   Vector trial_z_, gradient_z_;                        // work space
 };

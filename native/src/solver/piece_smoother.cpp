@@ -38,7 +38,7 @@ bool PieceSmoother::Cache::serves(const SmoothOptions& options, const PlaneVecto
 
 const PlaneVectors& PieceSmoother::Cache::smooth(const PlaneVectors& gradient) {
   if (input.rows() == gradient.rows() && input == gradient) return output;
-  output = smoother->smooth(gradient);
+  output = smoother->smooth(gradient, longest);
   input = gradient;
   return output;
 }
@@ -54,29 +54,40 @@ PieceSmoother::Cache& PieceSmoother::update(Cache& cache, const SmoothOptions& o
   if (cache.serves(options, along)) return cache;
   enter(0.0, "finding features");
   const Mask& held = features(options.length, family);
-  SmoothOptions limited = options;
-  limited.longest = longest_gradient(family);
-  cache = {build(limited, along, family, held), options.length, along, {}, {}};
+  cache = {build(options, along, family, held), options.length, longest_gradient(family), along, {}, {}};
   return cache;
 }
 
-std::unique_ptr<LineSmoother> PieceSmoother::build(const SmoothOptions& options, const PlaneVectors& along, int family,
-                                                   const Mask& features) const {
+// Returns a kept isotropic system with these arguments, or null: families that see every triangle have the same one,
+// and so have smoothing and score where no feature is kept.
+std::shared_ptr<const LineSmoother> PieceSmoother::find_same(double length, int family, const Mask& features) const {
+  for (const auto* caches : {&isotropic_, &linear_}) {
+    for (const Cache& cache : *caches) {
+      if (cache.smoother && cache.smoother->is_same(length, trust_[family], features)) return cache.smoother;
+    }
+  }
+  return nullptr;
+}
+
+std::shared_ptr<const LineSmoother> PieceSmoother::build(const SmoothOptions& options, const PlaneVectors& along,
+                                                         int family, const Mask& features) const {
+  if (!options.directional) {
+    if (auto same = find_same(options.length, family, features)) return same;
+  }
   enter(0.1, "assembling the smoothing");
-  return std::make_unique<LineSmoother>(
+  return std::make_shared<LineSmoother>(
       field_, stencils_, options, along, trust_[family], features,
       [this](const SparseMatrix& matrix) { return factorize(matrix); }, progress_);
 }
 
 PlaneVectors PieceSmoother::smooth_all(const PlaneVectors& gradient, double length, int family) {
-  // Families that see every triangle have the same system.
-  size_t same = 0;
-  while (trust_[same] != trust_[family]) ++same;
-  Cache& cache = linear_[same];
+  Cache& cache = linear_[family];
   const SmoothOptions options{.length = length};
   const PlaneVectors nothing(0, 2);
-  if (!cache.serves(options, nothing))
-    cache = {build(options, nothing, family, Mask::Constant(gradient.rows(), false)), length, nothing, {}, {}};
+  if (!cache.serves(options, nothing)) {
+    const Mask none = Mask::Constant(gradient.rows(), false);
+    cache = {build(options, nothing, family, none), length, std::numeric_limits<double>::infinity(), nothing, {}, {}};
+  }
   return cache.smooth(gradient);
 }
 

@@ -41,8 +41,8 @@ class PieceSmoother {
   // The last system of a family and the last field that it smoothed: while the strength is dragged, the same fields are
   // asked for again, those of the families in turn.
   struct Cache {
-    std::unique_ptr<LineSmoother> smoother;
-    double length = 0.0;
+    std::shared_ptr<const LineSmoother> smoother;
+    double length = 0.0, longest = 0.0;
     PlaneVectors along;
     PlaneVectors input, output;
     bool serves(const SmoothOptions& options, const PlaneVectors& wanted_along) const;
@@ -53,8 +53,9 @@ class PieceSmoother {
     Mask mask;
   };
 
-  std::unique_ptr<LineSmoother> build(const SmoothOptions& options, const PlaneVectors& along, int family,
-                                      const Mask& features) const;
+  std::shared_ptr<const LineSmoother> build(const SmoothOptions& options, const PlaneVectors& along, int family,
+                                            const Mask& features) const;
+  std::shared_ptr<const LineSmoother> find_same(double length, int family, const Mask& features) const;
   Cache& update(Cache& cache, const SmoothOptions& options, const PlaneVectors& along, int family);
   SpdSolve factorize(const SparseMatrix& matrix) const;
   double longest_gradient(int family) const;

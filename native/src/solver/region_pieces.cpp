@@ -37,6 +37,12 @@ Mask RegionPieces::changeable() const {
   return result;
 }
 
+Mask RegionPieces::hidden() const {
+  Mask result = Mask::Constant(triangle_count(), false);
+  for (const auto& piece : pieces_) result(piece->triangles()) = piece->hidden();
+  return result;
+}
+
 Mask RegionPieces::free() const {
   Mask result = Mask::Constant(vertex_count(), false);
   for (const auto& piece : pieces_) {

@@ -36,6 +36,7 @@ class RegionPieces {
   Mask active() const;             // #F
   Mask changeable() const;         // #F
   Mask free() const;               // #V
+  Mask hidden() const;             // #F: see PieceProblem
 
   // These depend on the current heights; rows of triangles in no piece are zero.
   Vector heights() const;                                               // #V, in the image plane of the world's origin
@@ -43,6 +44,7 @@ class RegionPieces {
   Vector theta(int family) const;                                       // #F
   PlaneVectors field(int family) const;                                 // #F x 2
   PlaneVectors smooth_field(const SmoothOptions& options, int family);  // #F x 2
+  Mask features(int family, double length);                             // #F
   RegionField region_field(int family, double feature_length);
   RegionField vertex_field(int family) const;  // see ShapeOptimizer
 
@@ -55,7 +57,6 @@ class RegionPieces {
 
  private:
   MoveRange range(int vertex) const;
-  Mask features(int family, double length);                 // #F
   Vector response(int family, const Mask& features) const;  // #F, of the lines at the start; see RegionField
 
   ImagePlane frame_;

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 
+#include "solver/face_count.h"
+
 namespace reflines {
 namespace {
+
+std::string format_face_count(int count) { return std::to_string(count) + (count == 1 ? " face" : " faces"); }
 
 std::string format_features(int count) {
   return format_face_count(count) +
@@ -16,14 +20,12 @@ int count(const HeightField& field, VertexRole role) {
 
 }  // namespace
 
-std::string format_face_count(int count) { return std::to_string(count) + (count == 1 ? " face" : " faces"); }
-
-Region describe_region(const HeightField& field, bool creases_held) {
+Region describe_region(const HeightField& field, const IndexVector& face_of_triangle, bool creases_held) {
   Region region;
   region.triangles = field.triangle_count();
   region.pieces = field.piece_count;
-  region.silhouettes = field.silhouette_count;
-  region.turned_away = field.turned_away_count;
+  region.silhouettes = count_faces(field.silhouette, face_of_triangle);
+  region.turned_away = count_faces(field.turned_away, face_of_triangle);
   region.creases = field.crease_count;
   region.marked_creases = field.marked_count;
   region.closed = field.closed;
@@ -51,14 +53,14 @@ Region describe_region(const HeightField& field, bool creases_held) {
   return region;
 }
 
-std::string explain_no_free_vertex(const Region& region, const std::string& what, int doubled) {
+std::string explain_no_free_vertex(const Region& region, int faces, int doubled) {
   if (doubled > 0) {
-    return "No vertex of the region is free to move: " + what + std::to_string(doubled) +
+    return "No vertex of the region is free to move: " + format_face_count(faces) + ": " + std::to_string(doubled) +
            (doubled == 1 ? " vertex lies on another" : " vertices lie on others") +
            ", so that faces that touch are not joined; use Merge by Distance first.";
   }
   const std::string creases = std::to_string(region.creases) + (region.creases == 1 ? " edge" : " edges");
-  return "No vertex of the region is free to move (" + what + "all vertices are held by " +
+  return "No vertex of the region is free to move (" + format_face_count(faces) + ": all vertices are held by " +
          (region.creases > 0 ? "creases (" + creases + "), " : "") +
          "the border, silhouettes or faces turned away); select a larger region, or a border that holds less (Fixed or "
          "Free)" +

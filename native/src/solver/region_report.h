@@ -5,23 +5,21 @@
 
 #include "geometry/height_field.h"
 #include "reflines/region.h"
+#include "reflines/types.h"
 
 namespace reflines {
 
-// Returns the counts and messages that follow from the height field. `creases_held`: creases are fixed; else they move
-// with their vertices, as on the surface of a cage.
-Region describe_region(const HeightField& field, bool creases_held);
+// Returns the counts and messages that follow from the height field. `face_of_triangle`: see ShapeOptions.
+// `creases_held`: creases are fixed; else they move with their vertices, as on the surface of a cage.
+Region describe_region(const HeightField& field, const IndexVector& face_of_triangle, bool creases_held);
 
-// Adds the messages on unused pieces and hidden triangles, once those are counted.
+// Adds the messages on unused pieces and hidden faces, once those are counted.
 void add_piece_messages(Region& region);
 
-// Returns a sentence why no vertex is free, beginning with `what`. `doubled`: vertices that lie on others.
-std::string explain_no_free_vertex(const Region& region, const std::string& what, int doubled);
+// Returns a sentence why no vertex of a region of so many faces is free. `doubled`: vertices that lie on others.
+std::string explain_no_free_vertex(const Region& region, int faces, int doubled);
 
 // Sets the count of features and replaces the message on the previous count.
 void set_feature_count(int count, Region& region);
-
-// Formats a count: "1 face", "2 faces".
-std::string format_face_count(int count);
 
 }  // namespace reflines

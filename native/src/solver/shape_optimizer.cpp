@@ -12,6 +12,7 @@
 #include "reflines/errors.h"
 #include "solver/border_curvature.h"
 #include "solver/coupling.h"
+#include "solver/face_count.h"
 #include "solver/limited_move.h"
 #include "solver/reachable_target.h"
 #include "solver/region_pieces.h"
@@ -46,10 +47,12 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
     : pieces_(std::make_unique<RegionPieces>(V, F, ImagePlane(view_direction, take_first(line_directions)))),
       family_count_(static_cast<int>(line_directions.size())),
       linear_solver_(options.linear_solver),
-      progress_(options.progress) {
+      progress_(options.progress),
+      face_of_triangle_(options.face_of_triangle) {
   enter(0.0, "checking the mesh");
   check_surface(V, F);
   check_quadrature_weight(options.quadrature_weight, F.rows());
+  check_face_of_triangle(face_of_triangle_, F.rows());
   enter(0.2, "dividing into height fields");
   const Boundary boundary = boundary_of(options, V.rows());
   HeightField field = make_height_field(V, F, frame(), boundary);
@@ -58,7 +61,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   std::vector<ReflectionFunction> families;
   for (const Vector3& a : line_directions) families.emplace_back(frame(), frame().z(), a);
   families.emplace_back(frame(), frame().z(), frame().x());  // across the first family: see PieceProblem
-  region_ = describe_region(field, options.B.rows() == 0);
+  region_ = describe_region(field, face_of_triangle_, options.B.rows() == 0);
   feature_length_ = kFeatureLength * field.diagonal();
   continue_border(field, boundary, options.around, families);
   for (Piece& piece : split_pieces(field)) {
@@ -68,15 +71,13 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
     auto problem = std::make_unique<PieceProblem>(std::move(piece), std::move(map), options.stencil, families,
                                                   options.proximity, options.linear_solver, options.quadrature_weight);
     problem->watch(progress_.get());
-    region_.hidden += problem->hidden_count();
     pieces_->add(std::move(problem));
   }
   if (region_.free == 0) {
-    // A region of a cage has fewer faces of the artist's than triangles.
-    const bool is_mesh = options.B.rows() == 0;
-    throw InvalidInput(explain_no_free_vertex(region_, is_mesh ? format_face_count(triangle_count()) + ": " : "",
-                                              count_doubled_vertices(V)));
+    const int faces = count_faces(Mask::Constant(triangle_count(), true));
+    throw InvalidInput(explain_no_free_vertex(region_, faces, count_doubled_vertices(V)));
   }
+  region_.hidden = count_faces(pieces_->hidden());
   count_features(feature_length_, 0);
   add_piece_messages(region_);
 }
@@ -159,10 +160,7 @@ Vector ShapeOptimizer::residual(const Target& target) const {
 }
 
 void ShapeOptimizer::count_features(double length, int family) {
-  int count = 0;
-  for (const auto& piece : pieces_->pieces())
-    count += static_cast<int>(piece->smoother().features(length, family).count());
-  set_feature_count(count, region_);
+  set_feature_count(count_faces(pieces_->features(family, length)), region_);
 }
 
 FieldSmoother ShapeOptimizer::smoother(int family) {
@@ -323,6 +321,10 @@ void ShapeOptimizer::tell_limit(Report& report) const {
 }
 
 const ImagePlane& ShapeOptimizer::frame() const { return pieces_->frame(); }
+
+int ShapeOptimizer::count_faces(const Mask& triangles) const {
+  return reflines::count_faces(triangles, face_of_triangle_);
+}
 
 int ShapeOptimizer::triangle_count() const { return pieces_->triangle_count(); }
 

@@ -26,6 +26,12 @@ void check_quadrature_weight(const Vector& weight, Eigen::Index triangles) {
   throw InvalidInput("A share of the energy is negative or not a finite number; give 0 or more.");
 }
 
+void check_face_of_triangle(const IndexVector& face, Eigen::Index triangles) {
+  if (face.size() == 0 || face.size() == triangles) return;
+  throw InvalidInput("There are " + std::to_string(face.size()) + " faces for " + std::to_string(triangles) +
+                     " triangles; give the one that each was cut from, or none.");
+}
+
 void check_surroundings(const Surroundings& around, Eigen::Index vertices) {
   const Eigen::Index count = vertices + around.V.rows();
   if (around.F.size() > 0 && (around.F.minCoeff() < 0 || around.F.maxCoeff() >= count)) {

@@ -92,8 +92,8 @@ TEST(HeightField, FoldedTrianglesAreLeftOutAndTheirVerticesHeld) {
   const int middle = 4 * 9 + 4;
   mesh.V.row(middle) << 0.5 + 1.5 / 8, 0.5, 0.0;  // pulled across its neighbour: two triangles turn over
   const HeightField field = samples::height_field(mesh);
-  EXPECT_GT(field.turned_away_count, 0);
-  EXPECT_EQ(field.triangle_count() + field.turned_away_count + field.silhouette_count, mesh.F.rows());
+  EXPECT_GT(field.turned_away.count(), 0);
+  EXPECT_EQ(field.triangle_count() + field.turned_away.count() + field.silhouette.count(), mesh.F.rows());
   EXPECT_EQ(field.role[middle], VertexRole::kFixed);
   EXPECT_GT(field.area.minCoeff(), 0);
 }
@@ -111,7 +111,7 @@ TEST(HeightField, ASphereSeenFromOutsideIsOnePieceOfItsFrontHalf) {
   EXPECT_TRUE(field.closed);
   EXPECT_EQ(field.piece_count, 1);
   EXPECT_EQ(field.triangle_count(), 4);
-  EXPECT_EQ(field.turned_away_count, 4);
+  EXPECT_EQ(field.turned_away.count(), 4);
   EXPECT_EQ(field.role[4], VertexRole::kFree);  // the pole; the equator is on triangles that turn away
   EXPECT_EQ(field.role[0], VertexRole::kFixed);
 }
