@@ -97,6 +97,10 @@ class LineDrag(Drag):
     def to_local(self, point: np.ndarray) -> tuple[float, float, float]:
         return tuple(np.linalg.solve(self.patches[0].matrix, np.append(point, 1.0))[:3].tolist())
 
+    def can_follow(self, points: np.ndarray) -> np.ndarray:
+        """Returns whether the lines at points of the image plane (#P x 2) can be laid elsewhere: #P, bool."""
+        return self.tool.builder.lines.can_follow(points)
+
     def find_place(self, point: tuple[float, float, float]) -> Place | None:
         """Returns the place of a point in object space."""
         return self.surface.find_place(self.patches[0].to_world(np.array(point)))

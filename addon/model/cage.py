@@ -57,6 +57,13 @@ class Cage:
                    self.rules)
         return own, vertices
 
+    def build_topology_arguments(self) -> dict[str, Option | np.ndarray]:
+        """Builds the arguments of reflines.Subdivision but the count of vertices."""
+        names = ("face_offsets", "face_vertices", "creases", "crease_sharpness", "corners", "corner_sharpness",
+                 "level", "limit", "boundary")
+        arguments = self.build_arguments(True)
+        return {name: arguments[name] for name in names}
+
     def build_arguments(self, symmetric: bool) -> dict[str, Option | np.ndarray | None]:
         """Builds the arguments of reflines.CageOptimizer.
 

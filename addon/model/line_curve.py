@@ -2,6 +2,7 @@
 import numpy as np
 
 POINTS = 5          # of a new curve
+MORE_POINTS = 9     # of one that leaves the line's held ends
 SAMPLES_BETWEEN = 8  # of a curve, from point to point
 ALONG = 0.7         # cosine of the angle between a line and the edges that it can follow
 
@@ -30,13 +31,18 @@ def weigh_points(count: int, at: np.ndarray) -> np.ndarray:
 
 def fit_curve(stroke: np.ndarray, count: int = POINTS) -> np.ndarray:
     """Fits a curve to a stroke (#S x d) by least squares over its length, with the stroke's ends: #P x d."""
-    passed = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(stroke, axis=0), axis=1)))
-    at = np.linspace(0.0, passed[-1], 8 * count)
-    even = np.column_stack([np.interp(at, passed, column) for column in stroke.T])
+    even = space_evenly(stroke, 8 * count)
     weights = weigh_points(count, np.linspace(0.0, count - 1.0, len(even)))
     ends = weights[:, [0, -1]] @ even[[0, -1]]
     inner = np.linalg.lstsq(weights[:, 1:-1], even - ends, rcond=None)[0]
     return np.concatenate([even[:1], inner, even[-1:]])
+
+
+def space_evenly(line: np.ndarray, count: int = MORE_POINTS) -> np.ndarray:
+    """Returns points at equal steps along a line (#P x d), its ends among them: #count x d."""
+    passed = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1)))
+    at = np.linspace(0.0, passed[-1], count)
+    return np.column_stack([np.interp(at, passed, column) for column in line.T])
 
 
 def straighten(line: np.ndarray, count: int = POINTS) -> np.ndarray:
@@ -51,6 +57,23 @@ def run_parallel(line: np.ndarray, edges: np.ndarray, place: np.ndarray) -> np.n
     way = line - nearest
     apart = np.linalg.norm(way, axis=1, keepdims=True)
     return nearest + way * (own / np.maximum(apart, 1e-12 * max(own, 1.0)))
+
+
+def keep_ends(line: np.ndarray, moved: np.ndarray, movable: np.ndarray, length: float) -> np.ndarray:
+    """Returns the moved points of a line (#P x 2), but for ends that are not movable (#P), which stay: within a length
+    of these the moved course is shifted, less and less, so that it begins there.
+    """
+    if not movable.any():
+        return line
+    passed = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1)))
+    first, last = np.flatnonzero(movable)[[0, -1]]
+    result = moved.copy()
+    for end, is_held in ((first, first > 0), (last, last < len(line) - 1)):
+        if is_held:
+            t = np.clip(np.abs(passed - passed[end]) / length, 0.0, 1.0)
+            result -= (1.0 - t * t * (3.0 - 2.0 * t))[:, None] * (moved[end] - line[end])
+    result[:first], result[last + 1:] = line[:first], line[last + 1:]
+    return result
 
 
 def find_nearest(points: np.ndarray, edges: np.ndarray) -> np.ndarray:

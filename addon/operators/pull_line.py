@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, StringProperty
 
-from ..bridge import facing, pinned_faces, scene_objects
+from ..bridge import facing, group_weights, pinned_faces, scene_objects
 from ..interactive import drag_input, drawn_lines
 from ..interactive.drag_handles import Handle
 from ..interactive.line_drag import LineDrag
@@ -16,10 +16,10 @@ from ..model.line_handle import Handles
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution
-from ..solver.formulation import choose_formulation
+from ..solver.formulation import Formulation, choose_formulation
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
-from ..targets.line_handles import HandleBuild, HandleTargets
+from ..targets.line_handles import HandleBuild, HandleTargets, SpreadFalloff
 from ..ui.tool_properties import PullSettings
 from .dragged_tool import DraggedTool
 
@@ -81,6 +81,7 @@ where a line was pulled to; Enter applies them all"""
                            for sign in (formulation.follow_sign, formulation.image_sign))
         if self.pinned is None:
             self.pinned = pinned_faces.read_pinned_faces(ob)
+            self.builder.spread_falloff = read_spread_falloff(ob, patch, formulation)
         choose_pinned = partial(formulation.choose_triangles, chosen=self.pinned)
         return HandleBuild(self.builder, handles, images, patch.matrix, choose_pinned)
 
@@ -226,6 +227,15 @@ where a line was pulled to; Enter applies them all"""
     def end_drag(self, context: bpy.types.Context) -> None:
         super().end_drag(context)
         self.builder = None
+
+
+def read_spread_falloff(ob: bpy.types.Object, patch: Patch, formulation: Formulation) -> SpreadFalloff | None:
+    """Reads the fall-off map of the object's handles, to be spread over an optimizer's vertices; None without one."""
+    name = ob.reflection_lines.follow_group
+    if not name:
+        return None
+    weights = group_weights.read_group_weights(ob, name, "the handles")[patch.index]
+    return partial(formulation.spread_weights, weights=weights)
 
 
 class REFLINES_OT_delete_handles(bpy.types.Operator):

@@ -48,10 +48,7 @@ class LimitSurfaces:
 
 def build_limit_topology(cage: Cage, vertices: int) -> LimitTopology:
     """Subdivides a cage without positions."""
-    arguments = cage.build_arguments(True)
-    names = ("face_offsets", "face_vertices", "creases", "crease_sharpness", "corners", "corner_sharpness",
-             "level", "limit", "boundary")
-    subdivision = native.reflines.Subdivision(**{name: arguments[name] for name in names}, vertices=vertices)
+    subdivision = native.reflines.Subdivision(**cage.build_topology_arguments(), vertices=vertices)
     quads, parent = subdivision.faces, subdivision.face_parent
     F = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3).astype(np.int32)
     seen = cage.region[parent]

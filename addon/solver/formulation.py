@@ -109,6 +109,10 @@ class Formulation:
         """Returns the numbers of the optimizer's triangles that lie in chosen faces (#mesh faces, bool)."""
         return np.flatnonzero(chosen[self.patch.face_of_triangle])
 
+    def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
+        """Returns weights of the patch's vertices (#V) for all vertices of the optimizer's triangles."""
+        return weights
+
     def measure_cage_move(self, _optimizer: "native.ShapeOptimizer") -> float:
         """Measures the largest move of a cage's vertices, world units; 0 where vertices are those of the surface."""
         return 0.0
@@ -167,6 +171,10 @@ class SymmetricFormulation(Formulation):
         image = own[self.patch.mirror.partner]
         return np.column_stack([np.maximum(own[:, 0], image[:, 0]), np.minimum(own[:, 1], image[:, 1])])
 
+    def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
+        """Returns the smaller weight of two mirror images for both."""
+        return np.minimum(weights, weights[self.patch.mirror.partner])
+
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         move = optimizer.positions - self.patch.V
         return self.patch.V + 0.5 * (move + move[self.patch.mirror.partner])
@@ -218,6 +226,9 @@ class JoinedFormulation(Formulation):
                                               **self.choose_edges(border), fixed=fixed,
                                               face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
                                               **self.patch.creases.build_arguments(partner))
+
+    def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
+        return np.append(weights, weights[self.join()[2][len(weights):]])
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         V, _, partner = self.join()
@@ -296,6 +307,17 @@ class CageFormulation(Formulation):
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         return self.patch.V + (optimizer.cage_positions - self.patch.cage.V)[self.patch.index]
+
+    def spread_weights(self, optimizer: "native.CageOptimizer", weights: np.ndarray) -> np.ndarray:
+        """Returns the weights of the cage subdivided as its positions are."""
+        cage, index = self.patch.cage, self.patch.index
+        own = np.ones(len(cage.V))
+        image = cage.partner[index]
+        own[image[image >= 0]] = weights[image >= 0]
+        own[index] = weights
+        subdivision = native.reflines.Subdivision(**cage.build_topology_arguments(), vertices=len(own))
+        refined = subdivision.positions(np.repeat(own[:, None], 3, axis=1))[:, 0]
+        return np.clip(refined[optimizer.refined], 0.0, 1.0)
 
     def measure_cage_move(self, optimizer: "native.CageOptimizer") -> float:
         return float(np.linalg.norm(optimizer.cage_positions - self.patch.cage.V, axis=1).max())

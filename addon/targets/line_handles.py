@@ -19,6 +19,7 @@ MISSED = 0.02  # share of the lines' spacing beside a handle from which that is 
 
 
 ChooseTriangles = Callable[["native.ShapeOptimizer"], np.ndarray]
+SpreadFalloff = Callable[["native.ShapeOptimizer"], np.ndarray]
 
 
 class HandleTargets:
@@ -27,6 +28,7 @@ class HandleTargets:
     def __init__(self, line_step: float) -> None:
         """Takes the step of theta from one line to the next, radians."""
         self.line_step = line_step
+        self.spread_falloff: SpreadFalloff | None = None  # returns the fall-off map of an optimizer's vertices (#V)
         self.optimizer: native.ShapeOptimizer | None = None
         self.lines: native.LineHandles | None = None
         self.follower: native.HandleFollower | None = None
@@ -59,7 +61,8 @@ class HandleTargets:
               choose_pinned: ChooseTriangles) -> "list[native.Handle]":
         """Returns the handles that count, as the native module's; none where no line is pulled."""
         if self.optimizer is not optimizer:
-            self.optimizer, self.lines = optimizer, native.reflines.LineHandles(optimizer)
+            falloff = None if self.spread_falloff is None else self.spread_falloff(optimizer)
+            self.optimizer, self.lines = optimizer, native.reflines.LineHandles(optimizer, falloff=falloff)
             self.follower = native.reflines.HandleFollower(optimizer, self.lines)
         used = [each for each in handles if not each.muted]
         self.conflicts, self.missed, self.reached = (), (), []

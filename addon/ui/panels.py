@@ -184,13 +184,15 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
         layout.prop(own, "radius")
         rows.draw_zero(layout, own, "radius", "0: automatic")
         layout.prop(own, "border")
+        ob = context.view_layer.objects.active
+        if ob is not None and ob.type == 'MESH':
+            layout.prop_search(ob.reflection_lines, "follow_group", ob, "vertex_groups")
         layout.operator("reflines.pull_line", icon='VIEW_PAN')
         layout.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
         rows.draw_switch(layout, own, "nearest")
         pins = layout.row(align=True)
         pins.operator("reflines.pin_lines", icon='PINNED')
         pins.operator("reflines.pin_lines", text="", icon='UNPINNED').unpin = True
-        ob = context.view_layer.objects.active
         if ob is not None and ob.reflection_lines.handles.text:
             layout.operator("reflines.delete_handles", icon='X')
 

@@ -178,6 +178,8 @@ class ReflinesObject(bpy.types.PropertyGroup):
                              description="Which way this object's vertices may move along the view")
     limit_group: StringProperty(name="Limit By", description="Vertex group of this object whose weights are the shares "
                                 "of the limit: 0 holds a vertex, 1 lets it move as far as Limit says")
+    follow_group: StringProperty(name="Follow By", description="Vertex group of this object that says where lines "
+                                 "follow handles: its weight 0 holds them, 1 lets them go as far as the radius says")
     creases: EnumProperty(name="Creases", items=CREASES, default='AUTOMATIC',
                           description="Which edges of this object are held, with the lines solved on each side")
     crease_marks: EnumProperty(name="Marks", items=CREASE_MARKS, default={'SHARP', 'CREASE'}, options={'ENUM_FLAG'},

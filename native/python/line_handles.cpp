@@ -22,9 +22,11 @@ Handle make_handle(const PlanePositions& points, const std::optional<double>& va
   return {kind, points, value.value_or(0.0), centre.value_or(PlanePositions()), radius, triangles, name};
 }
 
-std::unique_ptr<LineHandles> make_line_handles(ShapeOptimizer& optimizer, int family) {
+std::unique_ptr<LineHandles> make_line_handles(ShapeOptimizer& optimizer, int family,
+                                               const std::optional<Vector>& falloff) {
   const NativeCall call(optimizer);
-  return std::make_unique<LineHandles>(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer());
+  return std::make_unique<LineHandles>(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer(),
+                                       falloff.value_or(Vector()));
 }
 
 std::vector<HandleReach> measure(const LineHandles& line_handles, const std::vector<Handle>& handles,
@@ -33,9 +35,12 @@ std::vector<HandleReach> measure(const LineHandles& line_handles, const std::vec
   return line_handles.measure(handles, optimizer.vertex_field(line_handles.family()), line_step);
 }
 
-std::vector<Target> handles(ShapeOptimizer& optimizer, const std::vector<Handle>& handles, int family) {
+std::vector<Target> handles(ShapeOptimizer& optimizer, const std::vector<Handle>& handles, int family,
+                            const std::optional<Vector>& falloff) {
   const NativeCall call(optimizer);
-  return LineHandles(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer()).build(handles);
+  return LineHandles(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer(),
+                     falloff.value_or(Vector()))
+      .build(handles);
 }
 
 Vector read_vertex_theta(ShapeOptimizer& optimizer, int family) {
@@ -60,16 +65,19 @@ void bind_line_handles(py::module_& module) {
       .def_readonly("distance", &HandleReach::distance)
       .def_readonly("share", &HandleReach::share);
   py::class_<LineHandles>(module, "LineHandles", py::module_local())
-      .def(py::init(&make_line_handles), py::arg("optimizer"), py::kw_only(), py::arg("family") = 0)
+      .def(py::init(&make_line_handles), py::arg("optimizer"), py::kw_only(), py::arg("family") = 0,
+           py::arg("falloff") = py::none())
       .def("build", release_gil(&LineHandles::build), py::arg("handles"))
       .def("find_conflicts", release_gil(&LineHandles::find_conflicts), py::arg("handles"))
       .def("read_theta", release_gil(&LineHandles::read_theta), py::arg("points"))
+      .def("can_follow", &LineHandles::can_follow, py::arg("points"))
       .def("measure", &measure, py::arg("handles"), py::arg("optimizer"), py::kw_only(), py::arg("line_step"));
   py::class_<HandleFollower>(module, "HandleFollower", py::module_local())
       .def(py::init<const ShapeOptimizer&, const LineHandles&>(), py::arg("start"), py::arg("lines"),
            py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
       .def("follow", &follow, py::arg("handles"), py::arg("optimizer"), py::kw_only(), py::arg("keep_others") = true);
-  module.def("handles", &handles, py::arg("optimizer"), py::arg("handles"), py::kw_only(), py::arg("family") = 0);
+  module.def("handles", &handles, py::arg("optimizer"), py::arg("handles"), py::kw_only(), py::arg("family") = 0,
+             py::arg("falloff") = py::none());
   module.def("vertex_theta", &read_vertex_theta, py::arg("optimizer"), py::kw_only(), py::arg("family") = 0);
 }
 

@@ -355,8 +355,9 @@ class HandleReach:
 
 class LineHandles:
     """The builder of targets by handles, for a region as its lines are when this is made; see
-    native/include/reflines/line_handles.h. Points that move within the same `centre` and `radius` take one back substitution."""
-    def __init__(self, optimizer: ShapeOptimizer, *, family: int = 0) -> None: ...
+    native/include/reflines/line_handles.h. Points that move within the same `centre` and `radius` take one back substitution.
+    `falloff` (#V in [0, 1]) says where lines may follow the handles: 0 holds them, 1 lets them go."""
+    def __init__(self, optimizer: ShapeOptimizer, *, family: int = 0, falloff: np.ndarray | None = None) -> None: ...
     def build(self, handles: Sequence[Handle]) -> list[Target]:
         """Builds the two targets to solve for together: the gradient's, and that of the values at the handles and beyond the
         radii. Handles that change nothing give the lines at the start, bit for bit."""
@@ -364,6 +365,9 @@ class LineHandles:
         """Returns a sentence for each pair of pulls that forces lines to cross."""
     def read_theta(self, points: np.ndarray) -> np.ndarray:
         """Returns theta of the line through each point (#P x 2): #P, at the start."""
+    def can_follow(self, points: np.ndarray) -> np.ndarray:
+        """Returns whether the line at each point (#P x 2) can be laid elsewhere: #P bool; False beside a border that holds,
+        and where no line can be read."""
     def measure(self, handles: Sequence[Handle], optimizer: ShapeOptimizer, *, line_step: float) -> list[HandleReach]:
         """Measures at the optimizer's present heights; `line_step` is the step of theta from line to line, radians."""
 
@@ -376,8 +380,9 @@ class HandleFollower:
         changes nothing, where the solve is to be used: cages, few vertices, very different radii, handles on several
         pieces."""
 
-def handles(optimizer: ShapeOptimizer, handles: Sequence[Handle], *, family: int = 0) -> list[Target]:
-    """Builds the targets of handles on the present lines: LineHandles(optimizer).build(handles)."""
+def handles(optimizer: ShapeOptimizer, handles: Sequence[Handle], *, family: int = 0,
+            falloff: np.ndarray | None = None) -> list[Target]:
+    """Builds the targets of handles on the present lines: LineHandles(optimizer, falloff=falloff).build(handles)."""
 
 def vertex_theta(optimizer: ShapeOptimizer, *, family: int = 0) -> np.ndarray:
     """Returns theta at the vertices (#V), radians in (-pi, pi]; 0 where no active triangle is."""

@@ -48,3 +48,20 @@ def test_a_line_runs_parallel_to_a_bent_edge(height: float) -> None:
     moved = curves().run_parallel(line, edges, line[20])
     wanted = np.linalg.norm(line[20]) - 1.0
     assert np.abs(np.linalg.norm(moved, axis=1) - 1.0 - wanted).max() < 2e-3
+
+
+@pytest.mark.parametrize("held", ([0, 1, 40], [0], []))
+def test_a_moved_line_leaves_its_held_ends_gradually(held: list[int]) -> None:
+    line = np.column_stack([np.linspace(0.0, 1.0, 41), np.zeros(41)])
+    movable = ~np.isin(np.arange(41), held)
+    kept = curves().keep_ends(line, line + [0.0, 0.3], movable, 0.2)[:, 1] / 0.3
+    assert not kept[~movable].any()
+    ends = (0.05 if 1 in held else 0.025 if 0 in held else -1.0), (0.975 if 40 in held else 2.0)
+    inside = (line[:, 0] > ends[0] + 0.2) & (line[:, 0] < ends[1] - 0.2)
+    assert (np.abs(kept[inside] - 1.0) < 1e-12).all() and inside.any()
+    assert np.abs(np.diff(kept)).max() < 0.2 and (kept == 1.0).all() == (not held)
+
+
+def test_a_line_that_is_held_all_along_stays() -> None:
+    line = np.column_stack([np.linspace(0.0, 1.0, 9), np.zeros(9)])
+    assert np.array_equal(curves().keep_ends(line, line + 0.3, np.zeros(9, dtype=bool), 0.2), line)

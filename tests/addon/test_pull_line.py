@@ -7,6 +7,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from mathutils import Matrix
 
 import scenes
 
@@ -156,6 +157,77 @@ def test_lines_on_pinned_faces_stay(panel) -> None:
         changes.append(np.abs(read_theta(panel) - before)[near].max())
         restore(panel, shape)
     assert changes[1] < 0.1 * changes[0] and changes[2] == changes[0], changes
+
+
+def give_weights(ob: bpy.types.Object, weights: np.ndarray) -> None:
+    """Gives an object in Edit Mode the vertex group Follow, and handles their fall-off by it."""
+    scenes.object_mode()
+    group = ob.vertex_groups.get("Follow") or ob.vertex_groups.new(name="Follow")
+    for index, weight in enumerate(weights):
+        group.add([index], float(weight), 'REPLACE')
+    ob.reflection_lines.follow_group = "Follow"
+    bpy.ops.object.mode_set(mode='EDIT')
+
+
+@pytest.mark.parametrize("mode", ('EDIT', 'OBJECT'))
+def test_lines_follow_where_a_vertex_group_lets_them(panel, mode: str) -> None:
+    """Left of the handle its weight is 0: lines on these faces stay; right of it they follow."""
+    before, shape, changes = read_theta(panel), scenes.positions(panel), []
+    held = np.array([shape[list(face.vertices), 0].max() < -0.06 for face in panel.data.polygons])
+    assert bpy.ops.reflines.smooth('EXEC_DEFAULT', True, strength=0.0) == {'FINISHED'}  # stores the region
+    for weights in (np.ones(len(shape)), (shape[:, 0] > -0.06).astype(float)):
+        give_weights(panel, weights)
+        if mode == 'OBJECT':
+            scenes.object_mode()
+        assert pull(UP) == {'FINISHED'}
+        assert int(panel.reflection_lines.report.headline().split("%")[0]) > 97
+        assert not panel.reflection_lines.report.notes
+        changes.append(np.abs(read_theta(panel) - before)[held].max())
+        if mode == 'OBJECT':
+            bpy.ops.object.mode_set(mode='EDIT')
+        restore(panel, shape)
+    step = 2.0 * np.pi / bpy.context.scene.reflection_lines.stripes.count
+    assert changes[1] < 0.02 * step < 0.2 * changes[0], changes
+
+
+def test_a_group_of_1_changes_no_bit_and_one_that_is_missing_is_told(panel) -> None:
+    shape = scenes.positions(panel)
+    assert pull(UP) == {'FINISHED'}
+    plain = scenes.positions(panel)
+    restore(panel, shape)
+    give_weights(panel, np.ones(len(shape)))
+    assert pull(UP) == {'FINISHED'}
+    assert scenes.positions(panel).tobytes() == plain.tobytes()
+    panel.reflection_lines.follow_group = "Nobody"
+    before = scenes.fingerprint(panel)
+    with pytest.raises(RuntimeError, match="no vertex group Nobody: pick another one for the handles"):
+        pull(UP)
+    assert scenes.fingerprint(panel) == before
+
+
+@pytest.mark.parametrize("mirrored", ("no", "Mirror X", "modifier"))
+def test_a_group_holds_lines_of_cages_and_of_mirror_images(panel, mirrored: str) -> None:
+    """Weights of the cage's vertices are spread over its surface, and over both halves."""
+    if mirrored == "modifier":
+        scenes.object_mode()
+        panel.data.transform(Matrix.Translation((1.0, 0.0, 0.0)))
+        panel.modifiers.new("Mirror", 'MIRROR')
+        scenes.edit(panel)
+        scenes.select_faces(panel, lambda face: face % 32 < 31 and 0 < face // 32 < 31)
+    panel.data.use_mirror_x = mirrored == "Mirror X"
+    if mirrored == "no":
+        panel.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+    bpy.context.scene.reflection_lines.light.rotation_euler = (np.pi / 2.0, 0.0, 0.0)
+    bpy.context.view_layer.update()
+    right = {**UP, "start": (0.6, 0.0, 0.0), "end": (0.66, 0.0, 0.0)}
+    shape, moves = scenes.positions(panel), []
+    low = shape[:, 1] < -0.12
+    for weights in (np.ones(len(shape)), (~low).astype(float)):
+        give_weights(panel, weights)
+        assert pull(right) == {'FINISHED'}
+        moves.append(np.abs(scenes.positions(panel) - shape)[low].max())
+        restore(panel, shape)
+    assert moves[1] < 0.3 * moves[0] and moves[0] > 1e-4, moves
 
 
 def restore(ob: bpy.types.Object, shape: np.ndarray) -> None:

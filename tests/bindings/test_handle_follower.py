@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 import reflines
 import sample_cages
-from test_line_handles import STEP, across, crown, mesh, middle, moves_of_lines, pull
+from test_line_handles import STEP, across, crown, draw_map, mesh, middle, moves_of_lines, pull
 
 import meshes
 
@@ -134,6 +134,18 @@ def test_small_regions_and_cages_are_left_to_the_solve() -> None:
         handle = pull(lines, middle(start), middle(start) + across(start, 0.05))
         assert not reflines.HandleFollower(start, lines).follow([handle], other)
         assert other.heights.tobytes() == start.heights.tobytes()
+
+
+def test_lines_stay_where_the_fall_off_map_is_0() -> None:
+    session = Session()
+    free = draw_map(session.start)
+    session.follow([session.pull(0.1)])
+    plain = moves_of_lines(session.other, session.before)[free == 0.0].max()
+    session.lines = reflines.LineHandles(session.start, falloff=free)
+    session.follower = reflines.HandleFollower(session.start, session.lines)
+    assert max(session.follow([session.pull(0.1)])) < 0.01
+    mapped = moves_of_lines(session.other, session.before)[free == 0.0].max()
+    assert mapped < 0.01 < 0.05 < plain, (mapped, plain)
 
 
 def test_very_different_radii_are_left_to_the_solve() -> None:

@@ -165,6 +165,102 @@ def test_a_curve_from_border_to_border_is_met_where_lines_can_move(cells: int) -
         lines.build([reflines.Handle(held, value=0.0, radius=RADIUS)])
 
 
+def test_lines_can_be_laid_where_no_border_holds_and_no_feature_is() -> None:
+    """A clamped border holds the faces with a corner on it or beside it, of 48 cells the outermost two; a free one
+    none.
+    """
+    points, triangles = sample_panels.grid(48)
+    V = crown((points - 0.5) * (1.5, 1.2))
+    for border, rows in (("clamped", 2), ("free", 0)):
+        solver = reflines.ShapeOptimizer(V, triangles, view_direction=VIEW, line_direction=LINE, border=border)
+        lines = reflines.LineHandles(solver)
+        cell = np.abs(points[triangles].mean(axis=1) - 0.5).max(axis=1) * 48
+        inner, outer = cell < 24 - rows - 0.1, cell > 24 - rows + 0.1
+        assert lines.can_follow(solver.centers[inner]).all() and not lines.can_follow(solver.centers[outer]).any()
+        assert not lines.can_follow(np.array([[9.0, 0.0], [np.nan, 0.0]])).any()
+
+
+def test_a_curve_that_leaves_the_region_is_laid_where_that_has_lines() -> None:
+    solver = optimizer()
+    lines, way = reflines.LineHandles(solver), across(solver, 1.0)
+    along, start = np.array([-way[1], way[0]]), middle(solver)
+    value = lines.read_theta(start[None])[0]
+    curve = start + 0.02 * way + np.linspace(-0.3, 2.0, 24)[:, None] * along
+    handle = reflines.Handle(curve, value=value, radius=RADIUS)
+    assert solver.solve(lines.build([handle])).converged
+    assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.02
+    with pytest.raises(reflines.InvalidInput, match="off the region"):
+        lines.build([reflines.Handle(curve[-8:], value=value, radius=RADIUS)])
+
+
+def draw_map(solver: reflines.ShapeOptimizer, low: float = -0.2, high: float = -0.1) -> Array:
+    """A fall-off map that grows along the lines from 0 to 1, beside the middle."""
+    way = across(solver, 1.0)
+    return np.clip(((solver.xy - middle(solver)) @ [-way[1], way[0]] - low) / (high - low), 0.0, 1.0)
+
+
+@pytest.mark.parametrize("kind", CASES)
+def test_lines_stay_where_the_fall_off_map_is_0_and_meet_the_handle_where_it_is_1(kind: str) -> None:
+    moved = []
+    for mapped in (False, True):
+        solver = optimizer(kind)
+        before, start = reflines.vertex_theta(solver), middle(solver)
+        lines = reflines.LineHandles(solver, falloff=draw_map(solver) if mapped else None)
+        handle = pull(lines, start, start + across(solver, 0.1))
+        assert solver.solve(lines.build([handle])).converged
+        assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.01
+        moved.append(moves_of_lines(solver, before)[draw_map(solver) == 0.0].max())
+    assert moved[1] < 0.02 and moved[1] < 0.2 * moved[0], moved
+
+
+def test_the_less_the_map_the_less_lines_follow_and_the_handle_is_met_all_the_same() -> None:
+    moved, start = [], None
+    for level in (1.0, 0.75, 0.5, 0.25, 0.0):
+        solver = optimizer()
+        before, start = reflines.vertex_theta(solver), middle(solver)
+        free = draw_map(solver)
+        lines = reflines.LineHandles(solver, falloff=level + (1.0 - level) * free)
+        handle = pull(lines, start, start + across(solver, 0.1))
+        solver.solve(lines.build([handle]))
+        assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.01
+        moved.append(moves_of_lines(solver, before)[free == 0.0].max())
+    assert (np.diff(moved) < 0.0).all() and moved[1] > 0.5 * moved[0], moved
+    halfway = optimizer()
+    lines = reflines.LineHandles(halfway, falloff=np.full(len(halfway.xy), 0.5))
+    handle = pull(lines, start, start + across(halfway, 0.1))
+    halfway.solve(lines.build([handle]))
+    assert lines.measure([handle], halfway, line_step=STEP)[0].share < 0.01
+
+
+def test_a_map_of_1_changes_no_bit_and_handles_at_rest_change_none_under_any() -> None:
+    solver = optimizer()
+    start, ones = middle(solver), np.ones(len(solver.xy))
+    handle = pull(reflines.LineHandles(solver), start, start + across(solver, 0.1))
+    for plain, mapped in zip(reflines.handles(solver, [handle]), reflines.handles(solver, [handle], falloff=ones),
+                             strict=True):
+        assert np.array_equal(plain.gradient, mapped.gradient) and np.array_equal(plain.theta, mapped.theta)
+        assert np.array_equal(plain.weight, mapped.weight)
+    lines, before = reflines.LineHandles(solver, falloff=draw_map(solver)), solver.positions.tobytes()
+    gradient, value = lines.build([pull(lines, start, start)])
+    assert np.array_equal(gradient.gradient, solver.field()) and np.array_equal(value.theta, solver.theta())
+    assert solver.solve([gradient, value]).termination == "already_optimal" and solver.positions.tobytes() == before
+
+
+def test_bad_fall_off_maps_are_refused_with_the_count() -> None:
+    solver = optimizer()
+    good = np.ones(len(solver.xy))
+    number, count = np.arange(len(good)), len(good)
+    for wrong, words in ((good[:-1], f"has {count - 1} values"),
+                         (np.where(number < 3, 1.5, good), f"^3 of the {count} values"),
+                         (np.where(number < 2, np.nan, good), "^2 of the"), (-good, f"^{count} of the")):
+        with pytest.raises(reflines.InvalidInput, match=words):
+            reflines.LineHandles(solver, falloff=wrong)
+    lines, start = reflines.LineHandles(solver, falloff=draw_map(solver)), middle(solver)
+    held = start - 0.3 * across(solver, 1.0)[::-1] * [-1.0, 1.0]
+    with pytest.raises(reflines.InvalidInput, match="where the fall-off map is 0"):
+        lines.build([reflines.Handle(held[None], value=0.1, radius=RADIUS)])
+
+
 def test_several_handles_are_all_met() -> None:
     solver = optimizer()
     lines = reflines.LineHandles(solver)

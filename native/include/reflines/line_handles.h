@@ -47,10 +47,14 @@ struct HandleReach {
 // The first target is the present field plus grad c, as far as heights can reach it; the second fits theta itself (eq.
 // 3) at the handles, where the gradient alone reaches a third to three quarters of the change, and beyond the radii.
 // Handles that change nothing give the present field bit for bit.
+//
+// A fall-off map says where lines may follow, within the radii: where it is 0 they stay, as beyond the radii, and where
+// it is 1 they are free. Between, what holds them falls by equal factors, and the handles are still met.
 class LineHandles {
  public:
-  // `changeable` (#F): triangles with a vertex that can move. Keeps copies of its arguments.
-  LineHandles(RegionField field, const Mask& changeable, SpdFactorize factorize);
+  // `changeable` (#F): triangles with a vertex that can move. `falloff`: the map, #V in [0, 1]; empty is 1 everywhere.
+  // Keeps copies of its arguments. Throws InvalidInput for a map that is none.
+  LineHandles(RegionField field, const Mask& changeable, SpdFactorize factorize, const Vector& falloff = {});
   ~LineHandles();
 
   // Builds the two targets. Throws InvalidInput: no pull, a number that is not finite, a point off the region or on a
@@ -64,27 +68,34 @@ class LineHandles {
   const RegionField& field() const { return *field_; }  // as it was when this was made
 
   // These are the parts that `build` puts together, for those who follow handles otherwise: the places of each handle
-  // (of a curve those where no border holds the lines), the vertices (#V) whose lines may change, and the weight of the
-  // values in a triangle beyond these or around a pull.
+  // (of a curve those where lines can be laid, see can_follow), the vertices (#V) whose lines may change, how firmly
+  // the map holds those in a triangle (0 to 1e4, relative to the fourth power of the radius), and the weight of the
+  // values in a triangle beyond these, where the map holds, or around a pull.
   using Places = std::vector<std::vector<HandlePlace>>;
   Places find_places(const std::vector<Handle>& handles) const;
   Mask find_part(const std::vector<Handle>& handles, const Places& places) const;
+  double measure_firmness(int triangle) const;
   double weigh_values(const std::vector<Handle>& handles, const Mask& part, int triangle) const;
 
   // Returns theta of the line through each point (#P), radians in [-pi, pi]. Throws InvalidInput as `build` does.
   Vector read_theta(const PlanePositions& points) const;
+
+  // Returns whether the line at each point (#P) can be laid elsewhere: not beside a border that holds, on a feature, or
+  // off the region.
+  Mask can_follow(const PlanePositions& points) const;
 
   // Returns what the lines in `now`, the region at other heights, have reached. `line_step` is the step of theta from
   // one line to the next, radians.
   std::vector<HandleReach> measure(const std::vector<Handle>& handles, const RegionField& now, double line_step) const;
 
  private:
-  bool can_follow(int triangle) const;
+  bool can_lay(int triangle) const;
   Vector compute_change(const std::vector<Handle>& handles, const Places& places, double radius);
   void weight_places(const std::vector<Handle>& handles, const Places& places, Vector& weight) const;
 
   std::unique_ptr<const RegionField> field_;
   Mask movable_;              // #V: vertices whose lines can change
+  Vector firmness_;           // #V: how firmly the map holds lines that may change
   double value_scale_ = 0.0;  // factor of weights that the energy multiplies values by
   SpdFactorize factorize_;
   std::unique_ptr<const LineReader> reader_;

@@ -61,6 +61,7 @@ struct HandleFollower::Window {
   Vector meet(const std::vector<FollowedPlace>& places);
   void set_terms(const Vector& change);
   void weigh(const std::vector<Handle>& handles, bool keep_others);
+  Vector read_firmness() const;
   Vector read_change(const std::vector<FollowedPlace>& places) const;
 
   const PieceProblem& piece;
@@ -110,7 +111,7 @@ HandleFollower::Window::Window(const PieceProblem& piece, const LineHandles& lin
       stencils(select_stencils(piece.stencils(), quadrature.triangle)),
       energy(piece.field(), stencils, 0.0),
       terms(piece.field(), quadrature, piece.families(), piece.trust(), stencils.triangle_count()),
-      change(window, window.choose_rows(!this->part(piece.vertices())), piece.solver()),
+      change(window, window.choose_rows(!this->part(piece.vertices())), read_firmness(), piece.solver()),
       problem(window, energy, piece.field().z, still, piece.pull_density()),
       minimizer(piece.solver()),
       c(Vector::Zero(window.count())) {
@@ -128,6 +129,19 @@ HandleFollower::Window::Window(const PieceProblem& piece, const LineHandles& lin
     }
     targets.push_back(std::move(kept));
   }
+}
+
+// Reads how firmly the lines of each sample are held within the largest radius.
+Vector HandleFollower::Window::read_firmness() const {
+  double radius = 0;
+  for (const Handle& handle : handles) {
+    if (handle.kind == HandleKind::kPull) radius = std::max(radius, handle.radius);
+  }
+  Vector result(window.samples().size());
+  for (Eigen::Index s = 0; s < result.size(); ++s) {
+    result(s) = lines.measure_firmness(piece.triangles()[window.samples()[s].triangle]) / std::pow(radius, 4);
+  }
+  return result;
 }
 
 // Sets the weights that follow the handles.

@@ -12,12 +12,15 @@ constexpr double kRidge = 1e-11;    // of the largest diagonal entry: places may
 
 }  // namespace
 
-WindowChange::WindowChange(const SplineWindow& window, const std::vector<ModeRow>& still, LinearSolverKind kind)
+WindowChange::WindowChange(const SplineWindow& window, const std::vector<ModeRow>& still, const Vector& firmness,
+                           LinearSolverKind kind)
     : window_(window), solver_(kind) {
   CoupledSum sum(window);
-  for (const WindowSample& sample : window.samples()) {
-    const Vector laplacian = (sample.D.row(3) + sample.D.row(5)).transpose();
-    sum.add(sample.mode, sample.area_ratio * window.area_of(sample) * laplacian * laplacian.transpose());
+  for (int s = 0; s < firmness.size(); ++s) {
+    const WindowSample& sample = window.samples()[s];
+    const Vector laplacian = (sample.D.row(3) + sample.D.row(5)).transpose(), rise = sample.D.row(0).transpose();
+    sum.add(sample.mode, sample.area_ratio * window.area_of(sample) *
+                             (laplacian * laplacian.transpose() + firmness(s) * rise * rise.transpose()));
   }
   const double scale = sum.mean_diagonal();
   for (const ModeRow& row : still) sum.add(row, kStill * scale);

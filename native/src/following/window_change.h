@@ -13,9 +13,10 @@ namespace reflines {
 
 class WindowChange {
  public:
-  // Minimizes the integral of the squared Laplacian; `still` are the vertices where the change is 0. `window` outlives
-  // it.
-  WindowChange(const SplineWindow& window, const std::vector<ModeRow>& still, LinearSolverKind kind);
+  // Minimizes the integral of the squared Laplacian and of the square times `firmness` (#samples); `still` are the
+  // vertices where the change is 0. `window` outlives it.
+  WindowChange(const SplineWindow& window, const std::vector<ModeRow>& still, const Vector& firmness,
+               LinearSolverKind kind);
 
   // Chooses the points; places of equal handles keep their bits.
   void set_places(const std::vector<ModeRow>& places);

@@ -22,6 +22,7 @@ constexpr double kPlaceWeight = 1e4;
 // The weight of the values beyond the radii, for an area of radius^2. Of 0, 1, 1e2 and 1e4 lines there move by 0.36,
 // 0.35, 0.1 and 0.002 of the pull: heights that change under it must come down again somewhere.
 constexpr double kStayWeight = 1e4;
+constexpr double kFirmest = kStayWeight - 1;  // where the map is 0
 // The weight of the values around a pull, for an area of radius^2, and the share of the radius where it falls to 0.
 // Heights under a held border reach a third to three quarters of c; without it the rest is a corner of the line at the
 // handle. At a fifth of the radius along the line 0.74 of the pull are left without it, and 0.80 with it.
@@ -31,7 +32,8 @@ constexpr double kPlaceEdges = 2.5;  // edges that the triangles around a place 
 constexpr int kMostPlaces = 64;      // of a polyline
 constexpr int kFewestVertices = 8;   // within a radius
 constexpr const char* kNothingFollows =
-    " lies outside its radius, at a pin or on a border that holds; move it, or take a larger radius.";
+    " lies outside its radius, at a pin, on a border that holds or where the fall-off map is 0; move it, or take a "
+    "larger radius.";
 
 std::string call(const Handle& handle, int number) {
   return handle.name.empty() ? "Handle " + std::to_string(number + 1) : "Handle " + handle.name;
@@ -119,6 +121,24 @@ Mask find_movable(const RegionField& field, const Mask& changeable) {
   return result;
 }
 
+void check_falloff(const Vector& falloff, Eigen::Index vertices) {
+  if (falloff.size() == 0) return;
+  if (falloff.size() != vertices) {
+    throw InvalidInput("The fall-off map has " + std::to_string(falloff.size()) + " values; give one for each of the " +
+                       std::to_string(vertices) + " vertices.");
+  }
+  const auto wrong = falloff.size() - (falloff.array() >= 0 && falloff.array() <= 1).count();  // NaN is neither
+  if (wrong == 0) return;
+  throw InvalidInput(std::to_string(wrong) + " of the " + std::to_string(vertices) +
+                     " values of the fall-off map are not between 0 and 1; 0 holds the lines, 1 lets them follow.");
+}
+
+// Returns how firmly lines are held (#V): not at all where the map is 1, and as beyond a radius where it is 0.
+Vector compute_firmness(const Vector& falloff, Eigen::Index vertices) {
+  if (falloff.size() == 0) return Vector::Zero(vertices);
+  return falloff.unaryExpr([](double free) { return std::pow(kStayWeight, 1 - free) - 1; });
+}
+
 Location locate(const LineReader& reader, const Vector2& point, const Handle& handle, int number) {
   const Location at = reader.locate(point);
   if (at.triangle >= 0) return at;
@@ -136,20 +156,23 @@ double find_largest_radius(const std::vector<Handle>& handles) {
 
 }  // namespace
 
-LineHandles::LineHandles(RegionField field, const Mask& changeable, SpdFactorize factorize)
+LineHandles::LineHandles(RegionField field, const Mask& changeable, SpdFactorize factorize, const Vector& falloff)
     : field_(std::make_unique<const RegionField>(std::move(field))),
       movable_(find_movable(*field_, changeable)),
+      firmness_(compute_firmness(falloff, field_->xy.rows())),
       value_scale_(compute_value_scale(*field_)),
       factorize_(std::move(factorize)),
       reader_(std::make_unique<const LineReader>(*field_)),
       triangles_of_vertex_(
-          std::make_unique<const Incidence>(vertex_triangles(field_->F, static_cast<int>(field_->xy.rows())))) {}
+          std::make_unique<const Incidence>(vertex_triangles(field_->F, static_cast<int>(field_->xy.rows())))) {
+  check_falloff(falloff, field_->xy.rows());
+}
 
 LineHandles::~LineHandles() = default;
 
 // Returns whether the lines of a whole triangle can be moved. Those beside a held border keep their direction: asked to
 // run straight there, the line of a panel of 12 cells was bent twice as far as before.
-bool LineHandles::can_follow(int triangle) const {
+bool LineHandles::can_lay(int triangle) const {
   const auto& corners = field_->F.row(triangle);
   return movable_(corners(0)) && movable_(corners(1)) && movable_(corners(2));
 }
@@ -162,25 +185,29 @@ LineHandles::Places LineHandles::find_places(const std::vector<Handle>& handles)
     if (handle.points.rows() == 0) continue;
     const bool pulled_curve = handle.kind == HandleKind::kPull && handle.points.rows() > 1;
     for (const Vector2& point : resample(handle.points, mean_edge(*field_))) {
-      HandlePlace place{locate(*reader_, point, handle, static_cast<int>(k)), point, 0.0, 0.0};
-      if (pulled_curve && !can_follow(place.at.triangle)) continue;
+      const Location at = pulled_curve ? reader_->locate(point) : locate(*reader_, point, handle, static_cast<int>(k));
+      if (pulled_curve && (at.triangle < 0 || !can_lay(at.triangle))) continue;
+      HandlePlace place{at, point, 0.0, 0.0};
       place.theta = evaluate_theta_near(*field_, place.at, point, 0.0);
       if (handle.kind == HandleKind::kPull) place.change = wrap_angle(handle.value - place.theta);
       result[k].push_back(place);
     }
-    if (result[k].empty()) throw InvalidInput(call(handle, static_cast<int>(k)) + kNothingFollows);
+    if (!result[k].empty()) continue;
+    locate(*reader_, handle.points.row(0), handle, static_cast<int>(k));  // throws where that is the reason
+    throw InvalidInput(call(handle, static_cast<int>(k)) + kNothingFollows);
   }
   return result;
 }
 
-// Returns the vertices (#V) whose lines may change: within a radius, and at no pin.
+// Returns the vertices (#V) whose lines may change: within a radius, not where the map is 0, and at no pin.
 Mask LineHandles::find_part(const std::vector<Handle>& handles, const Places& places) const {
   Mask part = Mask::Constant(field_->xy.rows(), false);
   for (size_t k = 0; k < handles.size(); ++k) {
     if (handles[k].kind != HandleKind::kPull) continue;
     int count = 0;
     for (int v = 0; v < part.size(); ++v) {
-      const bool own = movable_(v) && measure_distance(field_->xy.row(v), centre_of(handles[k])) < handles[k].radius;
+      const bool own = movable_(v) && firmness_(v) < kFirmest &&
+                       measure_distance(field_->xy.row(v), centre_of(handles[k])) < handles[k].radius;
       part(v) = part(v) || own;
       count += own;
     }
@@ -211,7 +238,7 @@ Vector LineHandles::compute_change(const std::vector<Handle>& handles, const Pla
     }
   }
   if (!change_ || (change_->part() != part).any()) {
-    change_ = std::make_unique<const SmoothChange>(*field_, part, radius, factorize_);
+    change_ = std::make_unique<const SmoothChange>(*field_, part, radius, firmness_, factorize_);
   }
   return change_->interpolate(at, Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size())));
 }
@@ -238,12 +265,12 @@ void LineHandles::weight_places(const std::vector<Handle>& handles, const Places
   }
 }
 
+double LineHandles::measure_firmness(int triangle) const { return firmness_(field_->F.row(triangle)).mean(); }
+
 double LineHandles::weigh_values(const std::vector<Handle>& handles, const Mask& part, int triangle) const {
-  double weight = 0;
-  if (!part(field_->F.row(triangle)).any()) {
-    const double radius = find_largest_radius(handles);
-    weight = kStayWeight * value_scale_ / (radius * radius);
-  }
+  const double stays = part(field_->F.row(triangle)).any() ? measure_firmness(triangle) : kStayWeight;
+  const double radius = find_largest_radius(handles);
+  double weight = stays * value_scale_ / (radius * radius);
   for (const Handle& handle : handles) {
     if (handle.kind != HandleKind::kPull || field_->feature(triangle)) continue;
     const double share = measure_distance(field_->center.row(triangle), handle.points) / (kRound * handle.radius);
@@ -299,6 +326,15 @@ Vector LineHandles::read_theta(const PlanePositions& points) const {
   for (int k = 0; k < points.rows(); ++k) {
     const Vector2 point = points.row(k);
     result(k) = evaluate_theta_near(*field_, locate(*reader_, point, {}, k), point, 0.0);
+  }
+  return result;
+}
+
+Mask LineHandles::can_follow(const PlanePositions& points) const {
+  Mask result(points.rows());
+  for (int k = 0; k < points.rows(); ++k) {
+    const Location at = reader_->locate(points.row(k));
+    result(k) = at.triangle >= 0 && can_lay(at.triangle);
   }
   return result;
 }

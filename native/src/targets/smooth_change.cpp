@@ -38,7 +38,8 @@ Laplacian assemble_laplacian(const RegionField& field, const IndexVector& unknow
 
 }  // namespace
 
-SmoothChange::SmoothChange(const RegionField& field, const Mask& part, double length, const SpdFactorize& factorize)
+SmoothChange::SmoothChange(const RegionField& field, const Mask& part, double length, const Vector& firmness,
+                           const SpdFactorize& factorize)
     : field_(field), part_(part), unknown_(IndexVector::Constant(part.size(), -1)) {
   for (int v = 0; v < part.size(); ++v) {
     if (!part(v)) continue;
@@ -50,8 +51,10 @@ SmoothChange::SmoothChange(const RegionField& field, const Mask& part, double le
   const Vector inverse = (laplacian.area.array() > 0).select(laplacian.area.cwiseInverse(), 0.0);
   const SparseMatrix scaled = inverse.asDiagonal() * laplacian.L;
   SparseMatrix system = laplacian.L.transpose() * scaled;
-  const double definite = kDefinite / (length * length * length * length);
-  for (int k = 0; k < count; ++k) system.coeffRef(k, k) += definite * laplacian.area(vertex_[k]);
+  const double unit = 1 / (length * length * length * length);
+  for (int k = 0; k < count; ++k) {
+    system.coeffRef(k, k) += (kDefinite + firmness(vertex_[k])) * unit * laplacian.area(vertex_[k]);
+  }
   solve_ = factorize(system.triangularView<Eigen::Lower>());
 }
 

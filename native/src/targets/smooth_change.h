@@ -15,8 +15,10 @@ namespace reflines {
 class SmoothChange {
  public:
   // `part` (#V): the vertices where c need not be 0. `length` is the part's size: a factor of 1e-8 / length^4 of the
-  // areas makes the system definite where the part has no edge, and leaves constants free there.
-  SmoothChange(const RegionField& field, const Mask& part, double length, const SpdFactorize& factorize);
+  // areas makes the system definite where the part has no edge, and leaves constants free there. `firmness` (#V) is
+  // a further weight of c^2, in units of 1 / length^4: at 100 c falls to 0 within a third of the length.
+  SmoothChange(const RegionField& field, const Mask& part, double length, const Vector& firmness,
+               const SpdFactorize& factorize);
 
   const Mask& part() const { return part_; }
 
