@@ -59,7 +59,7 @@ NAMES = (
     "operators.pin_lines", "operators.pull_line",
     "operators.resolve", "operators.set_border", "operators.smooth", "operators.store_result", "operators.stripes",
     "operators.sweep_light", "operators.untwist", "operators.use_look", "operators.warp",
-    "ui.gizmos", "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels", "ui.check_panel",
+    "ui.gizmos", "ui.handle_gizmos", "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels", "ui.check_panel",
     "ui.preferences", "ui.toolbar",
     "ui.stripe_presets", "ui.stripes_panel",
 )

@@ -50,6 +50,7 @@ class LineDrag(Drag):
         self.hover: Place | None = None  # place under the mouse
         self.sizing: tuple[float, float] | None = None  # where F was pressed, and the radius then
         self.pressed: tuple[float, float, bool] | None = None  # a press before the lines are there
+        self.taken: tuple[int, int] | None = None  # handle, and its dot, that the next press takes
         self.mouse = self.last = (0.0, 0.0)  # pixels of the window: of the pull, and of the mouse itself
         self.looked = False  # whether the place under the mouse is known
         self.traced: dict[LineHandle, Curve] = {}  # lines of the handles in what is shown
@@ -141,6 +142,11 @@ class LineDrag(Drag):
         if not own.is_pin:
             self.replace_handle(self.held, own.move_dot(self.dot, end))
 
+    def take_dot(self, index: int, dot: int) -> None:
+        """Makes the next press take a dot of a handle, where there is such a one."""
+        if (index, dot) in self.list_dots():
+            self.taken = index, dot
+
     def press(self, x: float, y: float, *, pins: bool) -> None:
         """Takes the handle under the mouse, or puts one on the line there; with `pins` holds that line."""
         self.mouse = self.last = (x, y)
@@ -149,6 +155,8 @@ class LineDrag(Drag):
             return
         self.pressed = None
         self.look()
+        if self.taken is not None:
+            (self.near, self.dot), self.taken = self.taken, None
         if self.near is None and self.hover is None:
             return
         self.keep_history()
@@ -199,7 +207,7 @@ class LineDrag(Drag):
             self.stroke = []
         elif self.held is not None and self.history and self.history[-1] == self.handles:
             self.history.pop()
-        self.held = None
+        self.held = self.taken = None
         self.looked = False
 
     def take_nearest(self, drawn: LineHandle) -> LineHandle:

@@ -4,7 +4,7 @@ from functools import partial
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, StringProperty
+from bpy.props import BoolProperty, IntVectorProperty, StringProperty
 
 from ..bridge import facing, group_weights, pinned_faces, scene_objects
 from ..interactive import drag_input, drawn_lines
@@ -39,6 +39,9 @@ where a line was pulled to; Enter applies them all"""
                             description="As JSON, see model/line_handle.py; empty in Re-solve: those of the object")
 
     draws: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Draw Highlight: a press draws a line")
+
+    taken: IntVectorProperty(size=2, default=(-1, -1), options={'HIDDEN', 'SKIP_SAVE'},
+                             description="Kept handle, and number of its dot, that the press takes; -1: what is there")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
@@ -103,6 +106,7 @@ where a line was pulled to; Enter applies them all"""
         self.begin(context, in_session=True)
         result = super().invoke(context, event)
         if 'RUNNING_MODAL' in result and event.type == 'LEFTMOUSE' and event.value == 'PRESS':
+            self.drag.take_dot(*self.taken)
             self.drag.press(event.mouse_x, event.mouse_y, pins=event.alt)
         return result
 

@@ -4,7 +4,7 @@ Object Mode.
 import bpy
 
 from ..overlay import brush_circle
-from . import gizmos
+from . import gizmos, handle_gizmos
 
 LOOK_THROUGH = ("reflines.look_through", {"type": 'NUMPAD_0', "value": 'PRESS'}, None)  # of all tools
 PRESS = {"type": 'LEFTMOUSE', "value": 'PRESS'}
@@ -32,12 +32,13 @@ class ReflectionLinesTool:
 
 
 class PullLineTool:
-    """The tool whose press on the panel begins a session by pulling the line there."""
+    """The tool whose press on the panel begins a session by pulling the line there, or a kept handle's dot."""
     bl_idname = "reflection_lines.pull_line"
     bl_label = "Pull Line"
     bl_description = ("Drag a reflection line: the panel follows. Further presses take other lines.\n"
                       "Alt click pins a line, Enter applies, Esc takes all back")
     bl_icon = "ops.transform.push_pull"
+    bl_widget = handle_gizmos.VIEW3D_GGT_reflines_handles.bl_idname
     bl_keymap = (("reflines.pull_line", PRESS, None), ("reflines.pull_line", {**PRESS, "alt": True}, None),
                  LOOK_THROUGH)
 

@@ -51,10 +51,11 @@ MAY_IMPORT = {
     "ui.stripe_presets": set(),
     "ui.stripes_panel": {"ui.panels", "ui.rows", "ui.stripe_presets"},
     "ui.gizmos": {"bridge", "interactive.drag", "state.last_panels"},
+    "ui.handle_gizmos": {"model", "interactive.drag", "interactive.line_drag"},
     "ui.menus": set(),
     "ui.keymaps": set(),
     "ui.manual_links": set(),
-    "ui.toolbar": {"ui.gizmos", "overlay.brush_circle"},
+    "ui.toolbar": {"ui.gizmos", "ui.handle_gizmos", "overlay.brush_circle"},
     "ui.preferences": {"native", "ui.keymaps", "ui.manual_links"},
 }
 # Registration sees everything.
