@@ -2,10 +2,9 @@
 X.
 
 Where view and light are symmetric about the plane too, the best shape is symmetric. A region below a modifier is then
-solved together with its image, one that is symmetric in itself as it is. The moves of mirror images are averaged, which
-removes differences from rounding and from the diagonals of quads, and one side is copied to the other at last, so that
-not a bit differs. Where view or light are not symmetric, the seam of a Mirror modifier is clamped: both halves then
-still join smoothly.
+solved together with its image, one that is symmetric in itself as it is. The native solver moves mirror images alike;
+one side is copied to the other at last, since object space rounds them differently. Where view or light are not
+symmetric, the seam of a Mirror modifier is clamped: both halves then still join smoothly.
 """
 from dataclasses import dataclass
 

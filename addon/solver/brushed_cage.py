@@ -46,11 +46,9 @@ class BrushedCage(BrushedRegion):
         """The surface at the start of the stroke, on which the mouse is found: vertices and triangles. Refuses cages
         that cannot be subdivided.
         """
-        arguments = self.cage.build_arguments(symmetric=False)
-        for name in ("V", "region", "partner"):
-            del arguments[name]
+        arguments = {**self.cage.build_topology_arguments(), "level": PICK_LEVEL}
         with live_optimizer.convert_native_errors(self.patch):
-            refined = native.reflines.Subdivision(**{**arguments, "level": PICK_LEVEL}, vertices=len(self.cage.V))
+            refined = native.reflines.Subdivision(**arguments, vertices=len(self.cage.V))
         quads = refined.faces[self.region[refined.face_parent]]
         return refined.positions(self.cage.V), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 

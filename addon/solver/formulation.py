@@ -50,6 +50,11 @@ class Formulation:
         return None
 
     @property
+    def partner(self) -> np.ndarray | None:
+        """The mirror images of all that is solved, which keep equal moves; None where there is no symmetry."""
+        return None
+
+    @property
     def follow_sign(self) -> np.ndarray | None:
         """Returns these signs for handles that are followed without targets, and so need both halves."""
         return self.image_sign
@@ -89,7 +94,7 @@ class Formulation:
         vertices that stay whatever the border says.
         """
         return native.reflines.ShapeOptimizer(self.patch.V, self.patch.F, **self.choose_directions(), progress=progress,
-                                              **self.choose_edges(border), fixed=held,
+                                              **self.choose_edges(border), fixed=held, partner=self.partner,
                                               face_of_triangle=self.patch.face_of_triangle,
                                               **self.patch.creases.build_arguments())
 
@@ -142,13 +147,13 @@ class Formulation:
         """Calls the native press of Smooth; raises the native module's errors."""
         positions, told = native.reflines.smooth_panel(
             self.patch.V, self.patch.F, **self.choose_press_directions(), fixed=self.hold_marked_creases(),
-            **self.choose_edges(border), face_of_triangle=self.patch.face_of_triangle, limit_share=self.choose_share(),
-            **settings)
+            partner=self.partner, **self.choose_edges(border), face_of_triangle=self.patch.face_of_triangle,
+            limit_share=self.choose_share(), **settings)
         return Press(positions, told.stray, told)
 
 
 class SymmetricFormulation(Formulation):
-    """A patch that is symmetric in itself: the moves of mirror images are averaged."""
+    """A patch that is symmetric in itself: mirror images keep equal moves."""
 
     @property
     def is_symmetric(self) -> bool:
@@ -158,31 +163,13 @@ class SymmetricFormulation(Formulation):
     def image_sign(self) -> np.ndarray | None:
         return self.patch.mirror.sign
 
-    def choose_border(self, border: str) -> str | np.ndarray:
-        """Returns the border; of two mirror images the firmer one holds for both, since their moves are averaged."""
-        codes = fill_border(self.patch.border, border)
-        return codes if isinstance(codes, str) else np.maximum(codes, codes[self.patch.mirror.partner])
-
-    def choose_share(self) -> np.ndarray | None:
-        """Returns the shares; of two mirror images the smaller one holds for both."""
-        own = self.patch.share
-        if own is None:
-            return None
-        image = own[self.patch.mirror.partner]
-        return np.column_stack([np.maximum(own[:, 0], image[:, 0]), np.minimum(own[:, 1], image[:, 1])])
+    @property
+    def partner(self) -> np.ndarray | None:
+        return self.patch.mirror.partner
 
     def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
         """Returns the smaller weight of two mirror images for both."""
         return np.minimum(weights, weights[self.patch.mirror.partner])
-
-    def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
-        move = optimizer.positions - self.patch.V
-        return self.patch.V + 0.5 * (move + move[self.patch.mirror.partner])
-
-    def build(self, border: str, progress: "native.Progress | None", *,
-              sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
-        both = None if held is None else held | held[self.patch.mirror.partner]
-        return super().build(border, progress, sparse=sparse, held=both)
 
 
 class JoinedFormulation(Formulation):
@@ -202,17 +189,19 @@ class JoinedFormulation(Formulation):
         return self.patch.to_world(local), F, partner
 
     def choose_border(self, border: str) -> str | np.ndarray:
-        _, _, partner = self.join()
         own = self.patch.border
-        return fill_border(np.append(own, own[partner[len(own):]]), border)
+        return fill_border(np.append(own, own[self.partner[len(own):]]), border)
 
     def choose_share(self) -> np.ndarray | None:
         own = self.patch.share
-        return None if own is None else np.concatenate([own, own[self.join()[2][len(own):]]])
+        return None if own is None else np.concatenate([own, own[self.partner[len(own):]]])
+
+    @property
+    def partner(self) -> np.ndarray | None:
+        return self.join()[2]
 
     def read_around(self) -> Surroundings:
-        around, matrix = self.patch.around, self.patch.matrix
-        _, _, partner = self.join()
+        around, matrix, partner = self.patch.around, self.patch.matrix, self.partner
         flip = matrix[:3, :3] @ np.diag(self.patch.mirror.sign) @ np.linalg.inv(matrix[:3, :3])
         mirrored = (around.V - matrix[:3, 3]) @ flip.T + matrix[:3, 3]
         own = len(self.patch.V)
@@ -223,7 +212,7 @@ class JoinedFormulation(Formulation):
         V, F, partner = self.join()
         fixed = None if held is None else np.append(held, held[partner[len(held):]])
         return native.reflines.ShapeOptimizer(V, F, **self.choose_directions(), progress=progress,
-                                              **self.choose_edges(border), fixed=fixed,
+                                              **self.choose_edges(border), fixed=fixed, partner=partner,
                                               face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
                                               **self.patch.creases.build_arguments(partner))
 
@@ -231,23 +220,22 @@ class JoinedFormulation(Formulation):
         return np.append(weights, weights[self.join()[2][len(weights):]])
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
-        V, _, partner = self.join()
-        return self.average_images(optimizer.positions - V, partner)
+        return self.read_own_half(optimizer.positions)
 
-    def average_images(self, move: np.ndarray, partner: np.ndarray) -> np.ndarray:
-        """Returns the patch's positions from the moves of both halves: those of mirror images are averaged."""
+    def read_own_half(self, positions: np.ndarray) -> np.ndarray:
+        """Returns the patch's positions from those of both halves."""
         own = len(self.patch.V)
-        return self.patch.V + 0.5 * (move[:own] + move[partner[:own]])
+        return self.patch.V + (positions - self.join()[0])[:own]
 
     def press_smooth(self, border: str, settings: PressSettings) -> Press:
         V, F, partner = self.join()
         own = self.hold_marked_creases()
         held = np.append(own, own[partner[len(own):]])
         positions, told = native.reflines.smooth_panel(V, F, **self.choose_press_directions(), fixed=held,
-                                                       **self.choose_edges(border),
+                                                       partner=partner, **self.choose_edges(border),
                                                        face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
                                                        limit_share=self.choose_share(), **settings)
-        return Press(self.average_images(positions - V, partner), told.stray[:len(self.patch.F)], told)
+        return Press(self.read_own_half(positions), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         sign = mirror.compute_theta_sign(self.patch.mirror, self.patch.matrix, self.view.line_direction)

@@ -125,6 +125,8 @@ class ShapeOptimizer:
                  line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
                  border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature
                  fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
+                 partner: np.ndarray | None = None,              # #V of mirror_pairs, mutual, -1: none. Partners keep equal
+                                                                 # moves, and what holds or limits one holds for both
                  around: tuple[np.ndarray, np.ndarray] | None = None,  # for the border "curvature": positions #S x 3 of
                                                                  # vertices around, and triangles that name the region's
                                                                  # by 0 .. #V - 1 and those by #V and more
@@ -193,6 +195,7 @@ class SmoothPanelReport:
 def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                  border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature
                  fixed: np.ndarray | None = None,                   # #V bool: held whatever the border says
+                 partner: np.ndarray | None = None,                 # #V, as in ShapeOptimizer
                  around: tuple[np.ndarray, np.ndarray] | None = None,  # as in ShapeOptimizer
                  face_of_triangle: np.ndarray | None = None,        # #F, as in ShapeOptimizer
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without

@@ -39,8 +39,8 @@ std::vector<Target> list_targets(const Targets& targets) {
 
 std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
                                                 const Eigen::MatrixXd& line_direction, const Codes& border,
-                                                const std::optional<Mask>& fixed, const Around& around,
-                                                const std::optional<Indices>& face_of_triangle,
+                                                const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
+                                                const Around& around, const std::optional<Indices>& face_of_triangle,
                                                 const std::string& stencil, const std::string& linear_solver,
                                                 const std::string& crease_rule, const Indices& marked_creases,
                                                 double crease_angle, double proximity,
@@ -48,6 +48,7 @@ std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indice
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
+  if (partner) options.partner = index_vector(*partner);
   options.around = surroundings_of(around);
   if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
   options.stencil = find_named(kStencils, stencil, "stencil");
@@ -127,10 +128,11 @@ void bind_optimizer(py::module_& module) {
   py::class_<ShapeOptimizer>(module, "ShapeOptimizer", py::module_local())
       .def(py::init(&build_optimizer), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
            py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
-           py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(), py::arg("stencil") = "consistent",
-           py::arg("linear_solver") = "cholmod", py::arg("crease_rule") = "automatic",
-           py::arg("marked_creases") = Indices(), py::arg("crease_angle") = shape.creases.angle,
-           py::arg("proximity") = shape.proximity, py::arg("progress") = py::none())
+           py::arg("partner") = py::none(), py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
+           py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
+           py::arg("crease_rule") = "automatic", py::arg("marked_creases") = Indices(),
+           py::arg("crease_angle") = shape.creases.angle, py::arg("proximity") = shape.proximity,
+           py::arg("progress") = py::none())
       .def_property_readonly("region", py::cpp_function(release_gil(&Shape::region)))
       .def_property_readonly("frame", &frame_rows)
       .def_property_readonly("heights", py::cpp_function(release_gil(&Shape::heights)))

@@ -58,12 +58,14 @@ py::tuple run_unlocked(const Press& press) {
 
 py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
                       const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
-                      const Around& around, const std::optional<Indices>& face_of_triangle, const std::string& lights,
+                      const std::optional<Indices>& partner, const Around& around,
+                      const std::optional<Indices>& face_of_triangle, const std::string& lights,
                       const std::optional<double>& length, double strength, const std::optional<double>& limit,
                       const Shares& limit_share, bool symmetric, std::shared_ptr<Progress> progress) {
   SmoothPanelOptions options = options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
+  if (partner) options.partner = index_vector(*partner);
   options.around = surroundings_of(around);
   if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
   const Triangles triangles = triangles_of(F);
@@ -115,10 +117,10 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("messages", &Told::messages);
   module.def("smooth_panel", &smooth_mesh, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
              py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
-             py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(), py::arg("lights") = "crossed",
-             py::arg("length") = py::none(), py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
-             py::arg("limit_share") = py::none(), py::arg("symmetric") = defaults.symmetric,
-             py::arg("progress") = py::none());
+             py::arg("partner") = py::none(), py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
+             py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("strength") = defaults.strength,
+             py::arg("limit") = py::none(), py::arg("limit_share") = py::none(),
+             py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
   const SubdivisionOptions subdivision;
   module.def("smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
              py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),

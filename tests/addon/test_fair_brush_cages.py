@@ -92,11 +92,8 @@ def test_a_window_is_the_surface_of_the_whole_cage() -> None:
 
 def read_surface(cage: object, faces: np.ndarray) -> np.ndarray:
     """The corners of the refined faces on some of the cage's: #refined x 4 x 3."""
-    arguments = cage.build_arguments(symmetric=False)
-    V = arguments.pop("V")
-    refined = modules().native.reflines.Subdivision(
-        **{name: value for name, value in arguments.items() if name not in {"region", "partner"}}, vertices=len(V))
-    return refined.positions(V)[refined.faces[faces[refined.face_parent]]]
+    refined = modules().native.reflines.Subdivision(**cage.build_topology_arguments(), vertices=len(cage.V))
+    return refined.positions(cage.V)[refined.faces[faces[refined.face_parent]]]
 
 
 @pytest.mark.parametrize(("cells", "bound"), [(18, 0.01), (36, 0.1)])

@@ -27,7 +27,7 @@ struct CageOptions {
   // Meant for drags: updates take a fraction of the time, and shapes differ by 0.6 % of the move (those of level 2 by 7
   // %).
   bool sparse = false;
-  ShapeOptions shape;  // its border, held, B, start, face_of_triangle and quadrature_weight are not read
+  ShapeOptions shape;  // its border, held, partner, B, start, face_of_triangle and quadrature_weight are not read
 };
 
 class CageOptimizer {

@@ -31,17 +31,22 @@ struct Boundary;
 struct HeightField;
 class ReflectionFunction;
 class RegionPieces;
+enum class SurfaceKind;
 
 struct ShapeOptions {
   std::vector<Border> border;  // #V, or empty: clamped everywhere
   Mask held;                   // #V, or empty: vertices that stay whatever the border says
-  Surroundings around;         // or none; read for border vertices with Border::kCurvature
+  // #V or empty: each vertex's mirror image, itself on the plane, -1 where there is none; see mirror_pairs. Partners
+  // keep equal moves along the view to the last bit: one unknown moves both. What holds or limits one of them holds for
+  // both. That preserves the symmetry of a mesh where the view direction lies in the mirror plane.
+  IndexVector partner;
+  Surroundings around;  // or none; read for border vertices with Border::kCurvature
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
   CreaseOptions creases;  // which edges are held, and no stencil reaches across
-  // The linear part of the heights' affine map z = B x + c, for heights that depend on fewer unknowns than there are
-  // vertices, as those of a subdivided cage do: B is #V x n, `start` (n) holds the unknowns at the start. Without them
-  // every free vertex is an unknown.
+  // The linear part of the heights' affine map z = B x + c for the surface of a cage, whose unknowns are not its
+  // vertices: B is #V x n, `start` (n) holds the unknowns at the start. Without them the surface is a mesh, and every
+  // free vertex, or pair of partners, is an unknown.
   SparseMatrix B;
   Vector start;
   double proximity = -1.0;             // weight of the quadratic pull to the start; negative: see PieceProblem
@@ -128,21 +133,21 @@ class ShapeOptimizer {
   // Returns for each vertex (#V) -1 or 1 where the last solve's limit holds it at its lowest or highest move, else 0.
   IndexVector at_limit() const;
 
-  // Returns the second-order model that a solve would factor at the current heights: the lower triangle over the free
-  // vertices, the pieces one after another.
+  // Returns the second-order model that a solve would factor at the current heights: the lower triangle over the
+  // unknowns, the pieces one after another.
   SparseMatrix hessian(const std::vector<Target>& targets, HessianModel model);
 
   // Scales all moves from the heights that the optimizer was built with. Throws InvalidInput outside 0 to 1.
   void scale_move(double share);
 
-  // Sets all free heights to those that the optimizer was built with plus `move` (#V), without a limit. Throws
-  // InvalidInput for numbers that are not finite, and for heights that depend on fewer unknowns.
+  // Sets all free heights to those that the optimizer was built with plus `move` (#V), of partners the mean of both,
+  // without a limit. Throws InvalidInput for numbers that are not finite, and for the surface of a cage.
   void set_move(const Vector& move);
 
   void reset();  // restores the heights that the optimizer was built with
 
-  // These are for heights that depend on fewer unknowns (see ShapeOptions::B), which make one piece: the indices of the
-  // unknowns that can move, and their values. free_unknowns is empty without B.
+  // These are for the surface of a cage (see ShapeOptions::B), which is one piece: the indices of the unknowns that can
+  // move, and their values. free_unknowns is empty without B.
   const std::vector<int>& free_unknowns() const { return free_unknowns_; }
   const Vector& unknowns() const;
   void rest_at(const Vector& unknowns);  // sets them, and the rest position of the proximity term
@@ -163,6 +168,8 @@ class ShapeOptimizer {
 
   Region region_;
   std::unique_ptr<RegionPieces> pieces_;
+  IndexVector partner_;  // see ShapeOptions
+  SurfaceKind kind_;
   int family_count_;
   LinearSolverKind linear_solver_;
   double feature_length_ = 0.0;  // see RegionField::feature

@@ -22,6 +22,7 @@ enum class Lights {
 struct SmoothPanelOptions {
   std::vector<Border> border;    // #V, or empty: clamped everywhere
   Mask held;                     // #V, or empty: vertices that stay
+  IndexVector partner;           // #V, or empty: mirror images, which move alike; see ShapeOptions. Of a cage not read
   Surroundings around;           // or none; see ShapeOptions
   IndexVector face_of_triangle;  // #F or empty; see ShapeOptions
   Lights lights = Lights::kCrossed;

@@ -262,8 +262,8 @@ bool HandleFollower::prepare(const std::vector<Handle>& handles, const LineHandl
       piece = field.piece(place.at.triangle);
     }
   }
-  const PieceProblem& own = *start_.pieces().pieces()[piece];
-  if (!own.moves_vertices() || own.field().vertex_count() < kFewestVertices) return false;
+  const PieceProblem& own = start_.pieces().piece_of(piece);
+  if (!own.is_mesh() || own.field().vertex_count() < kFewestVertices) return false;
   const Vector2 offset = field.xy.row(own.vertices()[0]) - own.field().xy.row(0);
   Mask moving = Mask::Constant(own.field().vertex_count(), false);
   for (const Handle& handle : handles) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "geometry/union_find.h"
 #include "reflines/errors.h"
@@ -142,6 +143,18 @@ double HeightField::diagonal() const {
     high = high.cwiseMax(point);
   }
   return (high - low).norm();
+}
+
+double HeightField::piece_diagonal() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  PlanePositions low = PlanePositions::Constant(piece_count, 2, kInfinity), high = -low;
+  for (int t = 0; t < triangle_count(); ++t) {
+    for (const int v : F.row(t)) {
+      low.row(piece[t]) = low.row(piece[t]).cwiseMin(xy.row(v));
+      high.row(piece[t]) = high.row(piece[t]).cwiseMax(xy.row(v));
+    }
+  }
+  return (high - low).rowwise().norm().maxCoeff();
 }
 
 HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame,

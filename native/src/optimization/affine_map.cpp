@@ -4,18 +4,22 @@
 
 namespace reflines {
 
-AffineMap AffineMap::select_vertices(const Mask& is_free, const Vector& z) {
+AffineMap AffineMap::select_vertices(const std::vector<int>& leader, const Vector& z) {
   AffineMap map;
   map.moving_index_.assign(z.size(), -1);
-  map.offset_ = z;
-  map.start_.resize(is_free.count());
-  int n = 0;
   for (int v = 0; v < z.size(); ++v) {
-    if (!is_free(v)) continue;
-    map.start_(n) = z(v);
-    map.moving_index_[v] = n++;
+    if (leader[v] != v) continue;
+    map.moving_index_[v] = map.moving_count_++;
+    map.leaders_.push_back(v);
   }
-  map.moving_count_ = n;
+  map.start_ = z(map.leaders_);
+  map.offset_ = z;
+  for (int v = 0; v < z.size(); ++v) {
+    if (leader[v] < 0) continue;
+    map.has_followers_ = map.has_followers_ || leader[v] != v;
+    map.moving_index_[v] = map.moving_index_[leader[v]];
+    map.offset_(v) -= z(leader[v]);
+  }
   return map;
 }
 
@@ -44,8 +48,10 @@ void AffineMap::apply(const Vector& x, Vector& z) const {
     z.noalias() += rows_ * x;
     return;
   }
-  z.resize(offset_.size());
-  for (int v = 0; v < z.size(); ++v) z(v) = moving_index_[v] < 0 ? offset_(v) : x(moving_index_[v]);
+  z = offset_;
+  for (int v = 0; v < z.size(); ++v) {
+    if (moving_index_[v] >= 0) z(v) += x(moving_index_[v]);
+  }
 }
 
 void AffineMap::pull_back(const Vector& along_z, Vector& along_x) const {
@@ -53,8 +59,9 @@ void AffineMap::pull_back(const Vector& along_z, Vector& along_x) const {
     along_x.noalias() = transposed_ * along_z;
     return;
   }
+  along_x.setZero();
   for (size_t v = 0; v < moving_index_.size(); ++v) {
-    if (moving_index_[v] >= 0) along_x(moving_index_[v]) = along_z(static_cast<int>(v));
+    if (moving_index_[v] >= 0) along_x(moving_index_[v]) += along_z(static_cast<int>(v));
   }
 }
 

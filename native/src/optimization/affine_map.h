@@ -10,9 +10,10 @@ namespace reflines {
 
 class AffineMap {
  public:
-  // Builds a selection: one unknown for every vertex whose `is_free` (#V) is set, in order; the others keep their
-  // height in z (#V).
-  static AffineMap select_vertices(const Mask& is_free, const Vector& z);
+  // Builds a selection: every vertex moves as one unknown does, or stays at its height in z (#V). `leader` (#V) is the
+  // vertex whose height is that unknown: the vertex itself, or its mirror image; -1 where the vertex stays. Unknowns
+  // are in the order of their vertices.
+  static AffineMap select_vertices(const std::vector<int>& leader, const Vector& z);
 
   // Takes any B (#V x n) with the start x (n) that gives the heights z (#V): c = z - B x.
   AffineMap(const SparseMatrix& B, Vector x, const Vector& z);
@@ -21,10 +22,15 @@ class AffineMap {
   const Vector& start() const { return start_; }
   bool is_selection() const { return moving_transposed_.size() == 0; }
 
-  // Returns the index of each vertex (#V) among those that move, 0 .. moving_count() - 1 in order, or -1. In a
-  // selection it is the index of the unknown that is the vertex's height.
+  // Returns for each vertex (#V) the row of the Hessian over moving heights that it contributes to, 0 .. moving_count()
+  // - 1, or -1 where it stays. In a selection that is the vertex's unknown, else its index among the vertices that
+  // move.
   const std::vector<int>& moving_index() const { return moving_index_; }
   int moving_count() const { return moving_count_; }
+
+  // Returns of a selection the vertex whose height is each unknown (n), and whether others move with these.
+  const std::vector<int>& leaders() const { return leaders_; }
+  bool has_followers() const { return has_followers_; }
 
   // Returns B^T over the moving vertices (n x #moving); empty for a selection.
   const SparseMatrix& moving_transposed() const { return moving_transposed_; }
@@ -44,8 +50,10 @@ class AffineMap {
   SparseMatrix moving_transposed_;
   std::vector<int> moving_index_;
   int moving_count_ = 0;
+  std::vector<int> leaders_;  // n; empty where this is no selection
+  bool has_followers_ = false;
   Vector start_;   // n
-  Vector offset_;  // #V: c, or for a selection the heights of the fixed vertices
+  Vector offset_;  // #V: c
 };
 
 }  // namespace reflines

@@ -44,7 +44,7 @@ Energy::Energy(const HeightField& field, const Stencils& stencils, double proxim
     : stencils_(stencils),
       entries_(stencils, field.vertex_count()),
       start_(field.z),
-      pull_density_(proximity > 0 ? proximity / std::pow(field.diagonal(), 4) : 0.0),
+      pull_density_(proximity > 0 ? proximity / std::pow(field.piece_diagonal(), 4) : 0.0),
       proximity_(pull_weights(field, pull_density_)),
       pull_(proximity_),
       triangle_energy_(stencils.triangle_count()),

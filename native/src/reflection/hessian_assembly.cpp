@@ -21,6 +21,21 @@ Vector5 multiply_packed(const double* m, double p, double q, const double* w) {
   return result;
 }
 
+Incidence list_vertices_of_unknowns(const std::vector<int>& column, int unknown_count) {
+  Incidence lists;
+  lists.offset.assign(unknown_count + 1, 0);
+  for (const int unknown : column) {
+    if (unknown >= 0) ++lists.offset[unknown + 1];
+  }
+  for (int i = 0; i < unknown_count; ++i) lists.offset[i + 1] += lists.offset[i];
+  lists.items.resize(lists.offset[unknown_count]);
+  std::vector<int> next(lists.offset.begin(), lists.offset.end() - 1);
+  for (size_t v = 0; v < column.size(); ++v) {
+    if (column[v] >= 0) lists.items[next[column[v]]++] = static_cast<int>(v);
+  }
+  return lists;
+}
+
 }  // namespace
 
 HessianAssembly::HessianAssembly(const Stencils& stencils, const StencilEntries& entries, std::vector<int> column,
@@ -28,11 +43,8 @@ HessianAssembly::HessianAssembly(const Stencils& stencils, const StencilEntries&
     : stencils_(stencils),
       entries_(entries),
       column_(std::move(column)),
-      vertex_(unknown_count),
+      vertices_(list_vertices_of_unknowns(column_, unknown_count)),
       H_(unknown_count, unknown_count) {
-  for (size_t v = 0; v < column_.size(); ++v) {
-    if (column_[v] >= 0) vertex_[column_[v]] = static_cast<int>(v);
-  }
   int* outer = H_.outerIndexPtr();
   std::vector<std::vector<int>> rows((unknown_count + kChunkSize - 1) /
                                      kChunkSize);  // of some neighbouring columns each
@@ -63,13 +75,16 @@ void HessianAssembly::append_rows(int unknown, std::vector<int>& last, std::vect
   const Incidence& lists = entries_.entries_of_vertex;
   last[unknown] = unknown;
   rows.push_back(unknown);  // a vertex that no stencil contains has a diagonal entry, too
-  for (int k = lists.begin(vertex_[unknown]); k < lists.end(vertex_[unknown]); ++k) {
-    const int t = entries_.triangle[lists.items[k]];
-    for (int e = stencils_.offset[t]; e < stencils_.offset[t + 1]; ++e) {
-      const int row = column_[stencils_.vertex[e]];
-      if (row < unknown || last[row] == unknown) continue;
-      last[row] = unknown;
-      rows.push_back(row);
+  for (int i = vertices_.begin(unknown); i < vertices_.end(unknown); ++i) {
+    const int v = vertices_.items[i];
+    for (int k = lists.begin(v); k < lists.end(v); ++k) {
+      const int t = entries_.triangle[lists.items[k]];
+      for (int e = stencils_.offset[t]; e < stencils_.offset[t + 1]; ++e) {
+        const int row = column_[stencils_.vertex[e]];
+        if (row < unknown || last[row] == unknown) continue;
+        last[row] = unknown;
+        rows.push_back(row);
+      }
     }
   }
   std::sort(rows.begin() + before, rows.end());
@@ -81,8 +96,15 @@ void HessianAssembly::fill_column(int unknown, const Energy::ElementHessians& el
     position[H_.innerIndexPtr()[k]] = k;
     values[k] = 0;
   }
+  for (int i = vertices_.begin(unknown); i < vertices_.end(unknown); ++i) {
+    add_vertex(vertices_.items[i], unknown, elements, position);
+  }
+}
+
+void HessianAssembly::add_vertex(int v, int unknown, const Energy::ElementHessians& elements,
+                                 const std::vector<int>& position) {
+  double* values = H_.valuePtr();
   const Incidence& lists = entries_.entries_of_vertex;
-  const int v = vertex_[unknown];
   for (int k = lists.begin(v); k < lists.end(v); ++k) {
     const int own = lists.items[k], t = entries_.triangle[own], first = stencils_.offset[t], slot = own - first;
     const double* gradient = stencils_.gradient.data() + 6 * static_cast<size_t>(t);
@@ -101,7 +123,7 @@ void HessianAssembly::fill_column(int unknown, const Energy::ElementHessians& el
 }
 
 const SparseMatrix& HessianAssembly::assemble(const Energy::ElementHessians& elements, const Vector& diagonal) {
-  const int n = static_cast<int>(vertex_.size());
+  const int n = vertices_.size();
   position_.resize(omp_get_max_threads());
 #pragma omp parallel if (n > kWorthThreads)
   {
@@ -110,7 +132,9 @@ const SparseMatrix& HessianAssembly::assemble(const Energy::ElementHessians& ele
 #pragma omp for schedule(static)
     for (int i = 0; i < n; ++i) fill_column(i, elements, position);
   }
-  for (int i = 0; i < n && diagonal.size() > 0; ++i) H_.valuePtr()[H_.outerIndexPtr()[i]] += diagonal(vertex_[i]);
+  for (int v = 0; v < diagonal.size(); ++v) {
+    if (column_[v] >= 0) H_.valuePtr()[H_.outerIndexPtr()[column_[v]]] += diagonal(v);
+  }
   return H_;
 }
 

@@ -12,8 +12,8 @@ namespace reflines {
 
 class HessianAssembly {
  public:
-  // Builds the pattern. `column` (#V) is the unknown of each vertex, or -1 where it is fixed; unknowns are 0 ..
-  // unknown_count - 1.
+  // Builds the pattern. `column` (#V) is the unknown that each vertex moves with, which several may share, or -1 where
+  // it is fixed; unknowns are 0 .. unknown_count - 1.
   HessianAssembly(const Stencils& stencils, const StencilEntries& entries, std::vector<int> column, int unknown_count);
 
   const SparseMatrix& pattern() const { return H_; }  // lower triangle, n x n; values only after `assemble`
@@ -25,11 +25,12 @@ class HessianAssembly {
  private:
   void append_rows(int unknown, std::vector<int>& last, std::vector<int>& rows) const;
   void fill_column(int unknown, const Energy::ElementHessians& elements, std::vector<int>& position);
+  void add_vertex(int v, int unknown, const Energy::ElementHessians& elements, const std::vector<int>& position);
 
   const Stencils& stencils_;
   const StencilEntries& entries_;
   std::vector<int> column_;  // #V
-  std::vector<int> vertex_;  // n: the vertex of each unknown
+  Incidence vertices_;       // of each unknown
   // The work space of each thread: the position of a row in the column being filled; for the pattern the last column
   // with the row.
   std::vector<std::vector<int>> position_;

@@ -61,7 +61,7 @@ Vector measure_response(const PlaneVectors& gradient, const Vector& area, double
 }
 
 Mask strong_features(const HeightField& field, const PlaneVectors& gradient, double length) {
-  Mask strong = gradient.rowwise().norm().array() > strong_bend(gradient, field.diagonal());
+  Mask strong = gradient.rowwise().norm().array() > strong_bend(gradient, field.piece_diagonal());
   Mask features = Mask::Constant(field.triangle_count(), false);
   for (int t = 0; t < field.triangle_count(); ++t) {
     if (!strong(t)) continue;

@@ -19,7 +19,12 @@ void MeshSurface::build() { optimizer_ = std::make_unique<ShapeOptimizer>(V_, F_
 
 Vector MeshSurface::control_move() const {
   const ImagePlane& frame = optimizer_->frame();
-  return frame.heights(optimizer_->positions()) - frame.heights(V_);
+  Vector move = frame.heights(optimizer_->positions()) - frame.heights(V_);
+  // Heights at two places are rounded differently: of mirror images the second gets the bits of the first.
+  for (int v = 0; v < shape_.partner.size(); ++v) {
+    if (shape_.partner(v) > v) move(shape_.partner(v)) = move(v);
+  }
+  return move;
 }
 
 bool MeshSurface::can_limit() const { return optimizer_->region().free <= kMostLimited; }

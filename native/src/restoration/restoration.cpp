@@ -220,7 +220,8 @@ Vector Restoration::use_symmetry(const Vector& z) {
   if (report_.mirrored == 0) return z;
   const Positions& C = surface_.control_positions();
   partner_ = find_mirror_partners(frame_.project(C), frame_.heights(C), diagonal_of(C), axes);
-  if (!is_held_symmetrically()) partner_.resize(0);
+  // Given mirror images move alike whatever was found.
+  if (options_.partner.size() > 0 || !is_held_symmetrically()) partner_.resize(0);
   return z + evidence.correction;
 }
 

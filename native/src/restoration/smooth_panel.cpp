@@ -12,6 +12,7 @@
 #include "restoration/restoration.h"
 #include "restoration/used_vertices.h"
 #include "solver/limited_move.h"
+#include "solver/mirror_coupling.h"
 #include "solver/solve_checks.h"
 #include "threads/abandonable_work.h"
 
@@ -78,14 +79,21 @@ SmoothPanelResult press_used_vertices(const Positions& V, const UsedVertices& us
   ShapeOptions shape;
   if (!options.border.empty()) shape.border = gather(options.border, used.index);
   if (options.held.size() > 0) shape.held = options.held(used.index);
+  if (options.partner.size() > 0) {
+    shape.partner = renumber_partners(options.partner, used);
+    const Mask alone = shape.partner.array() < 0 && options.partner(used.index).array() >= 0;
+    shape.held = shape.held.size() > 0 ? Mask(shape.held || alone) : alone;
+  }
   if (options.around.exist()) shape.around = renumber_surroundings(options.around, used, static_cast<int>(V.rows()));
   shape.face_of_triangle = options.face_of_triangle;
   set_restoration_rules(options, kMeshProximity, shape);
   MeshSurface surface(V(used.index, Eigen::all), used.F, view_direction,
                       make_families(view_direction, line_direction, options.lights), shape);
   SmoothPanelOptions own = options;
+  own.partner = shape.partner;
   if (own.limit_share.exists())
     own.limit_share = {options.limit_share.lowest(used.index), options.limit_share.highest(used.index)};
+  own.limit_share = intersect_limits(own.limit_share, own.partner);
   SmoothPanelResult result = Restoration(surface, own).run();
   Positions all = V;
   all(used.index, Eigen::all) = result.positions;
@@ -99,6 +107,7 @@ SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vec
                                const Vector3& line_direction, const SmoothPanelOptions& options) {
   check(options, V.rows());
   check_surroundings(options.around, V.rows());
+  check_partners(options.partner, V.rows());
   check_surface(V, F);
   check_face_of_triangle(options.face_of_triangle, F.rows());
   return run_press(options.progress, [=] {

@@ -15,6 +15,13 @@ UsedVertices find_used_vertices(const Triangles& F, int vertex_count) {
   return used;
 }
 
+IndexVector renumber_partners(const IndexVector& partner, const UsedVertices& used) {
+  IndexVector number = IndexVector::Constant(partner.size(), -1);
+  const int kept = static_cast<int>(used.index.size());
+  for (int k = 0; k < kept; ++k) number(used.index[k]) = k;
+  return partner(used.index).unaryExpr([&number](int v) { return v < 0 ? -1 : number(v); });
+}
+
 Surroundings renumber_surroundings(const Surroundings& around, const UsedVertices& used, int vertex_count) {
   const int kept = static_cast<int>(used.index.size());
   IndexVector number = IndexVector::Constant(vertex_count, -1);

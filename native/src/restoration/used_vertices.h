@@ -17,6 +17,9 @@ struct UsedVertices {
 // Finds the vertices of F (#F x 3), which must have passed check_indices against `vertex_count`.
 UsedVertices find_used_vertices(const Triangles& F, int vertex_count);
 
+// Returns the mirror images of the used vertices, from those of all; -1 where the image is in no face.
+IndexVector renumber_partners(const IndexVector& partner, const UsedVertices& used);
+
 // Returns the surroundings of the used vertices, from those of all `vertex_count`. Triangles that name one in no face
 // are left out.
 Surroundings renumber_surroundings(const Surroundings& around, const UsedVertices& used, int vertex_count);

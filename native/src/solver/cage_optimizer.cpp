@@ -22,6 +22,7 @@ constexpr double kHeightsRule = 4.0;
 ShapeOptions make_shape_options(const CageSurface& surface, const IndexVector& image_of, ShapeOptions shape) {
   shape.border.assign(surface.S.rows(), Border::kFree);
   shape.held.resize(0);
+  shape.partner.resize(0);
   shape.B = surface.S * surface.B;
   shape.start = surface.start;
   shape.quadrature_weight = surface.quadrature_weight;

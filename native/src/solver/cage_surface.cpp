@@ -6,6 +6,7 @@
 #include "geometry/cage_border.h"
 #include "geometry/cage_symmetry.h"
 #include "reflines/errors.h"
+#include "solver/mirror_coupling.h"
 
 namespace reflines {
 namespace {
@@ -16,18 +17,6 @@ void check_length(Eigen::Index length, Eigen::Index wanted, const std::string& w
   if (length == 0 || length == wanted) return;
   throw InvalidInput("The " + what + " has " + std::to_string(length) + " entries; the cage needs " +
                      std::to_string(wanted) + ".");
-}
-
-// Throws unless partners are mutual and within range.
-void check_partners(const IndexVector& partner) {
-  const auto n = static_cast<int>(partner.size());
-  for (int v = 0; v < n; ++v) {
-    const int other = partner(v);
-    if (other == -1 || (other >= 0 && other < n && partner(other) == v)) continue;
-    throw InvalidInput("The mirror partner of vertex " + std::to_string(v) + " is " + std::to_string(other) +
-                       ", which is none of the cage's " + std::to_string(n) +
-                       " vertices or has another partner; use mirror_pairs, or -1 for none.");
-  }
 }
 
 void check_arrays(const Cage& cage, const Positions& V, const CageOptions& options) {
@@ -43,9 +32,8 @@ void check_arrays(const Cage& cage, const Positions& V, const CageOptions& optio
   check_length(options.region.size(), cage.face_offsets.size() - 1, "region mask");
   check_length(static_cast<Eigen::Index>(options.border.size()), cage.vertices, "list of border codes");
   check_length(options.held.size(), cage.vertices, "held mask");
-  check_length(options.partner.size(), cage.vertices, "list of mirror partners");
+  check_partners(options.partner, cage.vertices);
   check_length(options.image_of.size(), cage.face_offsets.size() - 1, "list of mirrored faces");
-  check_partners(options.partner);
 }
 
 // Numbers the refined vertices in faces of the region, -1 for the others; fills `refined` with the inverse map. The

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "reflines/errors.h"
+#include "solver/mirror_coupling.h"
 
 namespace reflines {
 namespace {
@@ -43,12 +44,8 @@ std::vector<int> couple_vertices(const SparseMatrix& B, const Vector& start, Hei
 
 AffineMap make_affine_map(const SparseMatrix& B, const Vector& start, const std::vector<int>& free_unknowns,
                           const Piece& piece) {
+  if (B.rows() == 0) return AffineMap::select_vertices(choose_leaders(piece), piece.field.z);
   const int size = static_cast<int>(piece.vertex.size());
-  if (B.rows() == 0) {
-    Mask is_free(size);
-    for (int v = 0; v < size; ++v) is_free(v) = piece.field.role[v] == VertexRole::kFree;
-    return AffineMap::select_vertices(is_free, piece.field.z);
-  }
   std::vector<int> local(B.rows(), -1);
   for (int v = 0; v < size; ++v) local[piece.vertex[v]] = v;
   std::vector<Eigen::Triplet<double>> entries;

@@ -1,5 +1,5 @@
-// Heights that depend on fewer unknowns than there are vertices: those of a subdivision surface depend on its cage,
-// those of a symmetric mesh on one half of it.
+// The maps from unknowns to heights: those of a subdivision surface depend on its cage, those of a mesh on their own
+// vertex, or on one half of it.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@ namespace reflines {
 // no other moves are fixed. Returns the indices of the remaining unknowns. Throws InvalidInput where B does not fit.
 std::vector<int> couple_vertices(const SparseMatrix& B, const Vector& start, HeightField& field);
 
-// Builds the map from unknowns to the heights of a piece. Without B (0 rows) each free vertex is an unknown; else the
-// unknowns are those in `free_unknowns`, and the piece is the field's only one.
+// Builds the map from unknowns to the heights of a piece. Without B (0 rows) each free vertex is an unknown, or each
+// pair of partners; else the unknowns are those in `free_unknowns`, and the piece is the field's only one.
 AffineMap make_affine_map(const SparseMatrix& B, const Vector& start, const std::vector<int>& free_unknowns,
                           const Piece& piece);
 

@@ -37,16 +37,17 @@ bool has_free_border(const HeightField& field) {
   return false;
 }
 
-double default_proximity(double proximity, bool free_border, bool cage) {
+double default_proximity(double proximity, bool free_border, SurfaceKind kind) {
   if (proximity >= 0) return proximity;
   if (free_border) return kFreeBorderProximity;
-  return cage ? kCageProximity : 0.0;
+  return kind == SurfaceKind::kSubdivided ? kCageProximity : 0.0;
 }
 
 }  // namespace
 
-PieceProblem::PieceProblem(Piece piece, AffineMap map, StencilKind stencil, std::vector<ReflectionFunction> families,
-                           double proximity, LinearSolverKind solver, const Vector& quadrature_weight)
+PieceProblem::PieceProblem(Piece piece, AffineMap map, SurfaceKind kind, StencilKind stencil,
+                           std::vector<ReflectionFunction> families, double proximity, LinearSolverKind solver,
+                           const Vector& quadrature_weight)
     : piece_(std::move(piece)),
       stencils_(make_stencils(piece_.field, stencil)),
       quadrature_(make_quadrature(piece_.field, quadrature_weight)),
@@ -54,13 +55,14 @@ PieceProblem::PieceProblem(Piece piece, AffineMap map, StencilKind stencil, std:
       families_(std::move(families)),
       free_border_(has_free_border(piece_.field)),
       map_(std::move(map)),
+      kind_(kind),
       energy_(piece_.field, quadrature_.is_sampled() ? sampled_stencils_ : stencils_,
-              default_proximity(proximity, free_border_, !map_.is_selection())),
+              default_proximity(proximity, free_border_, kind)),
       terms_(piece_.field, quadrature_, families_, visible_, energy_.stencils().triangle_count()),
       minimizer_(solver),
       solver_(solver),
       // The surface of a cage has no thin triangles with wrong gradients: its dents bend as strongly as they appear.
-      smoother_(piece_.field, stencils_, families_, visible_, map_.is_selection(), solver),
+      smoother_(piece_.field, stencils_, families_, visible_, kind == SurfaceKind::kMesh, solver),
       lines_(families_.size()),
       x_(map_.start()),
       z_(piece_.field.z) {
@@ -97,11 +99,14 @@ void PieceProblem::pull_to(const Vector& z, const Vector& weight) {
 void PieceProblem::scale_move(double share) { set_heights(map_.start() + share * (x_ - map_.start())); }
 
 void PieceProblem::set_move(const Vector& move) {
-  Vector x = map_.start();
+  Vector sum = Vector::Zero(size()), count = Vector::Zero(size());
   for (int v = 0; v < move.size(); ++v) {
-    if (map_.moving_index()[v] >= 0) x(map_.moving_index()[v]) += move(v);
+    const int k = map_.moving_index()[v];
+    if (k < 0) continue;
+    sum(k) += move(v);
+    count(k) += 1;
   }
-  set_heights(x);
+  set_heights(map_.start() + sum.cwiseQuotient(count));
 }
 
 void PieceProblem::reset() {
@@ -236,9 +241,17 @@ Vector PieceProblem::rounding_weight(const SparseMatrix& hessian) {
 
 PlanePositions PieceProblem::places() {
   if (!map_.is_selection()) return {};
-  PlanePositions result(size(), 2);
+  return piece_.field.xy(map_.leaders(), Eigen::all);
+}
+
+// Returns the places of the vertices that move with the unknowns' own, those where there is none; nothing where there
+// are none at all.
+PlanePositions PieceProblem::image_places() {
+  if (!map_.has_followers()) return {};
+  PlanePositions result = places();
   for (int v = 0; v < piece_.field.vertex_count(); ++v) {
-    if (map_.moving_index()[v] >= 0) result.row(map_.moving_index()[v]) = piece_.field.xy.row(v);
+    const int k = map_.moving_index()[v];
+    if (k >= 0 && map_.leaders()[k] != v) result.row(k) = piece_.field.xy.row(v);
   }
   return result;
 }
@@ -249,6 +262,8 @@ std::unique_ptr<CoarseProblem> PieceProblem::coarse(const Vector& x, const Vecto
   if (!map_.is_selection() || quadrature_.is_sampled()) return nullptr;
   SplineBasis modes = build_spline_basis(piece_.field, kKnotSpacing);
   if (modes.count == 0) return nullptr;
+  modes.places = places();
+  modes.images = image_places();
   map_.apply(x, trial_z_);
   return std::make_unique<CoarsePiece>(piece_.field, energy_, std::move(modes), trial_z_, gradient);
 }

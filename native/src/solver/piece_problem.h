@@ -18,16 +18,19 @@
 #include "reflines/target.h"
 #include "solver/piece_smoother.h"
 #include "solver/quadrature.h"
+#include "solver/surface_kind.h"
 #include "solver/target_terms.h"
 
 namespace reflines {
 
 class PieceProblem : public Problem {
  public:
-  // Computes the stencils and the visibility of the lines at the start. A negative proximity selects the default: 10
-  // with a free border, else 0, or 1e-6 for a cage. `quadrature_weight`: see ShapeOptions.
-  PieceProblem(Piece piece, AffineMap map, StencilKind stencil, std::vector<ReflectionFunction> families,
-               double proximity, LinearSolverKind solver, const Vector& quadrature_weight = {});
+  // Computes the stencils and the visibility of the lines at the start. The map of a mesh is a selection. A negative
+  // proximity selects the default: 10 with a free border, else 0, or 1e-6 for a cage. `quadrature_weight`: see
+  // ShapeOptions.
+  PieceProblem(Piece piece, AffineMap map, SurfaceKind kind, StencilKind stencil,
+               std::vector<ReflectionFunction> families, double proximity, LinearSolverKind solver,
+               const Vector& quadrature_weight = {});
 
   void watch(Progress* progress) { smoother_.watch(progress); }  // null or the watcher of work other than solves
 
@@ -46,12 +49,10 @@ class PieceProblem : public Problem {
   void rest_at(const Vector& x);                        // sets the heights, and the rest of the proximity term
   void pull_to(const Vector& z, const Vector& weight);  // pull until reset, #V of the piece; see Energy
   void scale_move(double share);                        // of the unknowns from the start
-  void set_move(const Vector& move);                    // of the free vertices from the start: #V of the piece
+  void set_move(const Vector& move);                    // of a mesh's free vertices from the start: #V of the piece
   void reset();  // restores the state as built, so that later solves give the same bits
   const Vector& unknowns() const { return x_; }
-  bool moves_vertices() const {
-    return map_.is_selection();
-  }  // one unknown for each free vertex; false for cages and symmetry
+  bool is_mesh() const { return kind_ == SurfaceKind::kMesh; }
 
   Mask changeable() const;  // #T: at least one vertex is free
 
@@ -95,6 +96,7 @@ class PieceProblem : public Problem {
   Bounds bounds() const;
   void find_hidden();
   HessianAssembly& assembly();
+  PlanePositions image_places();
   Vector2 slope_at(int t, int v, const TriangleDerivatives& u) const;
 
   Piece piece_;
@@ -105,6 +107,7 @@ class PieceProblem : public Problem {
   bool free_border_;
   bool pulled_ = false;  // to other heights than the start's, which determine a free border
   AffineMap map_;
+  SurfaceKind kind_;
   Energy energy_;
   std::vector<Vector> visible_;  // #T for each family: visibility at the start, and 0 where held_at_border
   TargetTerms terms_;

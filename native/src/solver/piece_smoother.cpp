@@ -115,7 +115,7 @@ PlaneVectors PieceSmoother::start_gradient(int family) const {
 
 double PieceSmoother::longest_gradient(int family) const {
   if (!limit_outliers_) return std::numeric_limits<double>::infinity();
-  return kOutlier * strong_bend(start_gradient(family), field_.diagonal());
+  return kOutlier * strong_bend(start_gradient(family), field_.piece_diagonal());
 }
 
 void PieceSmoother::enter(double fraction, const char* stage) const {

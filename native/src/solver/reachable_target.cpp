@@ -141,7 +141,7 @@ Report minimize_reachable(PieceProblem& piece, const std::vector<Target>& wanted
   Report report = piece.minimize(options, progress);
   // The moves of a cage are smooth from triangle to triangle and imprint nothing.
   const bool reduced = std::any_of(wanted.begin(), wanted.end(), is_reduced);
-  if (!reduced || !piece.moves_vertices() || touches_limit(piece) || !report.converged() ||
+  if (!reduced || !piece.is_mesh() || touches_limit(piece) || !report.converged() ||
       options.gradient_tolerance > kInteractive) {
     return report;
   }

@@ -149,11 +149,20 @@ RegionField RegionPieces::region_field(int family, double feature_length) {
                      PlaneVectors::Zero(vertex_count(), 2),
                      PlaneVectors::Zero(vertex_count(), 2),
                      family};
-  for (size_t k = 0; k < pieces_.size(); ++k) {
-    pieces_[k]->add_vertex_field(result);
-    result.piece(pieces_[k]->triangles()).setConstant(static_cast<int>(k));
+  int first = 0;  // number of the problem's first piece: those of mirror images are one problem
+  for (const auto& piece : pieces_) {
+    piece->add_vertex_field(result);
+    const HeightField& field = piece->field();
+    for (int t = 0; t < field.triangle_count(); ++t) result.piece(field.source[t]) = first + field.piece[t];
+    first += field.piece_count;
   }
   return result;
+}
+
+const PieceProblem& RegionPieces::piece_of(int number) const {
+  size_t k = 0;
+  for (int last = pieces_[0]->field().piece_count; last <= number; last += pieces_[k]->field().piece_count) ++k;
+  return *pieces_[k];
 }
 
 RegionField RegionPieces::vertex_field(int family) const {

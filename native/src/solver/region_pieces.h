@@ -20,6 +20,7 @@ class RegionPieces {
 
   void add(std::unique_ptr<PieceProblem> piece) { pieces_.push_back(std::move(piece)); }
   const std::vector<std::unique_ptr<PieceProblem>>& pieces() const { return pieces_; }
+  const PieceProblem& piece_of(int number) const;  // that has this number in RegionField::piece
   const ImagePlane& frame() const { return frame_; }
   const Positions& start() const { return V_; }  // #V x 3, as handed in
   const Triangles& triangles() const { return F_; }

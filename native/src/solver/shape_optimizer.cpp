@@ -14,10 +14,12 @@
 #include "solver/coupling.h"
 #include "solver/face_count.h"
 #include "solver/limited_move.h"
+#include "solver/mirror_coupling.h"
 #include "solver/reachable_target.h"
 #include "solver/region_pieces.h"
 #include "solver/region_report.h"
 #include "solver/solve_checks.h"
+#include "solver/surface_kind.h"
 #include "solver/thread_limit.h"
 
 namespace reflines {
@@ -29,14 +31,25 @@ const Vector3& take_first(const std::vector<Vector3>& line_directions) {
   return line_directions.front();
 }
 
+SurfaceKind find_kind(const ShapeOptions& options) {
+  return options.B.rows() > 0 ? SurfaceKind::kSubdivided : SurfaceKind::kMesh;
+}
+
+void check_symmetry(const ShapeOptions& options, Eigen::Index vertex_count) {
+  check_partners(options.partner, vertex_count);
+  if (options.partner.size() == 0 || options.B.rows() == 0) return;
+  throw InvalidInput("Mirror partners are given for the vertices of a cage's surface; give those of the cage.");
+}
+
 Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
-  Boundary boundary{options.border, options.held, options.creases, options.B.rows() == 0};
+  Boundary boundary{options.border, options.held, options.creases, find_kind(options) == SurfaceKind::kMesh};
   if (boundary.border.empty()) boundary.border.assign(vertex_count, Border::kClamped);
   if (static_cast<Eigen::Index>(boundary.border.size()) != vertex_count ||
       (boundary.held.size() > 0 && boundary.held.size() != vertex_count)) {
     throw InvalidInput("The border codes and the held mask need one entry for each of the " +
                        std::to_string(vertex_count) + " vertices.");
   }
+  hold_partners(options.partner, boundary);
   return boundary;
 }
 
@@ -45,6 +58,8 @@ Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
 ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const std::vector<Vector3>& line_directions, const ShapeOptions& options)
     : pieces_(std::make_unique<RegionPieces>(V, F, ImagePlane(view_direction, take_first(line_directions)))),
+      partner_(options.partner),
+      kind_(find_kind(options)),
       family_count_(static_cast<int>(line_directions.size())),
       linear_solver_(options.linear_solver),
       progress_(options.progress),
@@ -53,22 +68,24 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   check_surface(V, F);
   check_quadrature_weight(options.quadrature_weight, F.rows());
   check_face_of_triangle(face_of_triangle_, F.rows());
+  check_symmetry(options, V.rows());
   enter(0.2, "dividing into height fields");
   const Boundary boundary = boundary_of(options, V.rows());
   HeightField field = make_height_field(V, F, frame(), boundary);
   sampled_ = options.quadrature_weight.size() > 0;
-  if (options.B.rows() > 0) free_unknowns_ = couple_vertices(options.B, options.start, field);
+  hold_partners(partner_, field);
+  if (kind_ == SurfaceKind::kSubdivided) free_unknowns_ = couple_vertices(options.B, options.start, field);
   std::vector<ReflectionFunction> families;
   for (const Vector3& a : line_directions) families.emplace_back(frame(), frame().z(), a);
   families.emplace_back(frame(), frame().z(), frame().x());  // across the first family: see PieceProblem
-  region_ = describe_region(field, face_of_triangle_, options.B.rows() == 0);
+  region_ = describe_region(field, face_of_triangle_, boundary.hold_creases);
   feature_length_ = kFeatureLength * field.diagonal();
   continue_border(field, boundary, options.around, families);
-  for (Piece& piece : split_pieces(field)) {
+  for (Piece& piece : split_pieces(field, partner_)) {
     enter(0.6, "making stencils");
-    region_.unused_pieces += piece.free_count == 0;
+    if (piece.free_count == 0) region_.unused_pieces += piece.field.piece_count;
     AffineMap map = make_affine_map(options.B, options.start, free_unknowns_, piece);
-    auto problem = std::make_unique<PieceProblem>(std::move(piece), std::move(map), options.stencil, families,
+    auto problem = std::make_unique<PieceProblem>(std::move(piece), std::move(map), kind_, options.stencil, families,
                                                   options.proximity, options.linear_solver, options.quadrature_weight);
     problem->watch(progress_.get());
     pieces_->add(std::move(problem));
@@ -216,7 +233,7 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
   for (const Target& target : targets) check(target);
   if (limit.exists()) reflines::check(limit, pieces_->vertex_count());
   const MoveLimit limit_before = pieces_->limit();
-  pieces_->set_limit(limit.exists() && is_infinite(limit) ? MoveLimit::none() : limit);
+  pieces_->set_limit(limit.exists() && is_infinite(limit) ? MoveLimit::none() : intersect_limits(limit, partner_));
   forget_lines();
   std::vector<Vector> before;
   for (const auto& piece : pieces_->pieces()) before.push_back(piece->unknowns());
@@ -281,7 +298,7 @@ void ShapeOptimizer::scale_move(double share) {
 }
 
 void ShapeOptimizer::set_move(const Vector& move) {
-  if (!free_unknowns_.empty()) throw InvalidInput("The vertices of a cage's surface do not move one by one.");
+  if (kind_ == SurfaceKind::kSubdivided) throw InvalidInput("The vertices of a cage's surface do not move one by one.");
   if (move.size() != pieces_->vertex_count() || !move.allFinite()) {
     throw InvalidInput("The move needs one finite number for each of the " + std::to_string(pieces_->vertex_count()) +
                        " vertices.");

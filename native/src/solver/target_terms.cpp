@@ -28,7 +28,7 @@ constexpr double kValueCompanion = 10.0;
 // same by value and by gradient, whatever the unit of length. Without it a free pattern by value moved nothing in
 // kilometres and five times too far in millimetres. Of 1, 4, (2 pi)^2 and 400 over the squared diagonal, ripples on a
 // panel free on all sides: 26, 10, 1.3, 0.1 % of theta stay beside the target, by 4, 5, 7, 8 steps.
-double value_scale(const HeightField& field) { return std::pow(2 * std::numbers::pi / field.diagonal(), 2); }
+double value_scale(const HeightField& field) { return std::pow(2 * std::numbers::pi / field.piece_diagonal(), 2); }
 
 double squared_misfit(const Target& target, const ReflectionFunction& lines, const Vector5& u, int row) {
   if (target.theta.size() > 0) {

@@ -57,7 +57,7 @@ PieceProblem problem_of(const Crown& crown, Border hold, int level, double proxi
   Piece piece = std::move(split_pieces(field).front());
   AffineMap map = make_affine_map(B, start, free_unknowns, piece);
   const ReflectionFunction lines(frame, frame.z(), frame.y()), crossing(frame, frame.z(), frame.x());
-  return {std::move(piece),  std::move(map), StencilKind::kConsistent,
+  return {std::move(piece),  std::move(map), SurfaceKind::kSubdivided,  StencilKind::kConsistent,
           {lines, crossing}, proximity,      LinearSolverKind::kCholmod};
 }
 

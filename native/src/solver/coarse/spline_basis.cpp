@@ -105,22 +105,32 @@ SplineBasis build_spline_basis(const HeightField& field, double spacing) {
 void SplineBasis::move(const Vector& c, Vector& x) const {
 #pragma omp parallel for schedule(static) if (x.size() > kWorthThreads)
   for (Eigen::Index n = 0; n < x.size(); ++n) {
-    const Footprint print = footprint(grid, places.row(n));
-    for (int k = 0; k < 16; ++k) {
-      if (mode[print.spline[k]] >= 0) x(n) += print.value[k] * c(mode[print.spline[k]]);
-    }
+    add_move(places.row(n), c, x(n));
+    if (images.rows() > 0) add_move(images.row(n), c, x(n));
+  }
+}
+
+void SplineBasis::add_move(const Vector2& place, const Vector& c, double& x) const {
+  const Footprint print = footprint(grid, place);
+  for (int k = 0; k < 16; ++k) {
+    if (mode[print.spline[k]] >= 0) x += vertex_weight() * print.value[k] * c(mode[print.spline[k]]);
   }
 }
 
 Vector SplineBasis::pull_back(const Vector& gradient) const {
   Vector result = Vector::Zero(count);
   for (Eigen::Index n = 0; n < gradient.size(); ++n) {
-    const Footprint print = footprint(grid, places.row(n));
-    for (int k = 0; k < 16; ++k) {
-      if (mode[print.spline[k]] >= 0) result(mode[print.spline[k]]) += print.value[k] * gradient(n);
-    }
+    add_gradient(places.row(n), vertex_weight() * gradient(n), result);
+    if (images.rows() > 0) add_gradient(images.row(n), vertex_weight() * gradient(n), result);
   }
   return result;
+}
+
+void SplineBasis::add_gradient(const Vector2& place, double gradient, Vector& result) const {
+  const Footprint print = footprint(grid, place);
+  for (int k = 0; k < 16; ++k) {
+    if (mode[print.spline[k]] >= 0) result(mode[print.spline[k]]) += print.value[k] * gradient;
+  }
 }
 
 }  // namespace reflines

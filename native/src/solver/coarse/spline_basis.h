@@ -27,14 +27,20 @@ struct SplineBasis {
   KnotGrid grid;
   std::vector<int> mode;  // of each spline, or -1 where it is left out
   int count = 0;          // m
-  PlanePositions places;  // n x 2: of each free vertex in order, in the image plane
+  PlanePositions places;  // n x 2: of each unknown's vertex in order, in the image plane; built for all free vertices
+  PlanePositions images;  // n x 2: of the vertex that moves with it, itself where there is none; empty: none do
   std::vector<SplineCell> cells;
   std::vector<SplineSample> samples;  // one for every ninth of a cell that holds a triangle
 
-  // Products with P (n x m), the moves of the free vertices by each mode. P is not stored: 16 entries a vertex are 200
-  // MB at 1M vertices, and take longer to write and read than to compute.
+  // Products with P (n x m), the moves of the unknowns by each mode: those of their vertices, in the mean. P is not
+  // stored: 16 entries a vertex are 200 MB at 1M vertices, and take longer to write and read than to compute.
   void move(const Vector& c, Vector& x) const;     // x += P c
   Vector pull_back(const Vector& gradient) const;  // P^T gradient
+
+ private:
+  double vertex_weight() const { return images.rows() > 0 ? 0.5 : 1.0; }
+  void add_move(const Vector2& place, const Vector& c, double& x) const;
+  void add_gradient(const Vector2& place, double gradient, Vector& result) const;
 };
 
 // Builds the basis with knots about `spacing` mean vertex distances apart. A spline that would move a vertex which is
