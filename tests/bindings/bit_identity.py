@@ -64,6 +64,14 @@ def mesh_optimizer(mesh: tuple[Array, Array] | None = None, **options: object) -
     return reflines.ShapeOptimizer(*(mesh or panel(14, seed=1)), **options)
 
 
+def mirrored_mesh(**options: object) -> reflines.ShapeOptimizer:
+    """Symmetric about x = 0 but for its heights and the diagonals of its quads."""
+    V, F = panel(14, seed=1)
+    V[:, :2] = np.array([np.tile(np.linspace(-1.0, 1.0, 15), 15), np.repeat(np.linspace(-1.0, 1.0, 15), 15)]).T
+    partner = np.arange(len(V)).reshape(15, 15)[:, ::-1].ravel()
+    return mesh_optimizer((V, F), partner=partner, **options)
+
+
 def cage_optimizer(**options: object) -> reflines.CageOptimizer:
     return reflines.CageOptimizer(*cage(), view_direction=VIEW, line_direction=LINE, **options)
 
@@ -144,6 +152,8 @@ def mesh_cases() -> Iterator[tuple[str, Build, Step, dict[str, object]]]:
         yield f"smooth {stencil}", partial(mesh_optimizer, stencil=stencil), BUILDERS["smooth"], {}
     yield "smooth two pieces", partial(mesh_optimizer, two_pieces()), BUILDERS["smooth"], {}
     yield "warp two pieces", partial(mesh_optimizer, two_pieces()), BUILDERS["warp"], {}
+    yield "mirrored mesh", mirrored_mesh, BUILDERS["smooth"], {}
+    yield "mirrored mesh free", partial(mirrored_mesh, border="free"), BUILDERS["pattern by value"], {}
     # Enough triangles for loops to be shared out among threads.
     yield "many triangles", partial(mesh_optimizer, panel(130, seed=5)), BUILDERS["smooth"], {"max_iterations": 3}
     families = np.stack([LINE, [1.0, 0.1, 0.0]])

@@ -12,8 +12,8 @@ CELLS = 24
 
 
 def symmetric(cells: int = CELLS, *, mirrored_cut: bool = True, lopsided: float = 0.0) -> tuple[Array, Array, Array]:
-    """A rippled panel about x = 0, its triangles, and the mirror images of its vertices; both halves are cut alike where
-    the cut is mirrored. `lopsided` raises the right half by a ripple of its own."""
+    """A rippled panel about x = 0, its triangles, and its vertices' mirror images; both halves are cut alike where the
+    cut is mirrored. `lopsided` raises the right half by a ripple of its own."""
     right = np.linspace(0.0, 0.75, cells // 2 + 1)
     x, y = (g.ravel() for g in np.meshgrid(np.concatenate([-right[:0:-1], right]), np.linspace(-0.6, 0.6, cells + 1)))
     fade = (1.0 - (x / 0.75) ** 2) ** 2 * (1.0 - (y / 0.6) ** 2) ** 2
@@ -180,13 +180,15 @@ def test_an_image_in_no_face_holds_in_the_press() -> None:
     V, F, partner = symmetric(16)
     F = F[~(F == 40).any(axis=1)]
     F = F[~(V[F, 0] > 0.5).all(axis=1)]
-    positions, _ = reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LIGHTS[0], partner=partner, length=0.2)
+    positions, _ = reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LIGHTS[0], partner=partner,
+                                         length=0.2)
     assert np.array_equal((positions != V).any(axis=1), (positions != V).any(axis=1)[partner])
     assert (positions != V).any()
 
 
-@pytest.mark.parametrize(("change", "said"), [({3: 10**6}, "partner of vertex 3 is 1000000"), ({3: -7}, "vertex 3 is -7"),
-                                              ({3: 5}, "vertex 3 is 5, which is none of the 625 vertices or has another")])
+@pytest.mark.parametrize(("change", "said"), [
+    ({3: 10**6}, "partner of vertex 3 is 1000000"), ({3: -7}, "vertex 3 is -7"),
+    ({3: 5}, "vertex 3 is 5, which is none of the 625 vertices or has another")])
 @pytest.mark.parametrize("call", [optimizer, lambda V, F, partner: reflines.smooth_panel(
     V, F, view_direction=VIEW, line_direction=LIGHTS[0], partner=partner)])
 def test_partners_that_are_none_are_refused(call: Callable[..., object], change: dict[int, int], said: str) -> None:
