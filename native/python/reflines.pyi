@@ -54,7 +54,7 @@ class Region:
     free: int
     fixed: int
     clamped: int
-    pieces: int        # height-field pieces, each solved on its own
+    pieces: int        # height-field pieces, each solved on its own, or with its mirror image
     silhouettes: int   # faces with |n.v| < 0.2 (12 degrees), their vertices held; see `face_of_triangle` of ShapeOptimizer
     turned_away: int   # faces with n.v <= 0, their vertices held
     unused_pieces: int # pieces without a free vertex
