@@ -240,7 +240,7 @@ def test_far_moves_and_faces_turned_over_are_told_with_what_helps(panel: bpy.typ
     bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=20.0, border='free', limit=100.0)
     notes = panel.reflection_lines.report.notes
     assert "of the panel's size" in notes and "the border Clamped, keeps it nearer" in notes
-    assert "triangles turn by more than 45 degrees" in notes
+    assert "faces turn by more than 45 degrees" in notes
 
 
 @pytest.mark.parametrize(("scale", "told"), [(1.0, "m"), (0.001, "mm")])
