@@ -362,8 +362,8 @@ class LineHandles:
     `falloff` (#V in [0, 1]) says where lines may follow the handles: 0 holds them, 1 lets them go."""
     def __init__(self, optimizer: ShapeOptimizer, *, family: int = 0, falloff: np.ndarray | None = None) -> None: ...
     def build(self, handles: Sequence[Handle]) -> list[Target]:
-        """Builds the two targets to solve for together: the gradient's, and that of the values at the handles and beyond the
-        radii. Handles that change nothing give the lines at the start, bit for bit."""
+        """Builds the three targets to solve for together: the gradient's, that of the values around pulls and beyond the radii,
+        and that of the values at the handles. Handles that change nothing give the lines at the start, bit for bit."""
     def find_conflicts(self, handles: Sequence[Handle]) -> list[str]:
         """Returns a sentence for each pair of pulls that forces lines to cross."""
     def read_theta(self, points: np.ndarray) -> np.ndarray:

@@ -241,9 +241,10 @@ def test_a_map_of_1_changes_no_bit_and_handles_at_rest_change_none_under_any() -
         assert np.array_equal(plain.gradient, mapped.gradient) and np.array_equal(plain.theta, mapped.theta)
         assert np.array_equal(plain.weight, mapped.weight)
     lines, before = reflines.LineHandles(solver, falloff=draw_map(solver)), solver.positions.tobytes()
-    gradient, value = lines.build([pull(lines, start, start)])
+    gradient, value, met = lines.build([pull(lines, start, start)])
     assert np.array_equal(gradient.gradient, solver.field()) and np.array_equal(value.theta, solver.theta())
-    assert solver.solve([gradient, value]).termination == "already_optimal" and solver.positions.tobytes() == before
+    assert solver.solve([gradient, value, met]).termination == "already_optimal"
+    assert solver.positions.tobytes() == before
 
 
 def test_bad_fall_off_maps_are_refused_with_the_count() -> None:
@@ -292,10 +293,10 @@ def test_handles_at_rest_change_no_bit(make) -> None:
     lines = reflines.LineHandles(solver)
     start = middle(solver)
     handles = [pull(lines, start, start), reflines.Handle(start[None] + 0.1)]
-    gradient, value = lines.build(handles)
+    gradient, value, met = lines.build(handles)
     assert np.array_equal(gradient.gradient, solver.field()) and np.array_equal(value.theta, solver.theta())
     before = [np.array(getattr(solver, name, 0.0)) for name in ("positions", "cage_positions")]
-    report = solver.solve([gradient, value])
+    report = solver.solve([gradient, value, met])
     assert report.termination == "already_optimal"
     kept = solver.cage_positions if hasattr(solver, "cage_positions") else solver.positions
     assert kept.tobytes() == before[hasattr(solver, "cage_positions")].tobytes()

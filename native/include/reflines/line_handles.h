@@ -44,8 +44,9 @@ struct HandleReach {
 
 // The builder of targets for a region as its lines are when this is made. The wanted change of theta, c, is the
 // smoothest function (bi-Laplacian) with the handles' changes at their points that is 0 at pins and beyond the radii.
-// The first target is the present field plus grad c, as far as heights can reach it; the second fits theta itself (eq.
-// 3) at the handles, where the gradient alone reaches a third to three quarters of the change, and beyond the radii.
+// The first target is the present field plus grad c, as far as heights can reach it; the others fit theta itself (eq.
+// 3): the second around pulls, where the gradient alone reaches a third to three quarters of the change, and beyond the
+// radii, the third at the handles, which are to be met.
 // Handles that change nothing give the present field bit for bit.
 //
 // A fall-off map says where lines may follow, within the radii: where it is 0 they stay, as beyond the radii, and where
@@ -57,7 +58,7 @@ class LineHandles {
   LineHandles(RegionField field, const Mask& changeable, SpdFactorize factorize, const Vector& falloff = {});
   ~LineHandles();
 
-  // Builds the two targets. Throws InvalidInput: no pull, a number that is not finite, a point off the region or on a
+  // Builds the three targets. Throws InvalidInput: no pull, a number that is not finite, a point off the region or on a
   // feature, a radius that is not positive or covers hardly any vertex, a point outside its own radius.
   std::vector<Target> build(const std::vector<Handle>& handles);
 

@@ -21,6 +21,10 @@ namespace reflines {
 // clean panel, clamped, 20 | 40 | 80 cells a side: kinks of the lines between neighbours (degrees, rms), 18.9 | 18.6 |
 // 18.5 on a 4-8 mesh become 0.4 | 0.2 | 0.1, 11.0 | 10.4 | 10.2 with random diagonals 0.3 | 0.2 | 0.1, 9.8 | 9.6 | 9.6
 // on a Delaunay mesh 0.3 | 0.2 | 0.2, 0.3 | 0.2 | 0.1 on a regular one stay.
+//
+// Beside values r is no longer orthogonal: it balances what the values lack. Taken off alone, it would let the values
+// have their way (of a pulled line heights ended 24 % of the move beside the minimum). So what values with
+// reachable_only lack is taken off them too; others are to be met.
 class ReachableTarget {
  public:
   // Takes `wanted` and `piece`, which must outlive this; targets without reachable_only are not changed.
@@ -32,7 +36,7 @@ class ReachableTarget {
 
  private:
   PlaneVectors gather_rows(const Target& target) const;
-  PlaneVectors compute_unreached();  // the unreached part of the targets, rows of one below those of the other
+  PlaneVectors compute_unreached();  // what the lines lack of the targets, rows of one below those of the other
   PlaneVectors average(PlaneVectors values);
   bool is_visible(const PlaneVectors& values) const;
   PlaneVectors extrapolate(const PlaneVectors& left, const PlaneVectors& change) const;

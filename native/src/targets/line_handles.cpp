@@ -287,7 +287,7 @@ std::vector<Target> LineHandles::build(const std::vector<Handle>& handles) {
   if (!(radius > 0)) throw InvalidInput("There is no handle that pulls a line; give at least one.");
   const Vector c = compute_change(handles, places, radius);
   Target gradient{field_->gradient, {}, {}, field_->family, true};
-  Target value{field_->gradient, Vector::Zero(field_->F.rows()), field_->theta, field_->family};
+  Target value{field_->gradient, Vector::Zero(field_->F.rows()), field_->theta, field_->family, true};
   for (int t = 0; t < field_->F.rows(); ++t) {
     if (!field_->active(t)) continue;
     value.weight(t) = weigh_values(handles, change_->part(), t);
@@ -297,9 +297,10 @@ std::vector<Target> LineHandles::build(const std::vector<Handle>& handles) {
       value.theta(t) = wrap_angle(field_->theta(t) + (c(a) + c(b) + c(d)) / 3);
     }
   }
-  weight_places(handles, places, value.weight);
   value.gradient = gradient.gradient;
-  return {std::move(gradient), std::move(value)};
+  Target met{gradient.gradient, Vector::Zero(field_->F.rows()), value.theta, field_->family};
+  weight_places(handles, places, met.weight);
+  return {std::move(gradient), std::move(value), std::move(met)};
 }
 
 std::vector<std::string> LineHandles::find_conflicts(const std::vector<Handle>& handles) const {
