@@ -33,7 +33,7 @@ BoundedDescent::BoundedDescent(Problem& problem, const Bounds& bounds, const Min
       options_(options),
       progress_(progress),
       work_(workspace),
-      factor_(workspace.solver, progress) {
+      quadratic_(workspace.held_factor, report_, progress) {
   report_.strategy = options.strategy;
   report_.linear_solver = workspace.solver.kind();
   report_.unknowns = problem.size();
@@ -123,6 +123,7 @@ void BoundedDescent::start_on_the_way_to(const Vector& minimum) {
   const double energy = problem_.evaluate(work_.trial, &work_.trial_gradient);
   ++report_.evaluations;
   work_.held = bounds_.touched_by(minimum);
+  work_.many_contacts = false;
   if (energy < current_.energy) {
     work_.x = work_.trial;
     current_.energy = energy;
@@ -156,6 +157,7 @@ bool BoundedDescent::choose_destination() {
 bool BoundedDescent::renew_model() {
   tell("assembling");
   work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
+  work_.held_factor.forget();
   ++report_.assemblies;
   measure_rounding();
   report_.analyses += work_.analyze(work_.matrix, problem_, progress_);
@@ -178,7 +180,7 @@ bool BoundedDescent::kept_factor_leads_on() {
   work_.direction = -work_.gradient;
   if (!at_bounds.isZero(0)) work_.direction = -model().gradient_at(at_bounds);
   if (learns_from_steps()) work_.memory.before_solve(work_.direction);
-  factor_.solve(work_.held, work_.direction);
+  work_.held_factor.solve(work_.direction);
   ++report_.solves;
   if (learns_from_steps()) work_.memory.after_solve(work_.direction);
   work_.direction += at_bounds;
@@ -191,8 +193,8 @@ bool BoundedDescent::solve_model() {
   tell("factorizing");
   Vector d;
   const double wanted = std::max(kModelTolerance * norm_, 0.3 * wanted_norm_);
-  BoundedQuadratic quadratic(factor_, report_, progress_);
-  if (!quadratic.minimize(model(), bounds_.seen_from(work_.x), wanted, work_.held, d)) return is_cancelled(), false;
+  if (!quadratic_.minimize(model(), bounds_.seen_from(work_.x), wanted, work_.held, work_.many_contacts, d))
+    return is_cancelled(), false;
   work_.memory.clear();
   policy_.start(norm_, std::max(wanted_norm_, rounding_));
   destination_ = bounds_.nearest(work_.x + d);

@@ -70,7 +70,7 @@ class BoundedDescent {
   Progress* progress_;
   Workspace& work_;
   Report report_;
-  HeldFactor factor_;
+  BoundedQuadratic quadratic_;
   RefactorPolicy policy_;
 
   LinePoint current_, trial_;

@@ -3,14 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "geometry/union_find.h"
 #include "optimization/interior_point.h"
 
 namespace reflines {
 namespace {
 
-constexpr int kMaxRounds = 60;
+constexpr int kMaxRounds = 60, kMaxSearches = 60;
+
+// The rounds within which a search of contacts must halve the projected gradient.
+constexpr int kPatience = 8;
+
+// The number of contacts above which the search of contacts ends; it does not begin with larger estimates either.
+constexpr int kFewContacts = 1000;
 
 // The cost of the interior point method in rounds of the active set method.
 constexpr double kRoundsOfInteriorPoint = 9.0;
@@ -57,13 +66,71 @@ double measure_missed_gradient(const QuadraticModel& model, const Bounds& bounds
   return std::sqrt(squared);
 }
 
+Sides keep_peaks(const SparseMatrix& H, const Bounds& bounds, const Sides& held, const Sides& next, const Vector& d) {
+  const Vector beyond = (d - bounds.nearest(d)).cwiseAbs();
+  UnionFind patches(static_cast<int>(beyond.size()));
+  for (int column = 0; column < H.outerSize(); ++column) {
+    for (SparseMatrix::InnerIterator entry(H, column); entry; ++entry) {
+      if (beyond(column) > 0 && beyond(entry.row()) > 0) patches.unite(column, static_cast<int>(entry.row()));
+    }
+  }
+  const auto is_new = [&](int k) { return held[k] == Side::kBetween && next[k] != Side::kBetween; };
+  std::vector<int> peak(next.size(), -1);  // of each patch, at its root
+  for (int k = 0; k < static_cast<int>(next.size()); ++k) {
+    int& highest = peak[patches.find(k)];
+    if (is_new(k) && (highest < 0 || beyond(k) > beyond(highest))) highest = k;
+  }
+  Sides result = next;
+  for (int k = 0; k < static_cast<int>(next.size()); ++k) {
+    if (is_new(k) && peak[patches.find(k)] != k) result[k] = Side::kBetween;
+  }
+  return result;
+}
+
 bool BoundedQuadratic::minimize(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held,
-                                Vector& d) {
+                                bool& many, Vector& d) {
   best_norm_ = std::numeric_limits<double>::infinity();
+  if (!many) {
+    const Search search = search_contacts(model, bounds, wanted, held, d);
+    if (search != Search::kTooMany) return search == Search::kFound;
+    many = true;
+  }
+  return settle(model, bounds, wanted, held, d);
+}
+
+BoundedQuadratic::Search BoundedQuadratic::search_contacts(const QuadraticModel& model, const Bounds& bounds,
+                                                           double wanted, Sides& held, Vector& d) {
+  Sides set = bounds.points();
+  const int points = count_held(set);
+  if (count_held(held) <= kFewContacts + points) set = held;
+  std::vector<double> norms;
+  for (int round = 0; round < kMaxSearches; ++round) {
+    if (cancelled()) return Search::kCancelled;
+    hold(model, bounds, set);
+    const Vector trial = solve_held(model, bounds, set);
+    keep_if_best(model, bounds, trial, d);
+    const Sides next = keep_peaks(model.H, bounds, set, next_held(bounds, set, trial, model.gradient_at(trial)), trial);
+    const bool settled = next == set;
+    if (best_norm_ <= wanted || (settled && factor_.leaves_out(set))) {
+      held = set;
+      return Search::kFound;
+    }
+    if (settled) factorize(model, set);  // which has the digits that the Schur complement lost
+    norms.push_back(best_norm_);
+    const bool slow = round >= kPatience && norms[round] > 0.5 * norms[round - kPatience];
+    if (slow || count_held(next) > kFewContacts + points) break;
+    set = next;
+  }
+  return Search::kTooMany;
+}
+
+bool BoundedQuadratic::settle(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held,
+                              Vector& d) {
   int changes = 0, slow_rounds = 0;
   bool guessed = false;
   for (int round = 0; round < kMaxRounds; ++round) {
     if (cancelled()) return false;
+    if (!factor_.leaves_out(held)) factorize(model, held);
     const Vector trial = solve_held(model, bounds, held);
     keep_if_best(model, bounds, trial, d);
     if (best_norm_ <= wanted) return true;
@@ -80,12 +147,26 @@ bool BoundedQuadratic::minimize(const QuadraticModel& model, const Bounds& bound
   return true;
 }
 
+void BoundedQuadratic::factorize(const QuadraticModel& model, const Sides& held) {
+  factor_.factorize(model.H, held, progress_);
+  ++counts_.factorizations;
+}
+
+void BoundedQuadratic::hold(const QuadraticModel& model, const Bounds& bounds, const Sides& held) {
+  std::optional<int> solves = factor_.hold(held);
+  if (!solves) {
+    const Sides points = bounds.points();
+    const bool few = count_held(held) - count_held(points) <= HeldFactor::kMostNewContacts;
+    factorize(model, few ? points : held);
+    solves = factor_.hold(held);
+  }
+  counts_.solves += solves.value_or(0);
+}
+
 Vector BoundedQuadratic::solve_held(const QuadraticModel& model, const Bounds& bounds, const Sides& held) {
   const Vector at_bounds = bounds.ends(held);
-  factor_.factorize(model.H, held);
   Vector d = -model.gradient_at(at_bounds);
-  factor_.solve(held, d);
-  ++counts_.factorizations;
+  factor_.solve(d);
   ++counts_.solves;
   return d + at_bounds;
 }
@@ -103,7 +184,7 @@ bool BoundedQuadratic::guess_from_inside(const QuadraticModel& model, const Boun
   InteriorPoint inside(model, bounds, reach);
   for (int step = 0; step < kMaxInteriorSteps; ++step) {
     if (cancelled()) return false;
-    if (!inside.step(factor_, counts_)) break;
+    if (!inside.step(factor_, counts_, progress_)) break;
   }
   held = inside.guess();
   return true;

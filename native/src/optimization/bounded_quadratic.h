@@ -16,21 +16,34 @@ struct QuadraticModel {
   Vector gradient_at(const Vector& d) const { return H.selfadjointView<Eigen::Lower>() * d + gradient; }
 };
 
-// The primal-dual active set method, a semismooth Newton method (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13,
-// 2003): solve with the held unknowns at their bounds, hold those that violate a bound, release those with a multiplier
-// of the wrong sign. Where the set changes slowly, as on a smooth surface that leaves its bound row by row,
-// InteriorPoint estimates it anew.
+// A minimum that touches its bounds at few unknowns, as smooth surfaces do at their highest places, is found with few
+// factors: from the free minimum on, unknowns are held at the peaks of the violation, and those that pull are released
+// (an active set method of the dual kind, as Goldfarb and Idnani's, Math. Program. 27, 1983). Of a noisy panel of
+// 10,000 vertices 5 (43) touch the limit, where hundreds of the free minimum are beyond it: 2 factorizations and 23
+// (112) solves instead of 14 (20) factorizations and 46 (74) solves; of 100,000 vertices 17, 3 factorizations and 70
+// solves instead of more than 90 factorizations.
+//
+// Others are found by the primal-dual active set method, a semismooth Newton method (Hintermueller, Ito and Kunisch,
+// SIAM J. Optim. 13, 2003): solve with the held unknowns at their bounds, hold those that violate a bound, release
+// those with a multiplier of the wrong sign. Where the set changes slowly, as on a smooth surface that leaves its bound
+// row by row, InteriorPoint estimates it anew.
 class BoundedQuadratic {
  public:
   // Takes the factor to use; `counts` collects factorizations and solves. `progress` may be null.
   BoundedQuadratic(HeldFactor& factor, Report& counts, Progress* progress)
       : factor_(factor), counts_(counts), progress_(progress) {}
 
-  // Finds d within `bounds` with a projected gradient of at most `wanted`, or as small as `max_rounds` allow. `held` is
-  // an estimate on entry, and the set of the remaining factor on return. Returns false where cancelled.
-  bool minimize(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, Vector& d);
+  // Finds d within `bounds` with a projected gradient of at most `wanted`, or as small as the rounds allow. `held` is
+  // an estimate on entry, and the set of the remaining factor on return. `many` tells that few contacts were searched
+  // in vain, and is set then. Returns false where cancelled.
+  bool minimize(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, bool& many, Vector& d);
 
  private:
+  enum class Search { kFound, kTooMany, kCancelled };
+  Search search_contacts(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, Vector& d);
+  void factorize(const QuadraticModel& model, const Sides& held);
+  void hold(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
+  bool settle(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, Vector& d);
   bool cancelled() const { return progress_ != nullptr && progress_->cancelled(); }
   Vector solve_held(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
   bool keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Vector& d, Vector& best);
@@ -45,6 +58,10 @@ class BoundedQuadratic {
 // Returns the unknowns that a step moved beyond their bound, and of the held ones those whose multiplier has the right
 // sign.
 Sides next_held(const Bounds& bounds, const Sides& held, const Vector& d, const Vector& gradient);
+
+// Returns those of `next` that were held before, and of the new ones those whose violation at d is a peak: no unknown
+// that the lower triangle H couples with them is farther beyond its bounds.
+Sides keep_peaks(const SparseMatrix& H, const Bounds& bounds, const Sides& held, const Sides& next, const Vector& d);
 
 // Returns the part of the projected gradient that a step d, projected onto the bounds, leaves because of the projection
 // and of wrongly held unknowns.

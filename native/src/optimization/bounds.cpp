@@ -14,6 +14,14 @@ Sides Bounds::touched_by(const Vector& x) const {
   return sides;
 }
 
+Sides Bounds::points() const {
+  Sides sides(low.size(), Side::kBetween);
+  for (int k = 0; k < low.size(); ++k) {
+    if (is_point(k)) sides[k] = Side::kLow;
+  }
+  return sides;
+}
+
 Vector Bounds::ends(const Sides& held) const {
   Vector ends = Vector::Zero(low.size());
   for (int k = 0; k < ends.size(); ++k) {

@@ -17,6 +17,7 @@ struct Bounds {
   double end(int k, Side side) const { return side == Side::kLow ? low(k) : high(k); }
   bool is_point(int k) const { return low(k) == high(k); }
 
+  Sides points() const;                  // the unknowns whose range is a point, at their lower end
   Vector ends(const Sides& held) const;  // 0 for those that are not held
   Vector nearest(const Vector& x) const { return x.cwiseMax(low).cwiseMin(high); }
   Sides touched_by(const Vector& x) const;  // x outside the bounds touches the end that it is beyond

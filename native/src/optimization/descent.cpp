@@ -108,6 +108,7 @@ bool Descent::renew_factor() {
   ++report_.factorizations;
   work_.factored_model = choose_model(options_.strategy);
   work_.held.clear();
+  work_.held_factor.forget();
   work_.memory.clear();
   factored_at_ = report_.iterations;
   factor_failed_ = false;

@@ -1,8 +1,26 @@
 #include "optimization/held_factor.h"
 
-namespace reflines {
+#include <algorithm>
+#include <utility>
 
-void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Vector& added) {
+namespace reflines {
+namespace {
+
+constexpr double kMostEntries = 1 << 24;  // of all columns, 128 MiB
+
+void clear(const Sides& held, Vector& x) {
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    if (held[k] != Side::kBetween) x(k) = 0.0;
+  }
+}
+
+}  // namespace
+
+void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progress* progress, const Vector& added) {
+  contacts_.clear();
+  known_.clear();
+  columns_.clear();
+  factored_ = held;
   matrix_ = H;
   for (int column = 0; column < H.cols(); ++column) {
     const bool column_held = held[column] != Side::kBetween;
@@ -14,18 +32,75 @@ void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Vecto
       }
     }
   }
-  solver_.factorize(matrix_, progress_);
+  is_current_ = false;
+  solver_.factorize(matrix_, progress);
+  is_current_ = added.size() == 0;
 }
 
-void HeldFactor::solve(const Sides& held, Vector& x) const {
-  const auto clear = [&] {
-    for (int k = 0; k < x.size(); ++k) {
-      if (held[k] != Side::kBetween) x(k) = 0.0;
-    }
-  };
-  clear();
+// Returns the contacts, or nothing where they cannot be held by this factor.
+std::optional<std::vector<int>> HeldFactor::find_contacts(const Sides& held) const {
+  std::vector<int> contacts;
+  if (!is_current_) return {};
+  for (size_t k = 0; k < held.size(); ++k) {
+    const bool left_out = factored_[k] != Side::kBetween;
+    if (left_out == (held[k] != Side::kBetween)) continue;
+    if (left_out) return {};
+    contacts.push_back(static_cast<int>(k));
+  }
+  return contacts;
+}
+
+bool HeldFactor::leaves_out(const Sides& held) const {
+  const std::optional<std::vector<int>> contacts = find_contacts(held);
+  return contacts && contacts->empty() && contacts_.empty();
+}
+
+std::optional<int> HeldFactor::hold(const Sides& held) {
+  std::optional<std::vector<int>> contacts = find_contacts(held);
+  if (!contacts) return {};
+  std::vector<int> column;
+  auto count = static_cast<int>(known_.size());
+  for (const int k : *contacts) {
+    const auto place = std::find(known_.begin(), known_.end(), k) - known_.begin();
+    column.push_back(place < static_cast<std::ptrdiff_t>(known_.size()) ? static_cast<int>(place) : count++);
+  }
+  const int added = count - static_cast<int>(known_.size());
+  if (added > kMostNewContacts || static_cast<double>(count) * static_cast<double>(held.size()) > kMostEntries)
+    return {};
+  contacts_ = std::move(*contacts);
+  column_ = std::move(column);
+  add_columns(added);
+  Eigen::MatrixXd schur(contacts_.size(), contacts_.size());
+  for (Eigen::Index i = 0; i < schur.rows(); ++i) {
+    for (Eigen::Index j = 0; j < schur.cols(); ++j) schur(i, j) = columns_[column_[j]](contacts_[i]);
+  }
+  schur_.compute(schur);
+  return added;
+}
+
+// Computes the columns of those contacts that have none.
+void HeldFactor::add_columns(int count) {
+  if (count == 0) return;
+  const auto first = static_cast<int>(known_.size());
+  Eigen::MatrixXd added = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(factored_.size()), count);
+  for (size_t j = 0; j < contacts_.size(); ++j) {
+    if (column_[j] < first) continue;
+    known_.push_back(contacts_[j]);
+    added(contacts_[j], column_[j] - first) = 1.0;
+  }
+  solver_.solve(added);
+  for (int j = 0; j < count; ++j) columns_.emplace_back(added.col(j));
+}
+
+void HeldFactor::solve(Vector& x) const {
+  clear(factored_, x);
   solver_.solve(x);
-  clear();
+  if (!contacts_.empty()) {
+    const Vector force = schur_.solve(x(contacts_));
+    for (size_t j = 0; j < contacts_.size(); ++j) x -= force(static_cast<Eigen::Index>(j)) * columns_[column_[j]];
+    for (const int k : contacts_) x(k) = 0.0;
+  }
+  clear(factored_, x);
 }
 
 }  // namespace reflines

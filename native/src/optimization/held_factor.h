@@ -1,6 +1,10 @@
 // A factor of the rows and columns of a matrix that belong to unknowns which are not held.
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <optional>
+#include <vector>
+
 #include "optimization/bounds.h"
 #include "optimization/linear/linear_solver.h"
 #include "reflines/types.h"
@@ -8,22 +12,47 @@
 namespace reflines {
 
 // The factor of H with the rows and columns of held unknowns cleared except for their diagonal: the pattern, and with
-// it the symbolic analysis, stays that of the whole matrix.
+// it the symbolic analysis, stays that of the whole matrix. A few more unknowns can be held without another
+// factorization, by the Schur complement of their forces.
 class HeldFactor {
  public:
-  // Keeps references to both; `progress` may be null.
-  HeldFactor(LinearSolver& solver, const Progress* progress) : solver_(solver), progress_(progress) {}
+  // The number of new contacts above which another factorization is made. It takes as long as ten solves, or forty at
+  // once; but an unknown that the factor leaves out costs one more factorization once it is released.
+  static constexpr int kMostNewContacts = 128;
+
+  explicit HeldFactor(LinearSolver& solver) : solver_(solver) {}
 
   // Factors H (lower triangle, analysed by the solver before), with `added` (n, or empty) on its diagonal.
   // Throws Cancelled.
-  void factorize(const SparseMatrix& H, const Sides& held, const Vector& added = {});
+  void factorize(const SparseMatrix& H, const Sides& held, const Progress* progress, const Vector& added = {});
+
+  // Tells that the matrix, or the solver's factor, has become another.
+  void forget() { is_current_ = false; }
+
+  // Holds these unknowns, of which those that the factor does not leave out are contacts. Costs one solve for each
+  // contact that was none since the last factorization; returns how many those are, or nothing where it can not:
+  // another factorization is cheaper, or needed, since `held` lacks unknowns that the factor leaves out.
+  std::optional<int> hold(const Sides& held);
+
+  // Returns true where the factor leaves out all that is held, and nothing else.
+  bool leaves_out(const Sides& held) const;
+
   // Solves for x; held unknowns become 0, whatever their right-hand side.
-  void solve(const Sides& held, Vector& x) const;
+  void solve(Vector& x) const;
 
  private:
+  std::optional<std::vector<int>> find_contacts(const Sides& held) const;
+  void add_columns(int count);
+
   LinearSolver& solver_;
-  const Progress* progress_;
   SparseMatrix matrix_;
+  Sides factored_;                     // n: held by the factor
+  bool is_current_ = false;            // the factor is that of the matrix, without additions
+  std::vector<int> contacts_;          // held besides
+  std::vector<int> known_;             // unknowns whose columns of the inverse are known
+  std::vector<Vector> columns_;        // those columns
+  std::vector<int> column_;            // of each contact: index into columns_
+  Eigen::LLT<Eigen::MatrixXd> schur_;  // of the contacts' rows and columns of the inverse
 };
 
 }  // namespace reflines

@@ -57,8 +57,8 @@ InteriorPoint::Barrier InteriorPoint::make_barrier(const Vector& bound, double s
   return barrier;
 }
 
-bool InteriorPoint::step(HeldFactor& factor, Report& counts) {
-  factor.factorize(model_.H, fixed_, barrier_diagonal());
+bool InteriorPoint::step(HeldFactor& factor, Report& counts, const Progress* progress) {
+  factor.factorize(model_.H, fixed_, progress, barrier_diagonal());
   ++counts.factorizations;
   Change change = predict_and_correct(factor, counts);
   for (int k = 0; k < kFurtherCorrectors; ++k) {
@@ -107,7 +107,7 @@ InteriorPoint::Change InteriorPoint::solve(const HeldFactor& factor, const Produ
     change.force[b] = (products[b] - barrier.force.cwiseProduct(change.slack[b])).cwiseQuotient(barrier.slack);
     change.d += barrier.sign * change.force[b];
   }
-  factor.solve(fixed_, change.d);
+  factor.solve(change.d);
   for (int b = 0; b < 2; ++b) {
     const Barrier& barrier = barriers_[b];
     const Vector along = barrier.sign * barrier.exists.cwiseProduct(change.d);

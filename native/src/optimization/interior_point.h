@@ -16,7 +16,7 @@ class InteriorPoint {
   InteriorPoint(const QuadraticModel& model, const Bounds& bounds, double reach);
 
   // Makes one iteration: one factorization and a few solves. Returns false once the estimate has settled.
-  bool step(HeldFactor& factor, Report& counts);
+  bool step(HeldFactor& factor, Report& counts, const Progress* progress);
   Sides guess() const;
 
  private:

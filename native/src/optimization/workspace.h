@@ -2,6 +2,7 @@
 #pragma once
 
 #include "optimization/bounds.h"
+#include "optimization/held_factor.h"
 #include "optimization/linear/dissection.h"
 #include "optimization/linear/linear_solver.h"
 #include "optimization/problem.h"
@@ -23,7 +24,9 @@ struct Workspace {
 
   // The state of a bounded minimization.
   SparseMatrix matrix;  // the whole matrix of the model
-  Sides held;  // n: unknowns whose rows and columns the factor leaves out; empty: it is a factor of the whole matrix
+  Sides held;           // n: unknowns that held_factor holds; empty: the solver's factor is one of the whole matrix
+  HeldFactor held_factor{solver};
+  bool many_contacts = false;  // see BoundedQuadratic
 
   bool has_factor_of(HessianModel model, Eigen::Index n) const {
     return solver.has_factor() && held.empty() && factored_model == model && rounding_weight.size() == n;

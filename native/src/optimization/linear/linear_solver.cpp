@@ -106,7 +106,7 @@ class LinearSolver::Backend {
   virtual void analyze(const SparseMatrix& matrix, const std::vector<int>& order) = 0;
   virtual void allocate() {}  // allocates the memory of a factor, on all cores
   virtual bool factorize(const SparseMatrix& matrix, const double* values) = 0;
-  virtual void solve(Vector& x) = 0;
+  virtual void solve(Eigen::Ref<Eigen::MatrixXd> X) = 0;
 
   // Factors with the first shift that succeeds and returns that.
   double factorize_shifted(const SparseMatrix& matrix) {
@@ -170,16 +170,17 @@ class LinearSolver::Cholmod final : public Backend {
     return common_.status == CHOLMOD_OK && smallest_pivot_share(matrix, values) > kSmallestPivotShare;
   }
 
-  void solve(Vector& x) override {
+  void solve(Eigen::Ref<Eigen::MatrixXd> X) override {
     cholmod_dense right_side{};
-    right_side.nrow = right_side.nzmax = right_side.d = static_cast<std::size_t>(x.size());
-    right_side.ncol = 1;
-    right_side.x = x.data();
+    right_side.nrow = right_side.d = static_cast<std::size_t>(X.rows());
+    right_side.ncol = static_cast<std::size_t>(X.cols());
+    right_side.nzmax = static_cast<std::size_t>(X.size());
+    right_side.x = X.data();
     right_side.xtype = CHOLMOD_REAL;
     right_side.dtype = CHOLMOD_DOUBLE;
     const int done = cholmod_solve2(CHOLMOD_A, factor_, &right_side, nullptr, &solution_, nullptr, &y_, &e_, &common_);
-    require_memory(done != 0, "solving", x.size());
-    std::copy_n(static_cast<const double*>(solution_->x), x.size(), x.data());
+    require_memory(done != 0, "solving", X.rows());
+    std::copy_n(static_cast<const double*>(solution_->x), X.size(), X.data());
   }
 
  private:
@@ -278,10 +279,12 @@ class LinearSolver::Umfpack final : public Backend {
     return true;
   }
 
-  void solve(Vector& x) override {
-    right_side_ = x;
-    umfpack_dl_wsolve(UMFPACK_A, starts_.data(), rows_.data(), values_.data(), x.data(), right_side_.data(), numeric_,
-                      control_, info_, index_work_.data(), work_.data());
+  void solve(Eigen::Ref<Eigen::MatrixXd> X) override {
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+      right_side_ = X.col(j);
+      umfpack_dl_wsolve(UMFPACK_A, starts_.data(), rows_.data(), values_.data(), X.col(j).data(), right_side_.data(),
+                        numeric_, control_, info_, index_work_.data(), work_.data());
+    }
   }
 
  private:
@@ -390,6 +393,12 @@ void LinearSolver::solve(Vector& x) {
   keep_blas_to_one_thread();
   const SerialLoops serial_loops;
   backend_->solve(x);
+}
+
+void LinearSolver::solve(Eigen::MatrixXd& X) {
+  keep_blas_to_one_thread();
+  const SerialLoops serial_loops;
+  backend_->solve(X);
 }
 
 }  // namespace reflines

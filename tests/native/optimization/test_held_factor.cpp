@@ -1,0 +1,79 @@
+// Unknowns held by the Schur complement of their forces and by a factor without them give the same solutions.
+#include <gtest/gtest.h>
+
+#include "least_squares.h"
+#include "optimization/held_factor.h"
+
+namespace reflines {
+namespace {
+
+constexpr int kSize = 200;
+
+struct HeldFactorTest : testing::Test {
+  HeldFactorTest() : chain(kSize, 0.0), H(chain.hessian(Vector::Zero(kSize), HessianModel::kGaussNewton)) {
+    solver.analyze(H);
+  }
+
+  Vector solve(const HeldFactor& factor) const {
+    Vector x = Vector::LinSpaced(kSize, -1.0, 2.0);
+    factor.solve(x);
+    return x;
+  }
+
+  Vector solve_anew(const Sides& held) {
+    LinearSolver other(LinearSolverKind::kCholmod);
+    other.analyze(H);
+    HeldFactor factor(other);
+    factor.factorize(H, held, nullptr);
+    return solve(factor);
+  }
+
+  Sides hold(std::initializer_list<int> unknowns) const {
+    Sides held(kSize, Side::kBetween);
+    for (const int k : unknowns) held[k] = Side::kHigh;
+    return held;
+  }
+
+  Chain chain;
+  SparseMatrix H;
+  LinearSolver solver{LinearSolverKind::kCholmod};
+};
+
+TEST_F(HeldFactorTest, ContactsAreHeldAsByAFactorWithoutThem) {
+  HeldFactor factor(solver);
+  factor.factorize(H, hold({7}), nullptr);
+  for (const Sides& held : {hold({7}), hold({7, 50}), hold({3, 7, 50, 51, 120}), hold({7, 120}), hold({7})}) {
+    ASSERT_TRUE(factor.hold(held));
+    const Vector x = solve(factor), expected = solve_anew(held);
+    EXPECT_LT((x - expected).norm(), 1e-9 * expected.norm());
+    for (int k = 0; k < kSize; ++k) {
+      if (held[k] != Side::kBetween) EXPECT_EQ(x(k), 0.0);
+    }
+  }
+}
+
+TEST_F(HeldFactorTest, AContactCostsOneSolveAndThenNone) {
+  HeldFactor factor(solver);
+  factor.factorize(H, hold({}), nullptr);
+  EXPECT_EQ(factor.hold(hold({10, 20})), 2);
+  EXPECT_EQ(factor.hold(hold({20, 30})), 1);
+  EXPECT_EQ(factor.hold(hold({10, 20, 30})), 0);
+}
+
+TEST_F(HeldFactorTest, AsksForAnotherFactorWhereThisOneCannotHold) {
+  HeldFactor factor(solver);
+  EXPECT_FALSE(factor.hold(hold({})));  // there is none
+  factor.factorize(H, hold({7}), nullptr);
+  EXPECT_FALSE(factor.hold(hold({})));  // one that it leaves out is released
+  Sides many = hold({7});
+  std::fill_n(many.begin() + 8, HeldFactor::kMostNewContacts + 1, Side::kLow);
+  EXPECT_FALSE(factor.hold(many));
+  EXPECT_TRUE(factor.hold(hold({7, 8})));
+  factor.forget();
+  EXPECT_FALSE(factor.hold(hold({7, 8})));
+  factor.factorize(H, hold({7}), nullptr, Vector::Ones(kSize));
+  EXPECT_FALSE(factor.hold(hold({7, 8})));  // it is not that of H alone
+}
+
+}  // namespace
+}  // namespace reflines
