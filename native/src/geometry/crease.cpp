@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/union_find.h"
 #include "geometry/bend_contrast.h"
-#include "geometry/union_find.h"
 
 namespace reflines {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/union_find.h"
 #include "geometry/crease.h"
 #include "geometry/mesh.h"
-#include "geometry/union_find.h"
 
 namespace reflines {
 namespace {

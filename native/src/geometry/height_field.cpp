@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/union_find.h"
+#include "base/union_find.h"
 #include "reflines/errors.h"
 
 namespace reflines {

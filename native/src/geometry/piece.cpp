@@ -1,6 +1,6 @@
 #include "geometry/piece.h"
 
-#include "geometry/union_find.h"
+#include "base/union_find.h"
 
 namespace reflines {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/union_find.h"
+#include "base/union_find.h"
 #include "optimization/interior_point.h"
 
 namespace reflines {
