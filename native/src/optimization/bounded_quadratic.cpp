@@ -153,12 +153,12 @@ void BoundedQuadratic::factorize(const QuadraticModel& model, const Sides& held)
 }
 
 void BoundedQuadratic::hold(const QuadraticModel& model, const Bounds& bounds, const Sides& held) {
-  std::optional<int> solves = factor_.hold(held);
+  std::optional<int> solves = factor_.hold(held, progress_);
   if (!solves) {
     const Sides points = bounds.points();
     const bool few = count_held(held) - count_held(points) <= HeldFactor::kMostNewContacts;
     factorize(model, few ? points : held);
-    solves = factor_.hold(held);
+    solves = factor_.hold(held, progress_);
   }
   counts_.solves += solves.value_or(0);
 }

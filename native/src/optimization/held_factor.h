@@ -31,8 +31,9 @@ class HeldFactor {
 
   // Holds these unknowns, of which those that the factor does not leave out are contacts. Costs one solve for each
   // contact that was none since the last factorization; returns how many those are, or nothing where it can not:
-  // another factorization is cheaper, or needed, since `held` lacks unknowns that the factor leaves out.
-  std::optional<int> hold(const Sides& held);
+  // another factorization is cheaper, or needed, since `held` lacks unknowns that the factor leaves out. Throws
+  // Cancelled.
+  std::optional<int> hold(const Sides& held, const Progress* progress);
 
   // Returns true where the factor leaves out all that is held, and nothing else.
   bool leaves_out(const Sides& held) const;
@@ -42,7 +43,7 @@ class HeldFactor {
 
  private:
   std::optional<std::vector<int>> find_contacts(const Sides& held) const;
-  void add_columns(int count);
+  void add_columns(const std::vector<int>& unknowns, const Progress* progress);
 
   LinearSolver& solver_;
   SparseMatrix matrix_;

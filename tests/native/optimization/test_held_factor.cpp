@@ -43,7 +43,7 @@ TEST_F(HeldFactorTest, ContactsAreHeldAsByAFactorWithoutThem) {
   HeldFactor factor(solver);
   factor.factorize(H, hold({7}), nullptr);
   for (const Sides& held : {hold({7}), hold({7, 50}), hold({3, 7, 50, 51, 120}), hold({7, 120}), hold({7})}) {
-    ASSERT_TRUE(factor.hold(held));
+    ASSERT_TRUE(factor.hold(held, nullptr));
     const Vector x = solve(factor), expected = solve_anew(held);
     EXPECT_LT((x - expected).norm(), 1e-9 * expected.norm());
     for (int k = 0; k < kSize; ++k) {
@@ -55,24 +55,36 @@ TEST_F(HeldFactorTest, ContactsAreHeldAsByAFactorWithoutThem) {
 TEST_F(HeldFactorTest, AContactCostsOneSolveAndThenNone) {
   HeldFactor factor(solver);
   factor.factorize(H, hold({}), nullptr);
-  EXPECT_EQ(factor.hold(hold({10, 20})), 2);
-  EXPECT_EQ(factor.hold(hold({20, 30})), 1);
-  EXPECT_EQ(factor.hold(hold({10, 20, 30})), 0);
+  EXPECT_EQ(factor.hold(hold({10, 20}), nullptr), 2);
+  EXPECT_EQ(factor.hold(hold({20, 30}), nullptr), 1);
+  EXPECT_EQ(factor.hold(hold({10, 20, 30}), nullptr), 0);
+}
+
+TEST_F(HeldFactorTest, ACancelledContactLeavesTheOthers) {
+  HeldFactor factor(solver);
+  factor.factorize(H, hold({}), nullptr);
+  ASSERT_TRUE(factor.hold(hold({10}), nullptr));
+  const Vector before = solve(factor);
+  Progress progress;
+  progress.cancel();
+  EXPECT_THROW(factor.hold(hold({10, 20, 30}), &progress), Cancelled);
+  EXPECT_EQ(solve(factor), before);
+  EXPECT_EQ(factor.hold(hold({10, 20}), nullptr), 1);
 }
 
 TEST_F(HeldFactorTest, AsksForAnotherFactorWhereThisOneCannotHold) {
   HeldFactor factor(solver);
-  EXPECT_FALSE(factor.hold(hold({})));  // there is none
+  EXPECT_FALSE(factor.hold(hold({}), nullptr));  // there is none
   factor.factorize(H, hold({7}), nullptr);
-  EXPECT_FALSE(factor.hold(hold({})));  // one that it leaves out is released
+  EXPECT_FALSE(factor.hold(hold({}), nullptr));  // one that it leaves out is released
   Sides many = hold({7});
   std::fill_n(many.begin() + 8, HeldFactor::kMostNewContacts + 1, Side::kLow);
-  EXPECT_FALSE(factor.hold(many));
-  EXPECT_TRUE(factor.hold(hold({7, 8})));
+  EXPECT_FALSE(factor.hold(many, nullptr));
+  EXPECT_TRUE(factor.hold(hold({7, 8}), nullptr));
   factor.forget();
-  EXPECT_FALSE(factor.hold(hold({7, 8})));
+  EXPECT_FALSE(factor.hold(hold({7, 8}), nullptr));
   factor.factorize(H, hold({7}), nullptr, Vector::Ones(kSize));
-  EXPECT_FALSE(factor.hold(hold({7, 8})));  // it is not that of H alone
+  EXPECT_FALSE(factor.hold(hold({7, 8}), nullptr));  // it is not that of H alone
 }
 
 }  // namespace
