@@ -16,8 +16,8 @@ namespace reflines {
 // factorization, by the Schur complement of their forces.
 class HeldFactor {
  public:
-  // The number of new contacts above which another factorization is made. It takes as long as ten solves, or forty at
-  // once; but an unknown that the factor leaves out costs one more factorization once it is released.
+  // The number of new contacts above which another factorization is made. It takes as long as 8 to 20 solves, or 45
+  // at once; but an unknown that the factor leaves out costs one more factorization once it is released.
   static constexpr int kMostNewContacts = 128;
 
   explicit HeldFactor(LinearSolver& solver) : solver_(solver) {}
