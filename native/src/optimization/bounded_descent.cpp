@@ -180,8 +180,7 @@ bool BoundedDescent::kept_factor_leads_on() {
   work_.direction = -work_.gradient;
   if (!at_bounds.isZero(0)) work_.direction = -model().gradient_at(at_bounds);
   if (learns_from_steps()) work_.memory.before_solve(work_.direction);
-  work_.held_factor.solve(work_.direction);
-  ++report_.solves;
+  report_.solves += work_.held_factor.solve(work_.direction);
   if (learns_from_steps()) work_.memory.after_solve(work_.direction);
   work_.direction += at_bounds;
   if (measure_missed_gradient(model(), room, work_.held, work_.direction) > kWorthwhile * norm_) return false;

@@ -60,7 +60,8 @@ class BoundedQuadratic {
 Sides next_held(const Bounds& bounds, const Sides& held, const Vector& d, const Vector& gradient);
 
 // Returns those of `next` that were held before, and of the new ones the farthest beyond its bounds at d in each patch:
-// a set of unknowns beyond their bounds that the lower triangle H couples.
+// a set of unknowns beyond their bounds that the lower triangle H couples. Of many peaks those far below the highest
+// are left out.
 Sides keep_peaks(const SparseMatrix& H, const Bounds& bounds, const Sides& held, const Sides& next, const Vector& d);
 
 // Returns the part of the projected gradient that a step d, projected onto the bounds, leaves because of the projection

@@ -9,8 +9,6 @@ namespace {
 // The columns computed at once: those of 100,000 unknowns take 0.2 s, after which a cancellation is looked for.
 constexpr int kBlock = 16;
 
-constexpr double kMostEntries = 1 << 24;  // of all columns, 128 MiB
-
 void clear(const Sides& held, Vector& x) {
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     if (held[k] != Side::kBetween) x(k) = 0.0;
@@ -22,7 +20,7 @@ void clear(const Sides& held, Vector& x) {
 void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progress* progress, const Vector& added) {
   contacts_.clear();
   known_.clear();
-  columns_.clear();
+  inverse_.resize(0, 0);
   factored_ = held;
   matrix_ = H;
   for (int column = 0; column < H.cols(); ++column) {
@@ -67,44 +65,47 @@ std::optional<int> HeldFactor::hold(const Sides& held, const Progress* progress)
     column.push_back(static_cast<int>(place - known_.begin() + (place == known_.end() ? wanted.size() : 0)));
     if (place == known_.end()) wanted.push_back(k);
   }
-  const double entries = static_cast<double>(known_.size() + wanted.size()) * static_cast<double>(held.size());
-  if (static_cast<int>(wanted.size()) > kMostNewContacts || entries > kMostEntries) return {};
+  if (static_cast<int>(wanted.size()) > kMostNewContacts) return {};
   add_columns(wanted, progress);
   contacts_ = std::move(*contacts);
-  column_ = std::move(column);
-  Eigen::MatrixXd schur(contacts_.size(), contacts_.size());
-  for (Eigen::Index i = 0; i < schur.rows(); ++i) {
-    for (Eigen::Index j = 0; j < schur.cols(); ++j) schur(i, j) = columns_[column_[j]](contacts_[i]);
-  }
-  schur_.compute(schur);
+  schur_.compute(inverse_(column, column));
   return static_cast<int>(wanted.size());
 }
 
-// Computes the columns of these unknowns.
+// Computes the columns of these unknowns, and keeps their entries at the known ones.
 void HeldFactor::add_columns(const std::vector<int>& unknowns, const Progress* progress) {
   const auto count = static_cast<int>(unknowns.size());
+  const auto before = static_cast<Eigen::Index>(known_.size());
+  std::vector<int> known = known_;
+  known.insert(known.end(), unknowns.begin(), unknowns.end());
+  Eigen::MatrixXd columns(known.size(), count);
   for (int first = 0; first < count; first += kBlock) {
     throw_if_cancelled(progress);
     const int size = std::min(kBlock, count - first);
     Eigen::MatrixXd block = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(factored_.size()), size);
     for (int j = 0; j < size; ++j) block(unknowns[first + j], j) = 1.0;
     solver_.solve(block);
-    for (int j = 0; j < size; ++j) {
-      known_.push_back(unknowns[first + j]);
-      columns_.emplace_back(block.col(j));
-    }
+    columns.middleCols(first, size) = block(known, Eigen::all);
   }
+  inverse_.conservativeResize(columns.rows(), columns.rows());
+  inverse_.rightCols(count) = columns;
+  inverse_.bottomLeftCorner(count, before) = columns.topRows(before).transpose();
+  known_ = std::move(known);
 }
 
-void HeldFactor::solve(Vector& x) const {
+int HeldFactor::solve(Vector& x) const {
   clear(factored_, x);
+  const Vector right = contacts_.empty() ? Vector() : x;
   solver_.solve(x);
   if (!contacts_.empty()) {
     const Vector force = schur_.solve(x(contacts_));
-    for (size_t j = 0; j < contacts_.size(); ++j) x -= force(static_cast<Eigen::Index>(j)) * columns_[column_[j]];
+    x = right;
+    x(contacts_) -= force;
+    solver_.solve(x);
     for (const int k : contacts_) x(k) = 0.0;
   }
   clear(factored_, x);
+  return contacts_.empty() ? 1 : 2;
 }
 
 }  // namespace reflines

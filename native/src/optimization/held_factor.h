@@ -38,8 +38,9 @@ class HeldFactor {
   // Returns true where the factor leaves out all that is held, and nothing else.
   bool leaves_out(const Sides& held) const;
 
-  // Solves for x; held unknowns become 0, whatever their right-hand side.
-  void solve(Vector& x) const;
+  // Solves for x; held unknowns become 0, whatever their right-hand side. Returns the number of solves by the factor:
+  // two where there are contacts, so that their columns of the inverse need no memory.
+  int solve(Vector& x) const;
 
  private:
   std::optional<std::vector<int>> find_contacts(const Sides& held) const;
@@ -50,9 +51,8 @@ class HeldFactor {
   Sides factored_;                     // n: held by the factor
   bool is_current_ = false;            // the factor is that of the matrix, without additions
   std::vector<int> contacts_;          // held besides
-  std::vector<int> known_;             // unknowns whose columns of the inverse are known
-  std::vector<Vector> columns_;        // those columns
-  std::vector<int> column_;            // of each contact: index into columns_
+  std::vector<int> known_;             // unknowns whose columns of the inverse were computed
+  Eigen::MatrixXd inverse_;            // #known x #known: their rows and columns of the inverse
   Eigen::LLT<Eigen::MatrixXd> schur_;  // of the contacts' rows and columns of the inverse
 };
 
