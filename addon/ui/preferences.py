@@ -1,9 +1,20 @@
-"""Add-on preferences: the state of the native solver in plain words, and the key of the pie."""
+"""Add-on preferences: the state of the native solver in plain words, links to the web, and the key of the pie."""
 import bpy
 import rna_keymap_ui
 
-from .. import native
+from .. import bl_info, native
 from . import keymaps, manual_links
+
+# Texts of buttons, and the keys of bl_info that hold their addresses. Only packages have some, by .ci/addresses.py.
+# bl_info is imported, not looked up when drawing, because Blender removes it from an extension that it enables.
+LINKS = (("Website", "website"), ("Report a Problem", "tracker_url"))
+
+
+def draw_links(layout: bpy.types.UILayout) -> None:
+    """Draws a button for each address of the project that the package has."""
+    for text, key in LINKS:
+        if bl_info.get(key):
+            layout.operator("wm.url_open", text=text, icon='URL').url = bl_info[key]
 
 
 class ReflinesPreferences(bpy.types.AddonPreferences):
@@ -15,7 +26,9 @@ class ReflinesPreferences(bpy.types.AddonPreferences):
         else:
             self.layout.label(text=native.STATE.problem, icon='ERROR')
             self.layout.label(text=native.STATE.remedy, icon='BLANK1')
-        self.layout.operator("wm.url_open", text="Manual", icon='HELP').url = manual_links.PAGE.as_uri()
+        row = self.layout.row()
+        row.operator("wm.url_open", text="Manual", icon='HELP').url = manual_links.PAGE.as_uri()
+        draw_links(row)
         config = context.window_manager.keyconfigs.user
         keymap = config.keymaps.get(keymaps.KEYMAP)
         for item in filter(keymaps.is_own, keymap.keymap_items if keymap is not None else ()):

@@ -1,9 +1,11 @@
 """Enabling, disabling, reloading; and an add-on whose native module is missing or does not fit."""
+import re
 import shutil
 import sys
 from collections.abc import Iterator
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import pytest
@@ -150,6 +152,38 @@ def test_a_module_that_a_wheel_brought(copy, tmp_path, monkeypatch) -> None:
     enable(COPY)
     assert not bpy.context.window_manager.reflection_lines.problem
     assert works()
+
+
+class Layout(list):
+    """A stand-in for Blender's layout that keeps its buttons."""
+
+    def operator(self, _name: str, **about: str) -> SimpleNamespace:
+        self.append(SimpleNamespace(**about))
+        return self[-1]
+
+
+def drawn_links() -> dict[str, str]:
+    """The texts of the buttons in the preferences of the copy, and the addresses that they open."""
+    layout = Layout()
+    sys.modules[COPY + ".ui.preferences"].draw_links(layout)
+    return {button.text: button.url for button in layout}
+
+
+@pytest.mark.parametrize("links", [
+    {"Website": "https://example.org/", "Report a Problem": "https://example.org/issues"},
+    {"Report a Problem": "https://example.org/issues"}, {}], ids=["both", "one", "none"])
+def test_the_preferences_have_the_links_of_the_package(copy, links: dict[str, str]) -> None:
+    """As .ci/package.py writes them into bl_info, which Blender takes away from an extension before it registers it."""
+    keys = {"Website": "website", "Report a Problem": "tracker_url"}
+    start = copy / "__init__.py"
+    rows = "".join(f'    "{keys[text]}": "{address}",\n' for text, address in links.items())
+    head, tail = start.read_text().split("bl_info = {\n")
+    lines = [line for line in tail.splitlines(keepends=True) if not re.match(r' +"(website|tracker_url)"', line)]
+    start.write_text(f"{head}bl_info = {{\n{rows}{''.join(lines)}")
+    enable(COPY)
+    if hasattr(sys.modules[COPY], "bl_info"):
+        del sys.modules[COPY].bl_info
+    assert drawn_links() == links
 
 
 def test_a_module_that_does_not_load(copy) -> None:
