@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from .reflines import SmoothPanelReport as SmoothPanelReport
     from .reflines import Subdivision as Subdivision
     from .reflines import Target as Target
+    from .reflines import Task as Task
 
 HERE = Path(__file__).resolve().parent
 SYSTEMS = {"win32": "Windows", "darwin": "macOS"}

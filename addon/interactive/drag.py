@@ -1,6 +1,6 @@
 """A drag of a tool under the mouse: its values, the texts in header and status bar, and the mesh that follows.
 
-Events are handled by operators/dragged_tool.py, solves by solve_job.py on a background thread.
+Events are handled by operators/dragged_tool.py, solves by solve_job.py in the background.
 """
 import time
 from contextlib import suppress
@@ -22,11 +22,11 @@ from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
 from . import drag_input
-from .background_thread import BackgroundThread
+from .background_work import BackgroundWork
 from .drag_handles import DragValues, Handle
 from .solve_job import SolveJob, SolveOutcome, SolveRequest
 
-TICK_INTERVAL = 0.01  # seconds between two checks for the thread's results
+TICK_INTERVAL = 0.01  # seconds between two checks for the work's results
 SAYS_BUSY = 0.3  # seconds of solving after which the status bar shows the stage
 
 
@@ -65,8 +65,8 @@ class Drag:
         self.update_request(context, final=final)  # refuses before anything is started
         self.job = SolveJob(self.patches, views, tool.border)
         self.circle = falloff_circle.add_circle(lambda: self.circle_points)
-        self.thread = BackgroundThread(self.job.run, self.job.cancel)
-        self.thread.submit(self.request)
+        self.work = BackgroundWork(self.job.run, self.job.cancel)
+        self.work.submit(self.request)
         self.keeping, self.busy_since, self.problem, self.texts = final, time.monotonic(), "", ("", "")
         self.moved = False  # whether values changed since the last request
         self.largest_move = 0.0  # of the shown positions from the start, world units
@@ -129,7 +129,7 @@ class Drag:
                               if falloff is not None else None)
 
     def submit_request(self, context: bpy.types.Context, *, final: bool = False) -> None:
-        """Submits the request of the present values to the thread; a refusal is shown in the header."""
+        """Submits the request of the present values; a refusal is shown in the header."""
         self.moved = False
         try:
             self.update_request(context, final=final)
@@ -137,13 +137,13 @@ class Drag:
             self.problem = str(refusal)
             return
         self.keeping = final
-        if self.thread.is_idle():
+        if self.work.is_idle():
             self.busy_since = time.monotonic()
-        self.thread.submit(self.request)
+        self.work.submit(self.request)
 
     def submit_measurement(self) -> None:
         """Submits the request for the gain of what is shown."""
-        self.thread.submit(replace(self.request, measure=True))
+        self.work.submit(replace(self.request, measure=True))
 
     def take_gain(self, outcome: SolveOutcome) -> None:
         self.gain = outcome.gain
@@ -185,7 +185,7 @@ class Drag:
 
     def show_texts(self, context: bpy.types.Context, header: str, keys: str) -> None:
         """Shows the header, and in the status bar the keys, or the stage of what takes long."""
-        working = not self.thread.is_idle() and time.monotonic() - self.busy_since > SAYS_BUSY
+        working = not self.work.is_idle() and time.monotonic() - self.busy_since > SAYS_BUSY
         status = f"{self.job.describe_stage()}   Esc: cancel" if working or self.keeping else keys
         if self.texts != (header, status):  # setting a text redraws its bar
             self.texts = header, status
@@ -198,12 +198,12 @@ class Drag:
         return f"{self.gain.describe(smoothed=self.tool.smooths)}, m{moved}" if self.gain is not None else f"M{moved}"
 
     def end(self, context: bpy.types.Context) -> None:
-        """Restores header, status bar and timer; the thread ends after what it is doing now."""
+        """Restores header, status bar and timer; the work ends after its native call."""
         _running.remove(self)
         context.window_manager.event_timer_remove(self.timer)
-        if self.thread.is_idle():
+        if self.work.is_idle():
             self.job.return_optimizers()
-        self.thread.stop()
+        self.work.stop()
         falloff_circle.remove_circle(self.circle)
         self.area.header_text_set(None)
         context.workspace.status_text_set(None)
@@ -225,8 +225,8 @@ def is_running() -> bool:
 
 def has_work() -> bool:
     """Returns whether a running drag has something left to submit, solve or show."""
-    return any(drag.moved or drag.keeping or drag.unmeasured or not drag.thread.is_idle()
-               or drag.thread.has_outcome() for drag in _running)
+    return any(drag.moved or drag.keeping or drag.unmeasured or not drag.work.is_idle()
+               or drag.work.has_outcome() for drag in _running)
 
 
 def unregister() -> None:

@@ -13,7 +13,7 @@ from ..model.refusal import Refusal
 from ..model.solution import Solution
 from ..targets.warp import Warp
 from . import live_baseline
-from .background_thread import BackgroundThread
+from .background_work import BackgroundWork
 from .live_baseline import Baseline
 from .solve_job import SolveJob, SolveOutcome, SolveRequest
 
@@ -22,7 +22,7 @@ REST_TIME = 0.3  # seconds without a new warp after which it is solved from the 
 
 
 class LiveWarp:
-    """The state of one scene's live warp: the requests to the thread, and its results."""
+    """The state of one scene's live warp: its requests to the background work, and the results."""
 
     def __init__(self) -> None:
         self.problem = ""  # why the mesh does not follow now, as a sentence
@@ -31,12 +31,12 @@ class LiveWarp:
         self.request: SolveRequest | None = None
         self.solution: Solution | None = None  # of `warp`, solved from the start
         self.stale = True  # something else than the lattice may have changed
-        self.recheck = False  # whether to check the lattice again once the thread is idle
+        self.recheck = False  # whether to check the lattice again once the work is idle
         self.needs_final = False  # whether the shape shown is warm-started, not yet solved from the start
         self.shown_text = ""  # the state that the sidebars show
         self.requested_at = self.busy_since = 0.0
         self.job: SolveJob | None = None
-        self.thread: BackgroundThread | None = None
+        self.work: BackgroundWork | None = None
 
     def check_lattice(self, scene: bpy.types.Scene) -> None:
         """Submits a request where the lattice or the baseline has changed. Cheap, since every move of the mouse calls
@@ -56,22 +56,22 @@ class LiveWarp:
             self.submit_request(scene, final=False)
 
     def is_current(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> bool:
-        """Returns whether the thread's optimizers are built for the mesh as it is now."""
-        return (not self.stale and self.thread.is_alive()
+        """Returns whether the work's optimizers are built for the mesh as it is now."""
+        return (not self.stale and self.work.is_alive()
                 and self.baseline.signs == live_baseline.read_signs(scene, ob, self.baseline.patch.center))
 
     def begin(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> None:
-        """Builds a job for the mesh as it is now; postpones that while the thread is busy."""
+        """Builds a job for the mesh as it is now; postpones that while the work is busy."""
         if self.is_current(scene, ob):
             return
         if self.is_busy():
             self.recheck = True
             return
         baseline, self.warp = live_baseline.read_baseline(scene, ob), None
-        if self.baseline is None or not self.thread.is_alive() or not baseline.serves(self.baseline):
+        if self.baseline is None or not self.work.is_alive() or not baseline.serves(self.baseline):
             self.stop()
             self.job = SolveJob([baseline.patch], [baseline.view], baseline.border)
-            self.thread = BackgroundThread(self.job.run, self.job.cancel)
+            self.work = BackgroundWork(self.job.run, self.job.cancel)
         self.baseline, self.stale = baseline, False
 
     def submit_request(self, scene: bpy.types.Scene, *, final: bool) -> None:
@@ -84,17 +84,17 @@ class LiveWarp:
         self.solution, self.needs_final = None, False
         settings = live_baseline.read_solve_settings(scene)
         self.request = SolveRequest((live_baseline.bind_target(self.warp),), (settings,), final)
-        self.thread.submit(self.request)
+        self.work.submit(self.request)
 
     def advance(self, scene: bpy.types.Scene) -> bool:
-        """Takes what the thread has finished, and requests the final solve after a rest; returns whether work is left.
+        """Takes what the work has finished, and requests the final solve after a rest; returns whether work is left.
         """
-        if self.thread is None:
+        if self.work is None:
             return False
-        outcome = self.thread.take()
+        outcome = self.work.take()
         if outcome is not None and not self.recheck:
             self.take_outcome(scene, outcome)
-        elif outcome is None and not self.thread.is_alive():
+        elif outcome is None and not self.work.is_alive():
             self.problem = "The solver stopped: apply or discard what is there"
         if self.recheck and not self.is_busy():
             self.check_lattice(scene)
@@ -105,10 +105,10 @@ class LiveWarp:
     def has_work(self) -> bool:
         """Returns whether something is left to submit, to solve or to show."""
         return (self.recheck or self.needs_final or self.is_busy()
-                or self.thread is not None and self.thread.has_outcome())
+                or self.work is not None and self.work.has_outcome())
 
     def is_busy(self) -> bool:
-        return self.thread is not None and self.thread.is_alive() and not self.thread.is_idle()
+        return self.work is not None and self.work.is_alive() and not self.work.is_idle()
 
     def take_outcome(self, scene: bpy.types.Scene, outcome: SolveOutcome) -> None:
         latest = outcome.request is self.request
@@ -144,11 +144,11 @@ class LiveWarp:
         return self.problem or (self.job.describe_stage() if working else "")
 
     def stop(self) -> None:
-        """Ends the thread after what it is doing now, and returns idle optimizers to the cache."""
-        if self.thread is None:
+        """Ends the work after its native call, and returns idle optimizers to the cache."""
+        if self.work is None:
             return
-        if self.thread.is_idle():
+        if self.work.is_idle():
             self.job.return_optimizers()
-        self.thread.stop()
-        self.thread = self.job = self.baseline = self.request = None
+        self.work.stop()
+        self.work = self.job = self.baseline = self.request = None
         self.needs_final = False

@@ -1,6 +1,6 @@
 """Handlers that keep live warps up to date: Blender calls them after every change, undo, redo and opened file.
 
-None of them works in the background, where no timer would take the thread's results; Apply solves there by itself.
+None of them works in background Blender, where no timer would take the results; Apply solves there by itself.
 """
 import bpy
 from bpy.app.handlers import persistent
@@ -8,7 +8,7 @@ from bpy.app.handlers import persistent
 from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
 from .live_warp import LiveWarp
 
-TICK_INTERVAL = 0.01  # seconds between two checks for the threads' results
+TICK_INTERVAL = 0.01  # seconds between two checks for results
 
 _live_warps: dict[str, LiveWarp] = {}  # by the name of the scene
 
@@ -25,9 +25,13 @@ def find_live_warp(scene: bpy.types.Scene) -> LiveWarp | None:
 
 @persistent
 def note_change(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
-    """Checks the lattice after a change of the scene (depsgraph_update_post)."""
+    """Checks the lattice after a change of the scene (depsgraph_update_post), and ends with a panel that was removed:
+    another of its name would be taken for it.
+    """
     if scene.reflection_lines.live.panel is not None:
         follow_lattice(scene)
+    else:
+        end_live_warp(scene)
 
 
 @persistent
@@ -59,7 +63,7 @@ def end_live_warp(scene: bpy.types.Scene) -> None:
 
 
 def tick() -> float | None:
-    """Takes the threads' results; a timer that runs as long as one is at work."""
+    """Takes the results; a timer that runs as long as one is at work."""
     for name in _live_warps.keys() - bpy.data.scenes.keys():
         _live_warps.pop(name).stop()
     more = [advance_live_warp(bpy.data.scenes[name], live) for name, live in list(_live_warps.items())]

@@ -1,11 +1,11 @@
-"""The solves of a drag or a live warp on a background thread: numpy and the native module only.
+"""The solves of a drag or a live warp in the background: numpy and the native module only.
 
 Every patch has two optimizers. The first keeps the heights of the start: targets are built from its lines. The second
 follows the mouse, warm-started from its last solution, which takes a few back substitutions instead of a factorization.
 The final result is solved by the first from the start, so it does not depend on the path of the mouse.
 """
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,7 @@ from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import JointTargets, Solution, SolveSettings
 from ..model.view import View
+from ..native_call import call
 from ..solver import live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth, smooth_panel
 from ..solver.formulation import choose_formulation
@@ -29,7 +30,7 @@ MEASURE_BUDGET = 0.03
 
 
 # Moves the second optimizer as the targets of the first want it, without a solve; returns False where it cannot.
-Follow = Callable[..., bool]
+Follow = Callable[..., Awaitable[bool]]
 
 
 @dataclass(frozen=True)
@@ -84,67 +85,70 @@ class SolveJob:
         self.cancelled = True
         self.progress.cancel()
 
-    def run(self, request: SolveRequest) -> SolveOutcome:
-        """Serves a request on the background thread; refusals and cancellation become the outcome's text."""
+    async def run(self, request: SolveRequest) -> SolveOutcome:
+        """Serves a request in the background; refusals and cancellation become the outcome's text."""
         self.progress = native.reflines.Progress()
         if self.cancelled:
             self.progress.cancel()
         try:
             if request.press is not None:
-                return self.press(request)
-            self.prepare(following=not request.final)
+                return await self.press(request)
+            await self.prepare(following=not request.final)
             if request.measure:
-                return SolveOutcome(request, gain=self.measure(request))
-            return self.solve_from_start(request) if request.final else self.follow(request)
+                return SolveOutcome(request, gain=await self.measure(request))
+            return await (self.solve_from_start(request) if request.final else self.follow(request))
         except Refusal as refusal:
             return SolveOutcome(request, refusal=str(refusal))
         except native.Cancelled as cancelled:
             return SolveOutcome(request, refusal=str(cancelled))
 
-    def prepare(self, *, following: bool) -> None:
+    async def prepare(self, *, following: bool) -> None:
         """Builds the optimizers that are missing: those that follow the mouse only for a drag."""
         for which, (patch, seen) in enumerate(zip(self.patches, self.views, strict=True)):
             with live_optimizer.convert_native_errors(patch):
                 if self.starts[which] is None:
-                    self.starts[which] = live_optimizer.build_optimizer(patch, seen, self.border, self.progress)
+                    self.starts[which] = await live_optimizer.build_optimizer(patch, seen, self.border, self.progress)
                 self.starts[which].optimizer.watch(self.progress)
                 if following and len(self.followers) == which:
-                    follower = live_optimizer.build_optimizer(patch, seen, self.border, self.progress, to_follow=True)
+                    follower = await live_optimizer.build_optimizer(patch, seen, self.border, self.progress,
+                                                                    to_follow=True)
                     self.followers.append(follower.optimizer)
 
-    def press(self, request: SolveRequest) -> SolveOutcome:
+    async def press(self, request: SolveRequest) -> SolveOutcome:
         """Presses Smooth on every patch, which needs no optimizer of the job's own."""
         self.stage = "Smoothing"
         solutions = []
         for patch, seen in zip(self.patches, self.views, strict=True):
             with live_optimizer.convert_native_errors(patch):
-                solutions.append(smooth_panel(patch, seen, self.border, request.press, self.progress))
+                solutions.append(await smooth_panel(patch, seen, self.border, request.press, self.progress))
         return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
 
-    def follow(self, request: SolveRequest) -> SolveOutcome:
+    async def follow(self, request: SolveRequest) -> SolveOutcome:
         """Solves warm-started from the last solution, to the targets' tolerance."""
         self.stage = "Following"
         positions = []
         for which, (patch, start, follower) in enumerate(zip(self.patches, self.starts, self.followers, strict=True)):
             with live_optimizer.convert_native_errors(patch):
-                if not self.follow_without_solve(request, which):
-                    wanted = live_optimizer.build_targets(start, request.builds[which], request.settings[which])
-                    self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings[which]))
+                if not await self.follow_without_solve(request, which):
+                    wanted = await live_optimizer.build_targets(start, request.builds[which],
+                                                                request.settings[which])
+                    await self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings[which]))
                     if request.lines:
-                        wanted.measure(follower)  # for the numbers of each handle
+                        await wanted.measure(follower)  # for the numbers of each handle
                 shown = choose_formulation(patch, start.view).read_positions(follower)
                 positions.append(clip_to_shares(patch, start.view, shown, choose_limit(patch, request.settings[which])))
         if request.lines:
-            return SolveOutcome(request, tuple(positions), lines=self.read_lines())
-        gain = self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
+            return SolveOutcome(request, tuple(positions), lines=await self.read_lines())
+        gain = await self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
         return SolveOutcome(request, tuple(positions), gain=gain)
 
-    def follow_without_solve(self, request: SolveRequest, which: int) -> bool:
+    async def follow_without_solve(self, request: SolveRequest, which: int) -> bool:
         """Follows a patch's target in the request's own way; returns False where there is none, or it cannot."""
         if not request.follows:
             return False
         start, follower, settings = self.starts[which], self.followers[which], request.settings[which]
-        if not request.follows[which](start.optimizer, follower, keep_crossed=settings.build_crossed is not None):
+        follow = request.follows[which]
+        if not await follow(start.optimizer, follower, keep_crossed=settings.build_crossed is not None):
             return False
         limit = choose_limit(start.patch, settings)
         largest = float(np.abs(follower.heights - start.optimizer.heights).max())
@@ -152,37 +156,42 @@ class SolveJob:
             follower.scale_move(limit / largest)
         return True
 
-    def read_lines(self) -> tuple[LineState, ...]:
+    async def read_lines(self) -> tuple[LineState, ...]:
         """Reads the lines that are followed, and once those of the start."""
         if not self.start_lines:
-            self.start_lines = tuple(choose_formulation(start.patch, start.view).read_lines(start.optimizer)
-                                     for start in self.starts)
-        return tuple(choose_formulation(start.patch, start.view).read_lines(follower)
-                     for start, follower in zip(self.starts, self.followers, strict=True))
+            self.start_lines = await self.read_optimizers([start.optimizer for start in self.starts])
+        return await self.read_optimizers(self.followers)
 
-    def follow_targets(self, start: LiveOptimizer, follower: "native.ShapeOptimizer", wanted: JointTargets,
-                       limit: float) -> None:
+    async def read_optimizers(self, optimizers: "Sequence[native.ShapeOptimizer]") -> tuple[LineState, ...]:
+        formulations = [choose_formulation(start.patch, start.view) for start in self.starts]
+        return tuple([await formulation.read_lines(optimizer)
+                      for formulation, optimizer in zip(formulations, optimizers, strict=True)])
+
+    async def follow_targets(self, start: LiveOptimizer, follower: "native.ShapeOptimizer", wanted: JointTargets,
+                             limit: float) -> None:
         """Solves warm-started. Beyond the limit all moves are scaled at once; the final solve takes its time."""
-        report = follower.solve(wanted.targets, gradient_tolerance=wanted.follow_tolerance, progress=self.progress)
+        report = await call(follower.solve, wanted.targets, gradient_tolerance=wanted.follow_tolerance,
+                            progress=self.progress)
         largest = choose_formulation(start.patch, start.view).measure_largest_move(follower, report)
         if largest > limit:
             scale_to_limit(follower, largest, limit)
 
-    def measure(self, request: SolveRequest) -> Gain:
+    async def measure(self, request: SolveRequest) -> Gain:
         """Measures the present heights against those of the start, by the numbers that the result will be told by."""
         begin = time.perf_counter()
         numbers = []
         every = zip(self.patches, self.starts, self.followers, request.builds, request.settings, strict=True)
         for patch, start, follower, build, settings in every:
             with live_optimizer.convert_native_errors(patch):
-                wanted = live_optimizer.build_targets(start, build, settings)
+                wanted = await live_optimizer.build_targets(start, build, settings)
                 length = solve.choose_length(patch, settings.length)
-                numbers.append((start.optimizer.score(length).shift, follower.score(length).shift,
-                                wanted.measure(start.optimizer), wanted.measure(follower)))
+                scores = [await call(each.score, length) for each in (start.optimizer, follower)]
+                numbers.append((*(score.shift for score in scores),
+                                await wanted.measure(start.optimizer), await wanted.measure(follower)))
         self.measure_seconds = time.perf_counter() - begin
         return Gain(*np.sqrt(np.mean(np.square(numbers), axis=0)).tolist())
 
-    def solve_from_start(self, request: SolveRequest) -> SolveOutcome:
+    async def solve_from_start(self, request: SolveRequest) -> SolveOutcome:
         """Solves from the heights of the start, and measures the result."""
         self.stage = "Solving from the start"
         solutions = []
@@ -190,13 +199,13 @@ class SolveJob:
             start.optimizer.reset()
             try:
                 with live_optimizer.convert_native_errors(start.patch):
-                    solutions.append(solve.solve_patch(start, build, settings, self.progress))
+                    solutions.append(await solve.solve_patch(start, build, settings, self.progress))
             finally:
                 start.optimizer.reset()  # the next target is built from the start's lines too, even after a failure
         return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
 
     def return_optimizers(self) -> None:
-        """Returns the optimizers to the cache, for the redo panel and the next drag; only while the thread is idle."""
+        """Returns the optimizers to the cache, for the redo panel and the next drag; only while no work runs."""
         for start in self.starts:
             if start is not None:
                 optimizer_cache.return_optimizer(start)

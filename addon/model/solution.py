@@ -1,5 +1,5 @@
 """Requests and results of a solve."""
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +8,7 @@ from .. import native
 from .patch import Patch
 
 
-BuildCrossed = Callable[["native.ShapeOptimizer"], "native.Target"]
+BuildCrossed = Callable[["native.ShapeOptimizer"], "Awaitable[native.Target]"]
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class JointTargets:
     """Targets that are solved for together, and the measure of what is not reached of them at an optimizer's heights.
     """
     targets: "list[native.Target]"
-    measure: Callable[["native.ShapeOptimizer"], float]
+    measure: Callable[["native.ShapeOptimizer"], Awaitable[float]]
     # The tolerance of a drag's solves, relative to the gradient after a move of the mouse; 1e-2 would leave 4e-5 of the
     # size after a closed path.
     follow_tolerance: float = 1e-4

@@ -310,8 +310,9 @@ def clear_cache(*_: object) -> None:
     _cache.limits.clear()
 
 
-HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", note_all_changed), ("redo_post", note_all_changed),
-            ("load_post", clear_cache))
+# Another frame is no update of the depsgraph to Blender's handlers, though shape keys may change with it.
+HANDLERS = (("depsgraph_update_post", note_changes), ("frame_change_post", note_changes),
+            ("undo_post", note_all_changed), ("redo_post", note_all_changed), ("load_post", clear_cache))
 
 
 def register() -> None:

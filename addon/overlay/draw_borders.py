@@ -74,8 +74,8 @@ def clear_cache(*_: object) -> None:
     _cache.shown.clear()
 
 
-HANDLERS = (("depsgraph_update_post", note_changes), ("undo_post", clear_cache), ("redo_post", clear_cache),
-            ("load_post", clear_cache))
+HANDLERS = (("depsgraph_update_post", note_changes), ("frame_change_post", note_changes), ("undo_post", clear_cache),
+            ("redo_post", clear_cache), ("load_post", clear_cache))
 
 
 def register() -> None:

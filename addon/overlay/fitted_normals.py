@@ -1,6 +1,6 @@
 """Normals fitted to the surfaces shown, separately on each side of a crease, across which a fit would bend the lines.
 
-Small surfaces are fitted at once, large ones on a background thread while estimated normals are drawn.
+Small surfaces are fitted at once, large ones in the background while estimated normals are drawn.
 """
 import time
 from dataclasses import dataclass, replace
@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import native
-from ..interactive.background_thread import BackgroundThread
+from ..interactive.background_work import BackgroundWork
+from ..native_call import call, run_now
 from . import stripes
 
 REFIT_ANGLE = 0.005  # radians a normal may turn before it is fitted again: a twentieth of the default stripes' period
@@ -52,7 +53,7 @@ class FittedNormals:
         self.started: dict[str, float] = {}
         self.job: FitJob | None = None
         self.obsolete = False  # whether the running job's result is to be ignored
-        self.thread: BackgroundThread[FitJob, FittedSurface] | None = None
+        self.work: BackgroundWork[FitJob, FittedSurface] | None = None
 
     def update_shaded(self, name: str, V: np.ndarray, F: np.ndarray) -> ShadedSurface:
         """Returns the surface with the best normals known now, and starts a fit where they are out of date;
@@ -67,7 +68,7 @@ class FittedNormals:
         if not native.STATE.usable:
             return estimate_normals(V, F)
         if len(V) <= FIT_AT_ONCE and not self.is_fitting(name):
-            self.done[name] = fit_normals(V, F, old if alike else None)
+            self.done[name] = run_now(fit_normals(V, F, old if alike else None))
             return self.done[name].shaded
         if self.is_fitting(name) and np.array_equal(self.job.V, V):
             self.obsolete = False
@@ -94,16 +95,16 @@ class FittedNormals:
     def start_job(self, job: FitJob) -> None:
         self.started[job.name], self.job, self.obsolete = time.monotonic(), job, False
         del self.wanted[job.name]
-        self.thread = self.thread or BackgroundThread(lambda job: fit_normals(job.V, job.F, job.old))
-        self.thread.submit(job)
+        self.work = self.work or BackgroundWork(lambda job: fit_normals(job.V, job.F, job.old))
+        self.work.submit(job)
 
     def take_finished(self) -> str | None:
         """Stores the fit of a job that has ended and returns its name once, else None."""
         if self.job is None:
             return None
-        job, fit = self.job, self.thread.take()
-        if not self.thread.is_alive():
-            fit, self.thread = skip_fit(job.V, job.F), None
+        job, fit = self.job, self.work.take()
+        if not self.work.is_alive():
+            fit, self.work = skip_fit(job.V, job.F), None
         if fit is None:
             return None
         self.job = None
@@ -122,23 +123,24 @@ class FittedNormals:
 
     def clear(self) -> None:
         """Drops all fits; the result of a running job is ignored."""
-        if self.thread is not None:
-            self.thread.stop()
-        self.job = self.thread = None
+        if self.work is not None:
+            self.work.stop()
+        self.job = self.work = None
         for kept in (self.done, self.wanted, self.started):
             kept.clear()
 
 
-def fit_normals(V: np.ndarray, F: np.ndarray, old: FittedSurface | None) -> FittedSurface:
-    """Fits normals on any thread, without Blender; a mesh too broken for a fit gets estimated ones."""
+async def fit_normals(V: np.ndarray, F: np.ndarray, old: FittedSurface | None) -> FittedSurface:
+    """Fits normals, without Blender; a mesh too broken for a fit gets estimated ones."""
     try:
-        split, vertex = native.reflines.split_at_creases(V, F)
+        split, vertex = await call(native.reflines.split_at_creases, V, F)
         points = V[vertex]
         if old is not None and old.native_fit is not None and np.array_equal(old.shaded.F, split):
-            native_fit = old.native_fit.copy()  # the kept fit goes on following the surface meanwhile
+            native_fit = await call(old.native_fit.copy)  # the kept fit goes on following the surface meanwhile
         else:
-            native_fit = native.reflines.NormalFit(points, split, refit_angle=REFIT_ANGLE)
-        return FittedSurface(V, F, ShadedSurface(split, vertex, native_fit.normals(points)), native_fit)
+            native_fit = await call(native.reflines.NormalFit.create, points, split, refit_angle=REFIT_ANGLE)
+        normals = await call(native_fit.normals, points)
+        return FittedSurface(V, F, ShadedSurface(split, vertex, normals), native_fit)
     except (native.InvalidInput, native.SolverFailure):
         return skip_fit(V, F)
 

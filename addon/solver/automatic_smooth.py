@@ -23,8 +23,8 @@ class AutomaticSmooth:
     limit: float | None = None  # largest move along the view, world units; None: automatic
 
 
-def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
-                 progress: "native.Progress | None" = None) -> Solution:
+async def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
+                       progress: "native.Progress | None" = None) -> Solution:
     """Calls the native press once; raises the native module's errors. `progress` lets another thread watch and cancel.
 
     All numbers are its own: scores are means over the lights, and the residual is how far the field of the light given
@@ -32,7 +32,7 @@ def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmoot
     """
     begin = time.perf_counter()
     formulation = choose_formulation(patch, seen)
-    press = formulation.press_smooth(border, {**vars(settings), "progress": progress})
+    press = await formulation.press_smooth(border, {**vars(settings), "progress": progress})
     told = press.told
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
     report = build_report(told, time.perf_counter() - begin)

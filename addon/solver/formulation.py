@@ -16,6 +16,7 @@ from ..model.line_surface import LineState
 from ..model.patch import Patch
 from ..model.surroundings import Surroundings, join_images
 from ..model.view import View
+from ..native_call import call
 from ..targets import mirror_target
 
 # Arguments of reflines.smooth_panel by their names.
@@ -88,23 +89,23 @@ class Formulation:
         around = self.read_around() if needs_surroundings(codes) else None
         return {"border": codes, "around": None if around is None else (around.V, around.F)}
 
-    def build(self, border: str, progress: "native.Progress | None", *,
-              sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
+    async def build(self, border: str, progress: "native.Progress | None", *,
+                    sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
         """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely, and `held` (#V, bool) are
         vertices that stay whatever the border says.
         """
-        return native.reflines.ShapeOptimizer(self.patch.V, self.patch.F, **self.choose_directions(), progress=progress,
-                                              **self.choose_edges(border), fixed=held, partner=self.partner,
-                                              face_of_triangle=self.patch.face_of_triangle,
-                                              **self.patch.creases.build_arguments())
+        return await call(
+            native.reflines.ShapeOptimizer.create, self.patch.V, self.patch.F, **self.choose_directions(),
+            progress=progress, **self.choose_edges(border), fixed=held, partner=self.partner,
+            face_of_triangle=self.patch.face_of_triangle, **self.patch.creases.build_arguments())
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         """Reads the solved positions of the patch's vertices: #V x 3, world space."""
         return optimizer.positions
 
-    def read_lines(self, optimizer: "native.ShapeOptimizer") -> LineState:
+    async def read_lines(self, optimizer: "native.ShapeOptimizer") -> LineState:
         """Reads the lines at the vertices of the optimizer's triangles, see read_triangles."""
-        return LineState(optimizer.positions, native.reflines.vertex_theta(optimizer))
+        return LineState(optimizer.positions, await call(native.reflines.vertex_theta, optimizer))
 
     def read_triangles(self, _optimizer: "native.ShapeOptimizer") -> np.ndarray:
         """Reads the triangles that lines are read on: #F x 3; of a patch joined with its image its own half."""
@@ -114,7 +115,7 @@ class Formulation:
         """Returns the numbers of the optimizer's triangles that lie in chosen faces (#mesh faces, bool)."""
         return np.flatnonzero(chosen[self.patch.face_of_triangle])
 
-    def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
+    async def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
         """Returns weights of the patch's vertices (#V) for all vertices of the optimizer's triangles."""
         return weights
 
@@ -143,12 +144,12 @@ class Formulation:
             held[self.patch.creases.marked.ravel()] = True
         return held
 
-    def press_smooth(self, border: str, settings: PressSettings) -> Press:
+    async def press_smooth(self, border: str, settings: PressSettings) -> Press:
         """Calls the native press of Smooth; raises the native module's errors."""
-        positions, told = native.reflines.smooth_panel(
-            self.patch.V, self.patch.F, **self.choose_press_directions(), fixed=self.hold_marked_creases(),
-            partner=self.partner, **self.choose_edges(border), face_of_triangle=self.patch.face_of_triangle,
-            limit_share=self.choose_share(), **settings)
+        positions, told = await call(
+            native.reflines.smooth_panel, self.patch.V, self.patch.F, **self.choose_press_directions(),
+            fixed=self.hold_marked_creases(), partner=self.partner, **self.choose_edges(border),
+            face_of_triangle=self.patch.face_of_triangle, limit_share=self.choose_share(), **settings)
         return Press(positions, told.stray, told)
 
 
@@ -167,7 +168,7 @@ class SymmetricFormulation(Formulation):
     def partner(self) -> np.ndarray | None:
         return self.patch.mirror.partner
 
-    def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
+    async def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
         """Returns the smaller weight of two mirror images for both."""
         return np.minimum(weights, weights[self.patch.mirror.partner])
 
@@ -207,16 +208,16 @@ class JoinedFormulation(Formulation):
         own = len(self.patch.V)
         return join_images(around, mirrored, own, partner[:own], len(partner))
 
-    def build(self, border: str, progress: "native.Progress | None", *,
-              sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
+    async def build(self, border: str, progress: "native.Progress | None", *,
+                    sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
         V, F, partner = self.join()
         fixed = None if held is None else np.append(held, held[partner[len(held):]])
-        return native.reflines.ShapeOptimizer(V, F, **self.choose_directions(), progress=progress,
-                                              **self.choose_edges(border), fixed=fixed, partner=partner,
-                                              face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
-                                              **self.patch.creases.build_arguments(partner))
+        return await call(
+            native.reflines.ShapeOptimizer.create, V, F, **self.choose_directions(), progress=progress,
+            **self.choose_edges(border), fixed=fixed, partner=partner,
+            face_of_triangle=np.tile(self.patch.face_of_triangle, 2), **self.patch.creases.build_arguments(partner))
 
-    def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
+    async def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
         return np.append(weights, weights[self.join()[2][len(weights):]])
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -227,14 +228,14 @@ class JoinedFormulation(Formulation):
         own = len(self.patch.V)
         return self.patch.V + (positions - self.join()[0])[:own]
 
-    def press_smooth(self, border: str, settings: PressSettings) -> Press:
+    async def press_smooth(self, border: str, settings: PressSettings) -> Press:
         V, F, partner = self.join()
         own = self.hold_marked_creases()
         held = np.append(own, own[partner[len(own):]])
-        positions, told = native.reflines.smooth_panel(V, F, **self.choose_press_directions(), fixed=held,
-                                                       partner=partner, **self.choose_edges(border),
-                                                       face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
-                                                       limit_share=self.choose_share(), **settings)
+        positions, told = await call(
+            native.reflines.smooth_panel, V, F, **self.choose_press_directions(), fixed=held, partner=partner,
+            **self.choose_edges(border), face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
+            limit_share=self.choose_share(), **settings)
         return Press(self.read_own_half(positions), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
@@ -275,16 +276,16 @@ class CageFormulation(Formulation):
         share[self.patch.index] = self.patch.share
         return share
 
-    def build(self, border: str, progress: "native.Progress | None", *, sparse: bool,
-              held: np.ndarray | None = None) -> "native.CageOptimizer":
+    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool,
+                    held: np.ndarray | None = None) -> "native.CageOptimizer":
         fixed = None
         if held is not None:
             fixed = np.zeros(len(self.patch.cage.V), dtype=bool)
             fixed[self.patch.index] = held
-        return native.reflines.CageOptimizer(**self.patch.cage.build_arguments(self.is_symmetric),
-                                             **self.choose_directions(), progress=progress,
-                                             border=self.choose_border(border), fixed=fixed, sparse=sparse,
-                                             **self.patch.creases.build_cage_arguments())
+        return await call(
+            native.reflines.CageOptimizer.create, **self.patch.cage.build_arguments(self.is_symmetric),
+            **self.choose_directions(), progress=progress, border=self.choose_border(border), fixed=fixed,
+            sparse=sparse, **self.patch.creases.build_cage_arguments())
 
     def read_triangles(self, optimizer: "native.CageOptimizer") -> np.ndarray:
         return optimizer.triangles
@@ -296,14 +297,15 @@ class CageFormulation(Formulation):
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
         return self.patch.V + (optimizer.cage_positions - self.patch.cage.V)[self.patch.index]
 
-    def spread_weights(self, optimizer: "native.CageOptimizer", weights: np.ndarray) -> np.ndarray:
+    async def spread_weights(self, optimizer: "native.CageOptimizer", weights: np.ndarray) -> np.ndarray:
         """Returns the weights of the cage subdivided as its positions are."""
         cage, index = self.patch.cage, self.patch.index
         own = np.ones(len(cage.V))
         image = cage.partner[index]
         own[image[image >= 0]] = weights[image >= 0]
         own[index] = weights
-        subdivision = native.reflines.Subdivision(**cage.build_topology_arguments(), vertices=len(own))
+        subdivision = await call(native.reflines.Subdivision.create, **cage.build_topology_arguments(),
+                                 vertices=len(own))
         refined = subdivision.positions(np.repeat(own[:, None], 3, axis=1))[:, 0]
         return np.clip(refined[optimizer.refined], 0.0, 1.0)
 
@@ -322,13 +324,13 @@ class CageFormulation(Formulation):
         own = np.flatnonzero(self.patch.faces)
         return np.repeat(values[own], self.patch.cage.sizes[own] - 2)
 
-    def press_smooth(self, border: str, settings: PressSettings) -> Press:
+    async def press_smooth(self, border: str, settings: PressSettings) -> Press:
         cage = self.patch.cage
         arguments = cage.build_arguments(self.is_symmetric)
         arguments["limit_surface"] = arguments.pop("limit")
-        positions, told = native.reflines.smooth_cage_panel(**arguments, **self.choose_press_directions(),
-                                                            border=self.choose_border(border),
-                                                            limit_share=self.choose_share(), **settings)
+        positions, told = await call(
+            native.reflines.smooth_cage_panel, **arguments, **self.choose_press_directions(),
+            border=self.choose_border(border), limit_share=self.choose_share(), **settings)
         return Press(self.patch.V + (positions - cage.V)[self.patch.index], self.spread_to_triangles(told.stray), told,
                      told.largest_control_move)
 

@@ -7,6 +7,7 @@ from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import SolveReport, SolveSettings
 from ..model.view import View
+from ..native_call import call
 from .formulation import choose_formulation
 from .live_optimizer import LiveOptimizer
 
@@ -23,29 +24,29 @@ def choose_limit(patch: Patch, settings: SolveSettings) -> float:
     return settings.limit or AUTOMATIC_LIMIT * (settings.limit_length or patch.diagonal)
 
 
-def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]", limit: float,
-                       progress: "native.Progress | None") -> "native.Report | SolveReport":
+async def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]", limit: float,
+                             progress: "native.Progress | None") -> "native.Report | SolveReport":
     """Minimizes from the optimizer's present heights, and again with bounds where a vertex moved beyond the limit.
 
     A cage, whose vertices are no heights of its surface, and a region of many vertices have all moves scaled instead.
     """
     share = choose_formulation(live.patch, live.view).choose_share()
     if share is not None:
-        return solve_within_shares(live, targets, np.where(share == 0.0, 0.0, limit * share), progress)
-    report = live.optimizer.solve(targets, progress=progress)
+        return await solve_within_shares(live, targets, np.where(share == 0.0, 0.0, limit * share), progress)
+    report = await call(live.optimizer.solve, targets, progress=progress)
     largest = choose_formulation(live.patch, live.view).measure_largest_move(live.optimizer, report)
     if largest <= limit or report.termination == "cancelled":
         return report
     beyond = scale_to_limit(live.optimizer, largest, limit)
     if not isinstance(live.patch, CagePatch) and report.unknowns <= MOST_BOUNDED:
-        return live.optimizer.solve(targets, limit=limit, progress=progress)
+        return await call(live.optimizer.solve, targets, limit=limit, progress=progress)
     move = report.largest_move * limit / largest
     return SolveReport(report.termination, report.message, report.iterations, report.seconds, report.unknowns, move,
                        beyond)
 
 
-def solve_within_shares(live: LiveOptimizer, targets: "list[native.Target]", ranges: np.ndarray,
-                        progress: "native.Progress | None") -> "native.Report":
+async def solve_within_shares(live: LiveOptimizer, targets: "list[native.Target]", ranges: np.ndarray,
+                              progress: "native.Progress | None") -> "native.Report":
     """Minimizes with a lowest and a highest move for each vertex (#V x 2)."""
     name = live.patch.name
     if not ranges.any():
@@ -54,7 +55,7 @@ def solve_within_shares(live: LiveOptimizer, targets: "list[native.Target]", ran
         raise Refusal(f"{name}: moves one way, and limits by a vertex group, are only for meshes of up to "
                       f"{MOST_BOUNDED} vertices in the region, and for Smooth with the automatic length: choose Both "
                       "Ways and no group")
-    return live.optimizer.solve(targets, limit=ranges, progress=progress)
+    return await call(live.optimizer.solve, targets, limit=ranges, progress=progress)
 
 
 def clip_to_shares(patch: Patch, view: View, positions: np.ndarray, limit: float) -> np.ndarray:

@@ -1,5 +1,5 @@
 """The native optimizer of one patch, with what it was built from."""
-from collections.abc import Callable, Generator
+from collections.abc import Awaitable, Callable, Generator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
@@ -11,9 +11,10 @@ from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import JointTargets, SolveSettings
 from ..model.view import View
+from ..native_call import call
 from .formulation import choose_formulation
 
-BuildTarget = Callable[["native.ShapeOptimizer"], "native.Target | JointTargets"]
+BuildTarget = Callable[["native.ShapeOptimizer"], "Awaitable[native.Target | JointTargets]"]
 
 
 @dataclass(frozen=True)
@@ -32,35 +33,35 @@ class LiveOptimizer:
                 and self.patch.same(patch))
 
 
-def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Progress | None" = None, *,
-                    to_follow: bool = False, held: np.ndarray | None = None) -> LiveOptimizer:
+async def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Progress | None" = None, *,
+                          to_follow: bool = False, held: np.ndarray | None = None) -> LiveOptimizer:
     """Builds the optimizer of a patch, which takes long. Refuses closed surfaces; raises the native module's errors.
 
     `progress` goes on watching the optimizer. `to_follow` a drag, a cage is sampled more coarsely: several times faster
     steps, and a shape that differs by a hundredth of the move. `held` (#V, bool) are vertices that stay whatever the
     border says.
     """
-    optimizer = choose_formulation(patch, seen).build(border, progress, sparse=to_follow, held=held)
+    optimizer = await choose_formulation(patch, seen).build(border, progress, sparse=to_follow, held=held)
     refuse_closed(patch.name, int(patch.faces.sum()), optimizer.region.closed)
     return LiveOptimizer(patch, seen, border, optimizer)
 
 
-def build_targets(live: LiveOptimizer, build: BuildTarget, settings: SolveSettings) -> JointTargets:
+async def build_targets(live: LiveOptimizer, build: BuildTarget, settings: SolveSettings) -> JointTargets:
     """Builds the targets at the optimizer's present heights, last that of the lines that cross the wanted ones. One
     wanted target alone is measured by its residual.
     """
-    built, complete = build(live.optimizer), choose_formulation(live.patch, live.view).complete_target
-    crossed = [] if settings.build_crossed is None else [settings.build_crossed(live.optimizer)]
+    built, complete = await build(live.optimizer), choose_formulation(live.patch, live.view).complete_target
+    crossed = [] if settings.build_crossed is None else [await settings.build_crossed(live.optimizer)]
     if isinstance(built, JointTargets):
         return replace(built, targets=[*(complete(each) for each in built.targets), *crossed])
     target = complete(built)
     return JointTargets([target, *crossed], partial(compute_rms_residual, target=target), is_plain=True)
 
 
-def compute_rms_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:
+async def compute_rms_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:
     """Returns the root mean square of the residual over the triangles that can change, by area and the target's weight.
     """
-    return compute_rms(optimizer, target, optimizer.residual(target))
+    return compute_rms(optimizer, target, await call(optimizer.residual, target))
 
 
 def compute_rms(optimizer: "native.ShapeOptimizer", target: "native.Target", values: np.ndarray) -> float:

@@ -7,6 +7,7 @@ import numpy as np
 from .. import native
 from ..model.patch import Patch
 from ..model.solution import LastSolve, Solution, SolveSettings
+from ..native_call import call
 from . import live_optimizer, remarks, turned_faces
 from .formulation import choose_formulation
 from .limited_solve import choose_limit, solve_within_limit
@@ -37,21 +38,21 @@ def compute_vertex_values(solution: LastSolve) -> dict[str, np.ndarray]:
             "residual": np.bincount(corners, np.repeat(solution.residual, 3), minlength=len(patch.V)) / count}
 
 
-def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
-                progress: "native.Progress | None" = None) -> Solution:
+async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
+                      progress: "native.Progress | None" = None) -> Solution:
     """Builds the targets, minimizes from the optimizer's present heights, and measures the result. Faces that would
     turn far are held, and the rest is solved again.
 
     `progress` lets another thread watch and cancel.
     """
-    solution = solve_once(live, build_target, settings, progress)
+    solution = await solve_once(live, build_target, settings, progress)
     turned, held, count = turned_faces.find_turned(live.patch, solution.positions), np.zeros(len(live.patch.V), bool), 0
     for _ in range(MOST_HOLDS):
         more = turned_faces.find_vertices_to_hold(live.patch, turned)
         if more is None or math.isinf(settings.limit) or solution.report.termination == "cancelled":
             break
         held |= more
-        firmer = solve_held(live, held, build_target, settings, progress)
+        firmer = await solve_held(live, held, build_target, settings, progress)
         if firmer is None:
             break
         left = turned_faces.find_turned(live.patch, firmer.positions)
@@ -62,27 +63,27 @@ def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveS
                                     *remarks.describe_turned_faces(live.patch.count_faces(turned))))
 
 
-def solve_held(live: LiveOptimizer, held: np.ndarray, build_target: BuildTarget, settings: SolveSettings,
-               progress: "native.Progress | None") -> Solution | None:
+async def solve_held(live: LiveOptimizer, held: np.ndarray, build_target: BuildTarget, settings: SolveSettings,
+                     progress: "native.Progress | None") -> Solution | None:
     """Solves with more vertices held; None where nothing is left to move."""
     try:
-        firmer = live_optimizer.build_optimizer(live.patch, live.view, live.border, progress, held=held)
-        return solve_once(firmer, build_target, settings, progress)
+        firmer = await live_optimizer.build_optimizer(live.patch, live.view, live.border, progress, held=held)
+        return await solve_once(firmer, build_target, settings, progress)
     except (native.InvalidInput, native.SolverFailure):
         return None
 
 
-def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
-               progress: "native.Progress | None") -> Solution:
+async def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,
+                     progress: "native.Progress | None") -> Solution:
     optimizer, length = live.optimizer, choose_length(live.patch, settings.length)
-    before = optimizer.score(length)
-    wanted = live_optimizer.build_targets(live, build_target, settings)  # that of a fit moves the optimizer first
-    target, lacking = wanted.targets[0], wanted.measure(optimizer)
+    before = await call(optimizer.score, length)
+    wanted = await live_optimizer.build_targets(live, build_target, settings)  # that of a fit moves the optimizer first
+    target, lacking = wanted.targets[0], await wanted.measure(optimizer)
     limit = choose_limit(live.patch, settings)
-    report = solve_within_limit(live, wanted.targets, limit, progress)
+    report = await solve_within_limit(live, wanted.targets, limit, progress)
     formulation = choose_formulation(live.patch, live.view)
-    positions, left = formulation.read_positions(optimizer), wanted.measure(optimizer)
-    after = optimizer.score(length)
+    positions, left = formulation.read_positions(optimizer), await wanted.measure(optimizer)
+    after = await call(optimizer.score, length)
     short = not report.limited and wanted.is_plain and falls_short(optimizer, target, lacking, left)
     return Solution(live.patch, positions, report, target, formulation.read_residual(optimizer, target), lacking, left,
                     length, before.shift, after.shift,

@@ -4,9 +4,11 @@ from dataclasses import replace
 
 import bpy
 
+from .. import native
 from ..model.patch import Patch
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
+from ..native_call import run_now
 from ..solver import live_optimizer, solve
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
 
@@ -50,15 +52,19 @@ def list_kept() -> tuple[str, ...]:
 
 def solve_with_cache(patch: Patch, seen: View, settings: SolveSettings, build_target: BuildTarget) -> Solution:
     """Solves with the cached optimizer; builds one only where patch, view, light or border changed."""
+    return run_now(await_solve_with_cache(patch, seen, settings, build_target))
+
+
+async def await_solve_with_cache(patch: Patch, seen: View, settings: SolveSettings, build_target: BuildTarget,
+                                 progress: "native.Progress | None" = None) -> Solution:
+    """Solves likewise, as a coroutine that another thread may watch and cancel."""
     with live_optimizer.convert_native_errors(patch):
-        return solve.solve_patch(ensure_optimizer(patch, seen, settings.border), build_target, settings)
-
-
-def ensure_optimizer(patch: Patch, seen: View, border: str) -> LiveOptimizer:
-    """Returns the cached optimizer at the heights of `patch`, or builds and caches one; raises the native errors."""
-    live = take_optimizer(patch, seen, border) or live_optimizer.build_optimizer(patch, seen, border)
-    return_optimizer(live)
-    return live
+        live = (take_optimizer(patch, seen, settings.border)
+                or await live_optimizer.build_optimizer(patch, seen, settings.border, progress))
+        try:
+            return await solve.solve_patch(live, build_target, settings, progress)
+        finally:
+            return_optimizer(live)
 
 
 @bpy.app.handlers.persistent

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
+from ..native_call import call
 from .falloff import Falloff, compute_influence, compute_weight, project_to_plane
 
 TURN = 2.0 * np.pi
@@ -24,16 +25,16 @@ class Direction:
     emphasis: float = 1.0
 
 
-def build_direction_target(optimizer: "native.ShapeOptimizer", settings: Direction) -> "native.Target":
+async def build_direction_target(optimizer: "native.ShapeOptimizer", settings: Direction) -> "native.Target":
     """Builds a target of constant direction and linearly varying density, blended with the present lines by the
     influence.
     """
-    influence = compute_influence(optimizer, settings.falloff, settings.strength)
+    influence = await compute_influence(optimizer, settings.falloff, settings.strength)
     gradient = TURN / settings.count if settings.count else 1.0  # |grad theta| of one line a unit
     direction = project_to_plane(optimizer, settings.direction)
     axis = compute_density_axis(optimizer, direction, settings.axis)
-    return native.reflines.uniform(
-        optimizer, direction=direction, density=gradient * settings.density,
+    return await call(
+        native.reflines.uniform, optimizer, direction=direction, density=gradient * settings.density,
         relative=settings.count == 0, density_end=gradient * settings.density_end if axis.any() else -1.0, axis=axis,
         influence=influence, weight=compute_weight(influence, settings.emphasis))
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
+from ..native_call import call
 
 STEPS = 256
 
@@ -26,12 +27,14 @@ def tabulate_preset(shape: str) -> np.ndarray:
     return shapes[shape]
 
 
-def compute_influence(optimizer: "native.ShapeOptimizer", falloff: Falloff | None, strength: float = 1.0) -> np.ndarray:
+async def compute_influence(optimizer: "native.ShapeOptimizer", falloff: Falloff | None,
+                            strength: float = 1.0) -> np.ndarray:
     """Returns the influence of a tool on each triangle: #F in [0, strength]; constant without a fall-off."""
     if falloff is None:
         return np.full(len(optimizer.centers), strength)
-    return strength * native.reflines.falloff(optimizer, centre=project_to_plane(optimizer, falloff.centre),
-                                              radius=falloff.radius, curve=np.clip(falloff.curve, 0.0, 1.0))
+    return strength * await call(
+        native.reflines.falloff, optimizer, centre=project_to_plane(optimizer, falloff.centre), radius=falloff.radius,
+        curve=np.clip(falloff.curve, 0.0, 1.0))
 
 
 def compute_weight(influence: np.ndarray, factor: float) -> np.ndarray:

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import native
+from ..native_call import call
 
 COVERED = 0.5  # least fraction of the patch's area that lies over the dense mesh
 
@@ -37,20 +38,20 @@ class Fit:
     optimizer: "native.CageOptimizer | None" = field(default=None, init=False)
     before: Misfit | None = field(default=None, init=False)
 
-    def __call__(self, optimizer: "native.CageOptimizer") -> "native.Target":
+    async def __call__(self, optimizer: "native.CageOptimizer") -> "native.Target":
         self.optimizer = optimizer
         try:
-            dense = native.reflines.ShapeOptimizer(self.dense.V, self.dense.F, view_direction=self.view_direction,
-                                                   line_direction=self.line_direction, border="free")
+            dense = await call(native.reflines.ShapeOptimizer.create, self.dense.V, self.dense.F,
+                               view_direction=self.view_direction, line_direction=self.line_direction, border="free")
         except native.InvalidInput as error:
             raise native.InvalidInput(f"{self.dense.name}: {error}") from error
-        target, _, heights, weight = self.match = native.reflines.match_dense(optimizer, dense)
+        target, _, heights, weight = self.match = await call(native.reflines.match_dense, optimizer, dense)
         covered = float(optimizer.area @ (target.weight > 0.0) / max(optimizer.area.sum(), 1e-300))
         if covered < COVERED:
             raise native.InvalidInput(f"Seen by the view camera, {self.dense.name} covers {covered:.0%} of the panel "
                                       "only: move it there, or select the faces that it covers")
         self.before = self.misfit()
-        optimizer.fit(heights, weight)
+        await call(optimizer.fit, heights, weight)
         return target
 
     def misfit(self) -> Misfit:

@@ -1,5 +1,5 @@
 """The targets of handles on lines."""
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -9,6 +9,7 @@ from .. import native
 from ..model import line_curve
 from ..model.line_handle import Handles, LineHandle
 from ..model.solution import JointTargets
+from ..native_call import call
 
 # Radius relative to the way of a pull below which the radius grows with the way: nearer to its edge lines would bunch.
 ROOM = 1.5
@@ -19,7 +20,7 @@ MISSED = 0.02  # share of the lines' spacing beside a handle from which that is 
 
 
 ChooseTriangles = Callable[["native.ShapeOptimizer"], np.ndarray]
-SpreadFalloff = Callable[["native.ShapeOptimizer"], np.ndarray]
+SpreadFalloff = Callable[["native.ShapeOptimizer"], Awaitable[np.ndarray]]
 
 
 class HandleTargets:
@@ -36,33 +37,35 @@ class HandleTargets:
         self.reached: list[native.HandleReach] = []  # of those that were last measured
         self.missed: tuple[str, ...] = ()     # sentences about those that were not reached when last measured
 
-    def build(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray,
-              choose_pinned: ChooseTriangles) -> "native.Target | JointTargets":
+    async def build(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray,
+                    choose_pinned: ChooseTriangles) -> "native.Target | JointTargets":
         """Builds the targets for an optimizer, which has the heights of the start whenever this is called. `matrix` (4
         x 4) takes the handles to world space; `choose_pinned` returns the numbers of triangles whose lines stay.
         """
-        wanted = self.begin(optimizer, handles, matrix, choose_pinned)
+        wanted = await self.begin(optimizer, handles, matrix, choose_pinned)
         if not wanted:
             return native.reflines.Target(optimizer.field())
-        return JointTargets(self.lines.build(wanted), partial(self.measure, handles=wanted), FOLLOW_TOLERANCE)
+        targets = await call(self.lines.build, wanted)
+        return JointTargets(targets, partial(self.measure, handles=wanted), FOLLOW_TOLERANCE)
 
-    def follow(self, optimizer: "native.ShapeOptimizer", other: "native.ShapeOptimizer", *, handles: Handles,
-               matrix: np.ndarray, choose_pinned: ChooseTriangles, keep_crossed: bool) -> bool:
+    async def follow(self, optimizer: "native.ShapeOptimizer", other: "native.ShapeOptimizer", *, handles: Handles,
+                     matrix: np.ndarray, choose_pinned: ChooseTriangles, keep_crossed: bool) -> bool:
         """Moves the other optimizer of the region to where the lines meet the handles, and measures them. Returns False
         where that takes a solve.
         """
-        wanted = self.begin(optimizer, handles, matrix, choose_pinned)
-        if not wanted or not self.follower.follow(wanted, other, keep_others=keep_crossed):
+        wanted = await self.begin(optimizer, handles, matrix, choose_pinned)
+        if not wanted or not await call(self.follower.follow, wanted, other, keep_others=keep_crossed):
             return False
-        self.measure(other, wanted)
+        await self.measure(other, wanted)
         return True
 
-    def begin(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray,
-              choose_pinned: ChooseTriangles) -> "list[native.Handle]":
+    async def begin(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray,
+                    choose_pinned: ChooseTriangles) -> "list[native.Handle]":
         """Returns the handles that count, as the native module's; none where no line is pulled."""
         if self.optimizer is not optimizer:
-            falloff = None if self.spread_falloff is None else self.spread_falloff(optimizer)
-            self.optimizer, self.lines = optimizer, native.reflines.LineHandles(optimizer, falloff=falloff)
+            falloff = None if self.spread_falloff is None else await self.spread_falloff(optimizer)
+            self.lines = await call(native.reflines.LineHandles.create, optimizer, falloff=falloff)
+            self.optimizer = optimizer
             self.follower = native.reflines.HandleFollower(optimizer, self.lines)
         used = [each for each in handles if not each.muted]
         self.conflicts, self.missed, self.reached = (), (), []
@@ -71,12 +74,12 @@ class HandleTargets:
         wanted = [self.convert(each, str(number + 1), matrix) for number, each in enumerate(used)]
         pinned = choose_pinned(optimizer)
         wanted += [native.reflines.Handle(triangles=pinned, name="Pin Lines")] if len(pinned) else []
-        self.conflicts = tuple(self.lines.find_conflicts(wanted))
+        self.conflicts = tuple(await call(self.lines.find_conflicts, wanted))
         return wanted
 
-    def measure(self, optimizer: "native.ShapeOptimizer", handles: "list[native.Handle]") -> float:
+    async def measure(self, optimizer: "native.ShapeOptimizer", handles: "list[native.Handle]") -> float:
         """Returns the root mean square of the distances between handles and their lines, radians of theta."""
-        self.reached = reached = self.lines.measure(handles, optimizer, line_step=self.line_step)
+        self.reached = reached = await call(self.lines.measure, handles, optimizer, line_step=self.line_step)
         self.missed = tuple(f"The line of handle {number + 1} passes {each.share:.0%} of the lines' spacing beside it: "
                             "pull less far, or give it a larger radius" for number, each in enumerate(reached)
                             if each.share > MISSED)
@@ -105,14 +108,15 @@ class HandleBuild:
     matrix: np.ndarray
     choose_pinned: ChooseTriangles
 
-    def __call__(self, optimizer: "native.ShapeOptimizer") -> "native.Target | JointTargets":
-        return self.builder.build(optimizer, self.handles, self.matrix, self.choose_pinned)
+    async def __call__(self, optimizer: "native.ShapeOptimizer") -> "native.Target | JointTargets":
+        return await self.builder.build(optimizer, self.handles, self.matrix, self.choose_pinned)
 
-    def follow(self, optimizer: "native.ShapeOptimizer", other: "native.ShapeOptimizer", *, keep_crossed: bool) -> bool:
+    async def follow(self, optimizer: "native.ShapeOptimizer", other: "native.ShapeOptimizer", *,
+                     keep_crossed: bool) -> bool:
         """Follows the handles; False where that takes a solve, as for pinned faces that have an image."""
         if len(self.images) != len(self.handles) and len(self.choose_pinned(optimizer)):
             return False
-        return self.builder.follow(optimizer, other, handles=self.images, matrix=self.matrix,
+        return await self.builder.follow(optimizer, other, handles=self.images, matrix=self.matrix,
                                    choose_pinned=self.choose_pinned, keep_crossed=keep_crossed)
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
+from ..native_call import call
 from .falloff import project_to_plane
 
 
@@ -21,10 +22,10 @@ class Pattern:
     by_value: bool = False    # fits theta itself, where black leaves the lines in place
 
 
-def build_pattern_target(optimizer: "native.ShapeOptimizer", settings: Pattern) -> "native.Target":
+async def build_pattern_target(optimizer: "native.ShapeOptimizer", settings: Pattern) -> "native.Target":
     """Builds the target of the present lines times `keep` plus the gradient of the image."""
     x, y = project_to_plane(optimizer, settings.right)
-    return native.reflines.pattern(
-        optimizer, image=settings.grey, strength=settings.strength, blur=settings.blur, keep=settings.keep,
-        centre=project_to_plane(optimizer, settings.centre), width=settings.width,
+    return await call(
+        native.reflines.pattern, optimizer, image=settings.grey, strength=settings.strength, blur=settings.blur,
+        keep=settings.keep, centre=project_to_plane(optimizer, settings.centre), width=settings.width,
         angle=settings.angle + np.arctan2(y, x), by_value=settings.by_value)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
+from ..native_call import call
 
 
 @dataclass(frozen=True)
@@ -16,8 +17,8 @@ class Smooth:
     weight: float = 1.0        # in the energy
 
 
-def build_smooth_target(optimizer: "native.ShapeOptimizer", settings: Smooth) -> "native.Target":
+async def build_smooth_target(optimizer: "native.ShapeOptimizer", settings: Smooth) -> "native.Target":
     """Builds the target of the present lines without detail finer than the length."""
     weight = np.full(len(optimizer.area), settings.weight) if settings.weight != 1.0 else None
-    return native.reflines.smooth(optimizer, length=settings.length, strength=settings.strength,
-                                  directional=settings.directional, family=settings.family, weight=weight)
+    return await call(native.reflines.smooth, optimizer, length=settings.length, strength=settings.strength,
+                      directional=settings.directional, family=settings.family, weight=weight)

@@ -2,6 +2,7 @@
 from dataclasses import dataclass
 
 from .. import native
+from ..native_call import call
 from .falloff import Falloff, compute_influence, compute_weight
 
 
@@ -13,8 +14,8 @@ class Untwist:
     emphasis: float = 1.0
 
 
-def build_untwist_target(optimizer: "native.ShapeOptimizer", settings: Untwist) -> "native.Target":
+async def build_untwist_target(optimizer: "native.ShapeOptimizer", settings: Untwist) -> "native.Target":
     """Builds the target of the present lines turned by the angle times the influence."""
-    influence = compute_influence(optimizer, settings.falloff)
-    return native.reflines.turn(optimizer, angle=settings.angle, influence=influence,
-                                weight=compute_weight(influence, settings.emphasis))
+    influence = await compute_influence(optimizer, settings.falloff)
+    return await call(native.reflines.turn, optimizer, angle=settings.angle, influence=influence,
+                      weight=compute_weight(influence, settings.emphasis))

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import native
+from ..native_call import call
 
 TENSION = {'KEY_CARDINAL': 0.71, 'KEY_CATMULL_ROM': 0.5}  # Blender's
 
@@ -42,7 +43,7 @@ class Warp:
                 and (self.cells, self.by_value) == (other.cells, other.by_value))
 
 
-def build_warp_target(optimizer: "native.ShapeOptimizer", settings: Warp) -> "native.Target":
+async def build_warp_target(optimizer: "native.ShapeOptimizer", settings: Warp) -> "native.Target":
     """Samples the lattice's map on a regular grid of the image plane, and builds the target of the lines carried along
     by it.
     """
@@ -53,8 +54,8 @@ def build_warp_target(optimizer: "native.ShapeOptimizer", settings: Warp) -> "na
     rest = np.stack([np.tile(x, len(y)), np.repeat(y, len(x))], axis=1)
     local = np.linalg.solve(to_plane[:, :2], (rest - to_plane[:, 3]).T).T
     position = rest + evaluate_moves(settings.lattice, local) @ to_plane[:, :3].T
-    target = native.reflines.warp(optimizer, low=low, high=high, columns=settings.cells, rows=settings.cells,
-                                  position=position, by_value=settings.by_value)[0]
+    target, _ = await call(native.reflines.warp, optimizer, low=low, high=high, columns=settings.cells,
+                           rows=settings.cells, position=position, by_value=settings.by_value)
     # Not reduced to its reachable part: a live warp follows with loose tolerances, at which the solver does not reduce
     # targets, and the final shape would differ from the one shown by more than a twentieth of the move.
     target.reachable_only = False

@@ -9,7 +9,7 @@ namespace reflines {
 void bind_errors(pybind11::module_& module);
 void bind_geometry(pybind11::module_& module);
 void bind_subdivision(pybind11::module_& module);
-void bind_turn(pybind11::module_& module);
+void bind_task(pybind11::module_& module);
 void bind_target(pybind11::module_& module);
 void bind_builders(pybind11::module_& module);
 void bind_line_handles(pybind11::module_& module);

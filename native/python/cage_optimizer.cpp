@@ -8,8 +8,8 @@
 #include "python/bind.h"
 #include "python/cage_arrays.h"
 #include "python/exclusive_use.h"
-#include "python/gil_handover.h"
 #include "python/line_directions.h"
+#include "python/native_call.h"
 #include "python/option_names.h"
 #include "reflines/mirror_pairs.h"
 #include "threads/abandonable_work.h"
@@ -46,7 +46,7 @@ using py::literals::operator""_a;
 // 60 (15 in a chain) the sharp line of a fender of 12 degrees was no crease: 149 degrees of wobble.
 constexpr double kCageCreaseAngle = 1.5 * kCreaseAngle;
 
-std::unique_ptr<CageOptimizer> build_optimizer(
+std::function<std::unique_ptr<CageOptimizer>()> prepare_optimizer(
     const Positions& V, const Indices& face_offsets, const Indices& face_vertices, const Vector3& view_direction,
     const Eigen::MatrixXd& line_direction, const std::optional<Mask>& region, const Codes& border,
     const std::optional<Mask>& fixed, const std::optional<Indices>& partner, const std::optional<Indices>& image_of,
@@ -66,33 +66,38 @@ std::unique_ptr<CageOptimizer> build_optimizer(
   options.shape.proximity = proximity;
   options.shape.progress = std::move(progress);
   const std::vector<Vector3> lines = read_line_directions(line_direction);
-  const ReleaseGil release;
-  const auto made = std::make_shared<std::unique_ptr<CageOptimizer>>();
-  run_abandonable(options.shape.progress.get(),
-                  [=] { *made = std::make_unique<CageOptimizer>(cage, V, view_direction, lines, options); });
-  return std::move(*made);
+  return [=] {
+    const auto made = std::make_shared<std::unique_ptr<CageOptimizer>>();
+    run_abandonable(options.shape.progress.get(),
+                    [=] { *made = std::make_unique<CageOptimizer>(cage, V, view_direction, lines, options); });
+    return std::move(*made);
+  };
 }
 
 }  // namespace
 
 void bind_cage_optimizer(py::module_& module) {
   const CageOptions defaults;
-  py::class_<CageOptimizer>(module, "CageOptimizer", BaseIsSurface(), py::multiple_inheritance(), py::module_local())
-      .def(py::init(&build_optimizer), "V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a,
-           "line_direction"_a, "region"_a = py::none(), "border"_a = "clamped", "fixed"_a = py::none(),
-           "partner"_a = py::none(), "image_of"_a = py::none(), "level"_a = defaults.subdivision.level,
-           "scheme"_a = "catmull_clark", "boundary"_a = "all", "creases"_a = Indices(),
-           "crease_sharpness"_a = Numbers(), "corners"_a = Indices(), "corner_sharpness"_a = Numbers(),
-           "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse, "stencil"_a = "consistent",
-           "linear_solver"_a = "cholmod", "crease_rule"_a = "automatic", "crease_angle"_a = kCageCreaseAngle,
-           "proximity"_a = defaults.shape.proximity, "progress"_a = py::none())
-      .def_property_readonly("region", py::cpp_function(release_gil(&CageOptimizer::region)))
-      .def_property_readonly("cage_positions", py::cpp_function(release_gil(&CageOptimizer::cage_positions)))
+  py::class_<CageOptimizer> optimizer(module, "CageOptimizer", BaseIsSurface(), py::multiple_inheritance(),
+                                      py::module_local());
+  const auto define = [&](const auto&... arguments) {
+    optimizer.def(py::init(construct(&prepare_optimizer)), arguments...);
+    optimizer.def_static("create", create(&prepare_optimizer), arguments...);
+  };
+  define("V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a, "line_direction"_a,
+         "region"_a = py::none(), "border"_a = "clamped", "fixed"_a = py::none(), "partner"_a = py::none(),
+         "image_of"_a = py::none(), "level"_a = defaults.subdivision.level, "scheme"_a = "catmull_clark",
+         "boundary"_a = "all", "creases"_a = Indices(), "crease_sharpness"_a = Numbers(), "corners"_a = Indices(),
+         "corner_sharpness"_a = Numbers(), "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse,
+         "stencil"_a = "consistent", "linear_solver"_a = "cholmod", "crease_rule"_a = "automatic",
+         "crease_angle"_a = kCageCreaseAngle, "proximity"_a = defaults.shape.proximity, "progress"_a = py::none());
+  optimizer.def_property_readonly("region", py::cpp_function(bind_method(&CageOptimizer::region)))
+      .def_property_readonly("cage_positions", py::cpp_function(bind_method(&CageOptimizer::cage_positions)))
       .def_property_readonly("cage_free", &CageOptimizer::cage_free)
       .def_property_readonly("triangles", &CageOptimizer::triangles)
       .def_property_readonly("parent", &CageOptimizer::parent)
       .def_property_readonly("refined", &CageOptimizer::refined)
-      .def("fit", release_gil(&CageOptimizer::fit), "heights"_a, "weight"_a);
+      .def("fit", bind_method(&CageOptimizer::fit), "heights"_a, "weight"_a);
   module.def(
       "mirror_pairs",
       [](const Positions& V, const Vector3& point, const Vector3& normal, double tolerance) {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "python/bind.h"
-#include "python/gil_handover.h"
 #include "python/index_arrays.h"
+#include "python/native_call.h"
 #include "python/option_names.h"
 
 namespace py = pybind11;
@@ -16,7 +16,7 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
-PanelCheck check(const Positions& before, const Positions& after, const Indices& F, const Mask& region,
+py::object check(const Positions& before, const Positions& after, const Indices& F, const Mask& region,
                  const std::string& crease_rule, const Indices& marked_creases, double crease_angle, double reach,
                  double gap, double angle, double curvature, const std::optional<double>& deviation) {
   CheckOptions options;
@@ -29,8 +29,7 @@ PanelCheck check(const Positions& before, const Positions& after, const Indices&
     throw InvalidInput("The pass mark for the deviation must be 0 or more, or None.");
   options.deviation = deviation.value_or(options.deviation);
   const Triangles triangles = triangles_of(F);
-  const ReleaseGil release;
-  return check_panel(before, after, triangles, region, options);
+  return run_native([=] { return check_panel(before, after, triangles, region, options); });
 }
 
 std::string kind_name(SeamKind kind) {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "geometry/normal_fit.h"
-#include "python/gil_handover.h"
+#include "python/native_call.h"
 #include "reflines/cage_optimizer.h"
 #include "reflines/line_handles.h"
 #include "reflines/shape_optimizer.h"
@@ -33,33 +33,38 @@ class ExclusiveUse {
   const void* object_;
 };
 
-// The scope of a native call on an object, without the GIL. The object is released before the GIL is taken back, since
-// a worker thread may have to wait for its turn.
-template <typename Object>
-class NativeCall {
- public:
-  explicit NativeCall(const Object& object, ExclusiveUse::Use use = ExclusiveUse::Use::kChanges)
-      : exclusive_use_(object, use) {}
+// Calls `work` on an object that is used by nobody else meanwhile; see run_native.
+template <typename Object, typename Work>
+pybind11::object call_native(Object& object, ExclusiveUse::Use use, Work work) {
+  return run_native([&object, use, work = std::move(work)] {
+    const ExclusiveUse exclusive_use(object, use);
+    return work();
+  });
+}
 
- private:
-  const ReleaseGil release_;
-  const ExclusiveUse exclusive_use_;
-};
+template <typename Object, typename Work>
+pybind11::object call_native(Object& object, Work work) {
+  return call_native(object, ExclusiveUse::Use::kChanges, std::move(work));
+}
 
-// Wraps a method as such a call. The method returns a copy, since the object may change as soon as it is released.
+// Wraps a method as such a call. Arguments and result are copies, since the object may change as soon as it is
+// released.
 template <typename Object, typename Result, typename... Arguments>
-auto release_gil(Result (Object::*method)(Arguments...) const) {
-  return [method](const Object& object, Arguments... arguments) -> std::remove_cvref_t<Result> {
-    const NativeCall call(object, ExclusiveUse::Use::kReads);
-    return (object.*method)(std::forward<Arguments>(arguments)...);
+auto bind_method(Result (Object::*method)(Arguments...) const) {
+  return [method](const Object& object, std::remove_cvref_t<Arguments>... arguments) {
+    return call_native(object, ExclusiveUse::Use::kReads,
+                       [method, &object, ... own = std::move(arguments)]() -> std::remove_cvref_t<Result> {
+                         return (object.*method)(own...);
+                       });
   };
 }
 
 template <typename Object, typename Result, typename... Arguments>
-auto release_gil(Result (Object::*method)(Arguments...)) {
-  return [method](Object& object, Arguments... arguments) -> std::remove_cvref_t<Result> {
-    const NativeCall call(object);
-    return (object.*method)(std::forward<Arguments>(arguments)...);
+auto bind_method(Result (Object::*method)(Arguments...)) {
+  return [method](Object& object, std::remove_cvref_t<Arguments>... arguments) {
+    return call_native(object, [method, &object, ... own = std::move(arguments)]() -> std::remove_cvref_t<Result> {
+      return (object.*method)(own...);
+    });
   };
 }
 

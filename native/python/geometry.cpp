@@ -9,8 +9,8 @@
 #include "geometry/normal_fit.h"
 #include "python/bind.h"
 #include "python/exclusive_use.h"
-#include "python/gil_handover.h"
 #include "python/index_arrays.h"
+#include "python/native_call.h"
 #include "reflection/reflection_function.h"
 #include "reflines/errors.h"
 #include "reflines/image_plane.h"
@@ -46,24 +46,21 @@ Vector theta(const Positions& normals, const Positions& views, const Vector3& li
   return result;
 }
 
-std::unique_ptr<NormalFit> make_fit(const Positions& V, const Indices& F, double refit_angle) {
-  const Triangles triangles = triangles_of(F);
-  const ReleaseGil release;
-  return std::make_unique<NormalFit>(V, triangles, refit_angle);
+std::function<std::unique_ptr<NormalFit>()> prepare_fit(const Positions& V, const Indices& F, double refit_angle) {
+  return
+      [V, triangles = triangles_of(F), refit_angle] { return std::make_unique<NormalFit>(V, triangles, refit_angle); };
 }
 
 // Returns (F, vertex); see split_at_creases.
-std::pair<Triangles, Eigen::VectorXi> split(const Positions& V, const Indices& F, double angle) {
-  const Triangles triangles = triangles_of(F);
-  const ReleaseGil release;
-  const SplitSurface result = split_at_creases(V, triangles, angle);
-  return {result.F, Eigen::Map<const Eigen::VectorXi>(result.vertex.data(), result.vertex.size())};
+py::object split(const Positions& V, const Indices& F, double angle) {
+  return run_native([V, triangles = triangles_of(F), angle] {
+    const SplitSurface result = split_at_creases(V, triangles, angle);
+    const Eigen::VectorXi vertex = Eigen::Map<const Eigen::VectorXi>(result.vertex.data(), result.vertex.size());
+    return std::pair(result.F, vertex);
+  });
 }
 
-// Returns #E x 2; see crease_edges.
-Edges creases(const Positions& V, const Indices& F, double angle) {
-  const Triangles triangles = triangles_of(F);
-  const ReleaseGil release;
+Edges find_creases(const Positions& V, const Triangles& triangles, double angle) {
   check_surface(V, triangles);
   const Triangles neighbors = edge_neighbors(triangles);
   const EdgeMask crease = crease_edges(V, triangles, neighbors, {.angle = angle});
@@ -79,9 +76,13 @@ Edges creases(const Positions& V, const Indices& F, double angle) {
   return result;
 }
 
-NormalFit copy(const NormalFit& fit) {
-  const NativeCall call(fit, ExclusiveUse::Use::kReads);
-  return fit;
+// Returns #E x 2; see crease_edges.
+py::object creases(const Positions& V, const Indices& F, double angle) {
+  return run_native([V, triangles = triangles_of(F), angle] { return find_creases(V, triangles, angle); });
+}
+
+py::object copy(const NormalFit& fit) {
+  return call_native(fit, ExclusiveUse::Use::kReads, [&fit] { return NormalFit(fit); });
 }
 
 }  // namespace
@@ -97,11 +98,15 @@ void bind_geometry(py::module_& module) {
       py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
   module.def("crease_edges", &creases, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("angle") = kCreaseAngle);
   module.def("split_at_creases", &split, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("angle") = kCreaseAngle);
-  py::class_<NormalFit>(module, "NormalFit", py::module_local())
-      .def(py::init(&make_fit), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("refit_angle") = 0.35)
-      .def("copy", &copy)
-      .def("kept_normals", release_gil(&NormalFit::kept_normals), py::arg("V"))
-      .def("normals", release_gil(&NormalFit::normals), py::arg("V"))
+  py::class_<NormalFit> fit(module, "NormalFit", py::module_local());
+  const auto define = [&](const auto&... arguments) {
+    fit.def(py::init(construct(&prepare_fit)), arguments...);
+    fit.def_static("create", create(&prepare_fit), arguments...);
+  };
+  define(py::arg("V"), py::arg("F"), py::kw_only(), py::arg("refit_angle") = 0.35);
+  fit.def("copy", &copy)
+      .def("kept_normals", bind_method(&NormalFit::kept_normals), py::arg("V"))
+      .def("normals", bind_method(&NormalFit::normals), py::arg("V"))
       .def_property_readonly("refit_count", &NormalFit::refit_count);
 }
 

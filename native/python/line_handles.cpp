@@ -22,35 +22,39 @@ Handle make_handle(const PlanePositions& points, const std::optional<double>& va
   return {kind, points, value.value_or(0.0), centre.value_or(PlanePositions()), radius, triangles, name};
 }
 
-std::unique_ptr<LineHandles> make_line_handles(ShapeOptimizer& optimizer, int family,
-                                               const std::optional<Vector>& falloff) {
-  const NativeCall call(optimizer);
-  return std::make_unique<LineHandles>(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer(),
-                                       falloff.value_or(Vector()));
+std::function<std::unique_ptr<LineHandles>()> prepare_line_handles(ShapeOptimizer& optimizer, int family,
+                                                                   const std::optional<Vector>& falloff) {
+  return [=, &optimizer] {
+    const ExclusiveUse exclusive_use(optimizer, ExclusiveUse::Use::kChanges);
+    return std::make_unique<LineHandles>(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer(),
+                                         falloff.value_or(Vector()));
+  };
 }
 
-std::vector<HandleReach> measure(const LineHandles& line_handles, const std::vector<Handle>& handles,
-                                 ShapeOptimizer& optimizer, double line_step) {
-  const NativeCall call(optimizer);
-  return line_handles.measure(handles, optimizer.vertex_field(line_handles.family()), line_step);
+py::object measure(const LineHandles& line_handles, const std::vector<Handle>& handles, ShapeOptimizer& optimizer,
+                   double line_step) {
+  return call_native(optimizer, [=, &line_handles, &optimizer] {
+    return line_handles.measure(handles, optimizer.vertex_field(line_handles.family()), line_step);
+  });
 }
 
-std::vector<Target> handles(ShapeOptimizer& optimizer, const std::vector<Handle>& handles, int family,
-                            const std::optional<Vector>& falloff) {
-  const NativeCall call(optimizer);
-  return LineHandles(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer(),
-                     falloff.value_or(Vector()))
-      .build(handles);
+py::object handles(ShapeOptimizer& optimizer, const std::vector<Handle>& handles, int family,
+                   const std::optional<Vector>& falloff) {
+  return call_native(optimizer, [=, &optimizer] {
+    return LineHandles(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer(),
+                       falloff.value_or(Vector()))
+        .build(handles);
+  });
 }
 
-Vector read_vertex_theta(ShapeOptimizer& optimizer, int family) {
-  const NativeCall call(optimizer);
-  return optimizer.vertex_field(family).vertex_theta;
+py::object read_vertex_theta(ShapeOptimizer& optimizer, int family) {
+  return call_native(optimizer, [&optimizer, family] { return Vector(optimizer.vertex_field(family).vertex_theta); });
 }
 
-bool follow(HandleFollower& follower, const std::vector<Handle>& handles, ShapeOptimizer& optimizer, bool keep_others) {
-  const NativeCall call(optimizer);
-  return follower.follow(handles, optimizer, keep_others);
+py::object follow(HandleFollower& follower, const std::vector<Handle>& handles, ShapeOptimizer& optimizer,
+                  bool keep_others) {
+  return call_native(optimizer,
+                     [=, &follower, &optimizer] { return follower.follow(handles, optimizer, keep_others); });
 }
 
 }  // namespace
@@ -64,12 +68,15 @@ void bind_line_handles(py::module_& module) {
       .def_readonly("theta", &HandleReach::theta)
       .def_readonly("distance", &HandleReach::distance)
       .def_readonly("share", &HandleReach::share);
-  py::class_<LineHandles>(module, "LineHandles", py::module_local())
-      .def(py::init(&make_line_handles), py::arg("optimizer"), py::kw_only(), py::arg("family") = 0,
-           py::arg("falloff") = py::none())
-      .def("build", release_gil(&LineHandles::build), py::arg("handles"))
-      .def("find_conflicts", release_gil(&LineHandles::find_conflicts), py::arg("handles"))
-      .def("read_theta", release_gil(&LineHandles::read_theta), py::arg("points"))
+  py::class_<LineHandles> lines(module, "LineHandles", py::module_local());
+  const auto define = [&](const auto&... arguments) {
+    lines.def(py::init(construct(&prepare_line_handles)), arguments...);
+    lines.def_static("create", create(&prepare_line_handles), arguments...);
+  };
+  define(py::arg("optimizer"), py::kw_only(), py::arg("family") = 0, py::arg("falloff") = py::none());
+  lines.def("build", bind_method(&LineHandles::build), py::arg("handles"))
+      .def("find_conflicts", bind_method(&LineHandles::find_conflicts), py::arg("handles"))
+      .def("read_theta", bind_method(&LineHandles::read_theta), py::arg("points"))
       .def("can_follow", &LineHandles::can_follow, py::arg("points"))
       .def("measure", &measure, py::arg("handles"), py::arg("optimizer"), py::kw_only(), py::arg("line_step"));
   py::class_<HandleFollower>(module, "HandleFollower", py::module_local())

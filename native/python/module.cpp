@@ -38,7 +38,7 @@ PYBIND11_MODULE(reflines, module) {
   module.doc() = "Shape optimization using reflection lines: numpy in, numpy out (see reflines.pyi).";
   module.attr("__version__") = REFLINES_VERSION;
   reflines::bind_errors(module);
-  reflines::bind_turn(module);
+  reflines::bind_task(module);
   reflines::bind_geometry(module);
   reflines::bind_subdivision(module);
   reflines::bind_target(module);

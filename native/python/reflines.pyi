@@ -3,7 +3,7 @@
 Names and shapes: V (#V x 3) vertex positions, F (#F x 3) triangles of the region to optimize, view_direction v (3, from the
 surface towards the viewer), line_direction a (3, along the line lights). Angles are radians, lengths are those of V.
 """
-from typing import Literal, Sequence
+from typing import Any, Callable, Generic, Literal, ParamSpec, Sequence, TypeVar
 import numpy as np
 
 Border = Literal["free", "fixed", "clamped", "curvature"]
@@ -13,6 +13,9 @@ Strategy = Literal["adaptive", "linearized", "gauss_newton", "newton"]
 LinearSolver = Literal["cholmod", "umfpack"]
 Scheme = Literal["catmull_clark", "loop"]
 Boundary = Literal["all", "preserve_corners"]
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
 
 class InvalidInput(ValueError):
     """Raised for arrays that cannot be used. The text is one sentence: what, how many, what to do."""
@@ -32,21 +35,21 @@ class Progress:
     def cancel(self) -> None:
         """Asks the computation to stop at its next step. Final."""
 
-class PythonTurn:
-    """A hand-over of the global interpreter lock (GIL) between an owner's thread and one worker thread.
-
-    The worker runs Python only in its turns. Between them it rests or is in native code, whose calls return in its turns.
+class Task(Generic[Result]):
+    """A native call in the background, see `start`. It holds its arguments until it has ended; collecting it earlier waits
+    for that.
     """
-    wanted: bool  # read only: the worker has finished its native code and waits for its turn
-    def __init__(self) -> None: ...
-    def lend(self, seconds: float) -> None:
-        """Waits while the worker runs Python, until it rests, or is in native code after the seconds. For the owner."""
-    def give_away(self) -> None:
-        """Lets the worker run Python at any time, so that its thread can be joined. For the owner, at the end."""
-    def take(self) -> None:
-        """Waits for the first turn. For the worker, as its first call."""
-    def rest(self) -> None:
-        """Ends the turn and waits for the next. For the worker."""
+    done: bool  # read only
+    def wait(self, seconds: float) -> bool:
+        """Waits so long for the end of the call, without the GIL; returns whether it has ended."""
+    def result(self) -> Result:
+        """Waits for the end of the call; returns its result, or raises its error."""
+
+def start(function: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs) -> Task[Result]:
+    """Starts a call of a function or method of this module on a background thread, which never takes the GIL: arguments are
+    converted now, and the result when it is taken. What is no long work, such as a property, is done at once; classes
+    are built in the background by their `create`. Python's exit waits for what was started.
+    """
 
 class Region:
     """Counts of a region's faces and vertices by their roles; `messages` are sentences for the user."""
@@ -139,6 +142,9 @@ class ShapeOptimizer:
                  proximity: float = -1.0,                        # weight of staying near the start; -1: default
                  progress: Progress | None = None,               # watches from the start, see `watch`
                  ) -> None: ...
+    @staticmethod
+    def create(*args: Any, **kwargs: Any) -> ShapeOptimizer:
+        """Builds as the constructor does, from its arguments; `start` takes this function."""
     def theta(self, family: int = 0) -> np.ndarray:
         """Returns the reflection function of every triangle (#F), radians in (-pi, pi]."""
     def field(self, family: int = 0) -> np.ndarray:
@@ -293,6 +299,9 @@ class CageOptimizer(ShapeOptimizer):
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
                  crease_rule: CreaseRule = "automatic", crease_angle: float = 1.0472,
                  proximity: float = -1.0, progress: Progress | None = None) -> None: ...
+    @staticmethod
+    def create(*args: Any, **kwargs: Any) -> CageOptimizer:
+        """Builds as the constructor does, from its arguments; `start` takes this function."""
     def fit(self, heights: np.ndarray, weight: np.ndarray) -> None:
         """Moves the cage so that its surface is nearest to these heights along the view (#region vertices), by least squares;
         `weight` is the area of each, 0 where there is none. Later solves are pulled to the heights."""
@@ -361,6 +370,9 @@ class LineHandles:
     native/include/reflines/line_handles.h. Points that move within the same `centre` and `radius` take one back substitution.
     `falloff` (#V in [0, 1]) says where lines may follow the handles: 0 holds them, 1 lets them go."""
     def __init__(self, optimizer: ShapeOptimizer, *, family: int = 0, falloff: np.ndarray | None = None) -> None: ...
+    @staticmethod
+    def create(*args: Any, **kwargs: Any) -> LineHandles:
+        """Builds as the constructor does, from its arguments; `start` takes this function."""
     def build(self, handles: Sequence[Handle]) -> list[Target]:
         """Builds the three targets to solve for together: the gradient's, that of the values around pulls and beyond the radii,
         and that of the values at the handles. Handles that change nothing give the lines at the start, bit for bit."""
@@ -407,6 +419,9 @@ def split_at_creases(V: np.ndarray, F: np.ndarray, *, angle: float = 0.5236) -> 
 class NormalFit:
     """Vertex normals by a local quadratic fit (paper, section 3), with kept coefficients: cheap for new positions."""
     def __init__(self, V: np.ndarray, F: np.ndarray, *, refit_angle: float = 0.35) -> None: ...
+    @staticmethod
+    def create(*args: Any, **kwargs: Any) -> NormalFit:
+        """Builds as the constructor does, from its arguments; `start` takes this function."""
     def normals(self, V: np.ndarray) -> np.ndarray:
         """Returns unit normals (#V x 3) for the positions V; vertices without a triangle get (0, 0, 1)."""
     def kept_normals(self, V: np.ndarray) -> np.ndarray:
@@ -429,6 +444,9 @@ class Subdivision:
                  creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,   # #C x 2 vertices of edges, #C
                  corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,   # #K vertices, #K
                  limit: bool = True) -> None: ...                                 # on the limit surface, or refined only
+    @staticmethod
+    def create(*args: Any, **kwargs: Any) -> Subdivision:
+        """Builds as the constructor does, from its arguments; `start` takes this function."""
     def positions(self, V: np.ndarray) -> np.ndarray:
         """Returns the refined vertices (#refined x 3) of a cage's (#V x 3)."""
     def normals(self, V: np.ndarray) -> np.ndarray:

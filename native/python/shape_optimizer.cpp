@@ -9,9 +9,9 @@
 #include "python/bind.h"
 #include "python/border_codes.h"
 #include "python/exclusive_use.h"
-#include "python/gil_handover.h"
 #include "python/index_arrays.h"
 #include "python/line_directions.h"
+#include "python/native_call.h"
 #include "python/option_names.h"
 #include "python/surroundings.h"
 #include "reflines/errors.h"
@@ -37,14 +37,15 @@ std::vector<Target> list_targets(const Targets& targets) {
   return std::get<std::vector<Target>>(targets);
 }
 
-std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
-                                                const Eigen::MatrixXd& line_direction, const Codes& border,
-                                                const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
-                                                const Around& around, const std::optional<Indices>& face_of_triangle,
-                                                const std::string& stencil, const std::string& linear_solver,
-                                                const std::string& crease_rule, const Indices& marked_creases,
-                                                double crease_angle, double proximity,
-                                                std::shared_ptr<Progress> progress) {
+using BuildOptimizer = std::function<std::unique_ptr<ShapeOptimizer>()>;
+
+BuildOptimizer prepare_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
+                                 const Eigen::MatrixXd& line_direction, const Codes& border,
+                                 const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
+                                 const Around& around, const std::optional<Indices>& face_of_triangle,
+                                 const std::string& stencil, const std::string& linear_solver,
+                                 const std::string& crease_rule, const Indices& marked_creases, double crease_angle,
+                                 double proximity, std::shared_ptr<Progress> progress) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -58,11 +59,12 @@ std::unique_ptr<ShapeOptimizer> build_optimizer(const Positions& V, const Indice
   options.progress = std::move(progress);
   const std::vector<Vector3> lines = read_line_directions(line_direction);
   const Triangles triangles = triangles_of(F);
-  const ReleaseGil release;
-  const auto made = std::make_shared<std::unique_ptr<ShapeOptimizer>>();
-  run_abandonable(options.progress.get(),
-                  [=] { *made = std::make_unique<ShapeOptimizer>(V, triangles, view_direction, lines, options); });
-  return std::move(*made);
+  return [=] {
+    const auto made = std::make_shared<std::unique_ptr<ShapeOptimizer>>();
+    run_abandonable(options.progress.get(),
+                    [=] { *made = std::make_unique<ShapeOptimizer>(V, triangles, view_direction, lines, options); });
+    return std::move(*made);
+  };
 }
 
 MoveLimit move_limit(const std::optional<Limit>& limit, const ShapeOptimizer& optimizer) {
@@ -74,15 +76,16 @@ MoveLimit move_limit(const std::optional<Limit>& limit, const ShapeOptimizer& op
   return {ends.col(0), ends.col(1)};
 }
 
-Report solve(ShapeOptimizer& optimizer, const Targets& targets, const std::string& strategy, double gradient_tolerance,
-             int max_iterations, const std::optional<Limit>& limit, const std::shared_ptr<Progress>& progress) {
+py::object solve(ShapeOptimizer& optimizer, const Targets& targets, const std::string& strategy,
+                 double gradient_tolerance, int max_iterations, const std::optional<Limit>& limit,
+                 const std::shared_ptr<Progress>& progress) {
   MinimizerOptions options;
   options.strategy = find_named(kStrategies, strategy, "strategy");
   options.gradient_tolerance = gradient_tolerance;
   options.max_iterations = max_iterations;
-  const std::vector<Target> list = list_targets(targets);
-  const NativeCall call(optimizer);
-  return optimizer.solve(list, options, progress.get(), move_limit(limit, optimizer));
+  return call_native(optimizer, [&optimizer, list = list_targets(targets), options, limit, progress] {
+    return optimizer.solve(list, options, progress.get(), move_limit(limit, optimizer));
+  });
 }
 
 Eigen::Matrix3d frame_rows(const ShapeOptimizer& optimizer) {
@@ -97,25 +100,23 @@ int check_family(const ShapeOptimizer& optimizer, int family) {
                      std::to_string(optimizer.family_count()) + ".");
 }
 
-Vector theta(const ShapeOptimizer& optimizer, int family) {
-  const NativeCall call(optimizer, ExclusiveUse::Use::kReads);
-  return optimizer.theta(check_family(optimizer, family));
+py::object theta(const ShapeOptimizer& optimizer, int family) {
+  return call_native(optimizer, ExclusiveUse::Use::kReads,
+                     [&optimizer, family] { return Vector(optimizer.theta(check_family(optimizer, family))); });
 }
 
-PlaneVectors field(const ShapeOptimizer& optimizer, int family) {
-  const NativeCall call(optimizer, ExclusiveUse::Use::kReads);
-  return optimizer.field(check_family(optimizer, family));
+py::object field(const ShapeOptimizer& optimizer, int family) {
+  return call_native(optimizer, ExclusiveUse::Use::kReads,
+                     [&optimizer, family] { return PlaneVectors(optimizer.field(check_family(optimizer, family))); });
 }
 
-double energy(ShapeOptimizer& optimizer, const Targets& targets) {
-  const std::vector<Target> list = list_targets(targets);
-  const NativeCall call(optimizer);
-  return optimizer.energy(list);
+py::object energy(ShapeOptimizer& optimizer, const Targets& targets) {
+  return call_native(optimizer, [&optimizer, list = list_targets(targets)] { return optimizer.energy(list); });
 }
 
-LineScore score(ShapeOptimizer& optimizer, double length, int family) {
-  const NativeCall call(optimizer);
-  return optimizer.score(length, check_family(optimizer, family));
+py::object score(ShapeOptimizer& optimizer, double length, int family) {
+  return call_native(optimizer,
+                     [&optimizer, length, family] { return optimizer.score(length, check_family(optimizer, family)); });
 }
 
 }  // namespace
@@ -125,19 +126,22 @@ void bind_optimizer(py::module_& module) {
   const ShapeOptions shape;
   using Shape = ShapeOptimizer;
   using Release = py::call_guard<ReleaseGil>;
-  py::class_<ShapeOptimizer>(module, "ShapeOptimizer", py::module_local())
-      .def(py::init(&build_optimizer), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
-           py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
-           py::arg("partner") = py::none(), py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
-           py::arg("stencil") = "consistent", py::arg("linear_solver") = "cholmod",
-           py::arg("crease_rule") = "automatic", py::arg("marked_creases") = Indices(),
-           py::arg("crease_angle") = shape.creases.angle, py::arg("proximity") = shape.proximity,
-           py::arg("progress") = py::none())
-      .def_property_readonly("region", py::cpp_function(release_gil(&Shape::region)))
+  py::class_<ShapeOptimizer> optimizer(module, "ShapeOptimizer", py::module_local());
+  const auto define = [&](const auto&... arguments) {
+    optimizer.def(py::init(construct(&prepare_optimizer)), arguments...);
+    optimizer.def_static("create", create(&prepare_optimizer), arguments...);
+  };
+  define(py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
+         py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
+         py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(), py::arg("stencil") = "consistent",
+         py::arg("linear_solver") = "cholmod", py::arg("crease_rule") = "automatic",
+         py::arg("marked_creases") = Indices(), py::arg("crease_angle") = shape.creases.angle,
+         py::arg("proximity") = shape.proximity, py::arg("progress") = py::none());
+  optimizer.def_property_readonly("region", py::cpp_function(bind_method(&Shape::region)))
       .def_property_readonly("frame", &frame_rows)
-      .def_property_readonly("heights", py::cpp_function(release_gil(&Shape::heights)))
-      .def_property_readonly("positions", py::cpp_function(release_gil(&Shape::positions)))
-      .def_property_readonly("at_limit", py::cpp_function(release_gil(&Shape::at_limit)))
+      .def_property_readonly("heights", py::cpp_function(bind_method(&Shape::heights)))
+      .def_property_readonly("positions", py::cpp_function(bind_method(&Shape::positions)))
+      .def_property_readonly("at_limit", py::cpp_function(bind_method(&Shape::at_limit)))
       .def_property_readonly("free", py::cpp_function(&ShapeOptimizer::free, Release()))
       .def_property_readonly("active", py::cpp_function(&ShapeOptimizer::active, Release()))
       .def_property_readonly("changeable", py::cpp_function(&ShapeOptimizer::changeable, Release()))
@@ -147,15 +151,15 @@ void bind_optimizer(py::module_& module) {
       .def("theta", &theta, py::arg("family") = 0)
       .def("field", &field, py::arg("family") = 0)
       .def("energy", &energy, py::arg("target"))
-      .def("residual", release_gil(&Shape::residual), py::arg("target"))
+      .def("residual", bind_method(&Shape::residual), py::arg("target"))
       .def("score", &score, py::arg("length"), py::arg("family") = 0)
       .def("solve", &solve, py::arg("target"), py::kw_only(), py::arg("strategy") = to_string(minimizer.strategy),
            py::arg("gradient_tolerance") = minimizer.gradient_tolerance,
            py::arg("max_iterations") = minimizer.max_iterations, py::arg("limit") = py::none(),
            py::arg("progress") = py::none())
-      .def("watch", release_gil(&Shape::watch), py::arg("progress"))
-      .def("scale_move", release_gil(&Shape::scale_move), py::arg("share"))
-      .def("reset", release_gil(&Shape::reset));
+      .def("watch", bind_method(&Shape::watch), py::arg("progress"))
+      .def("scale_move", bind_method(&Shape::scale_move), py::arg("share"))
+      .def("reset", bind_method(&Shape::reset));
 }
 
 }  // namespace reflines

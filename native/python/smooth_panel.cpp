@@ -10,8 +10,8 @@
 #include "python/bind.h"
 #include "python/border_codes.h"
 #include "python/cage_arrays.h"
-#include "python/gil_handover.h"
 #include "python/index_arrays.h"
+#include "python/native_call.h"
 #include "python/option_names.h"
 #include "python/surroundings.h"
 
@@ -45,23 +45,16 @@ SmoothPanelOptions options_of(const std::string& lights, const std::optional<dou
   return options;
 }
 
-// Runs a press without the GIL and returns positions and report.
-template <typename Press>
-py::tuple run_unlocked(const Press& press) {
-  SmoothPanelResult result;
-  {
-    const ReleaseGil release;
-    result = press();
-  }
+py::object convert_result(SmoothPanelResult result) {
   return py::make_tuple(std::move(result.positions), std::move(result.report));
 }
 
-py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
-                      const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
-                      const std::optional<Indices>& partner, const Around& around,
-                      const std::optional<Indices>& face_of_triangle, const std::string& lights,
-                      const std::optional<double>& length, double strength, const std::optional<double>& limit,
-                      const Shares& limit_share, bool symmetric, std::shared_ptr<Progress> progress) {
+py::object smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
+                       const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
+                       const std::optional<Indices>& partner, const Around& around,
+                       const std::optional<Indices>& face_of_triangle, const std::string& lights,
+                       const std::optional<double>& length, double strength, const std::optional<double>& limit,
+                       const Shares& limit_share, bool symmetric, std::shared_ptr<Progress> progress) {
   SmoothPanelOptions options = options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -69,18 +62,19 @@ py::tuple smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_
   options.around = surroundings_of(around);
   if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
   const Triangles triangles = triangles_of(F);
-  return run_unlocked([&] { return smooth_panel(V, triangles, view_direction, line_direction, options); });
+  return run_native([=] { return smooth_panel(V, triangles, view_direction, line_direction, options); },
+                    convert_result);
 }
 
-py::tuple smooth_cage(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
-                      const Vector3& view_direction, const Vector3& line_direction, const std::optional<Mask>& region,
-                      const Codes& border, const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
-                      const std::optional<Indices>& image_of, int level, const std::string& scheme,
-                      const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness,
-                      const Indices& corners, const Numbers& corner_sharpness, bool limit_surface,
-                      const std::string& lights, const std::optional<double>& length, double strength,
-                      const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
-                      std::shared_ptr<Progress> progress) {
+py::object smooth_cage(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
+                       const Vector3& view_direction, const Vector3& line_direction, const std::optional<Mask>& region,
+                       const Codes& border, const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
+                       const std::optional<Indices>& image_of, int level, const std::string& scheme,
+                       const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness,
+                       const Indices& corners, const Numbers& corner_sharpness, bool limit_surface,
+                       const std::string& lights, const std::optional<double>& length, double strength,
+                       const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
+                       std::shared_ptr<Progress> progress) {
   const SmoothPanelOptions options =
       options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
@@ -88,8 +82,8 @@ py::tuple smooth_cage(const Positions& V, const Indices& face_offsets, const Ind
   CageOptions cage_options = cage_options_of(region, border, V.rows(), fixed, partner);
   if (image_of) cage_options.image_of = index_vector(*image_of);
   cage_options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
-  return run_unlocked(
-      [&] { return smooth_cage_panel(cage, V, view_direction, line_direction, cage_options, options); });
+  return run_native([=] { return smooth_cage_panel(cage, V, view_direction, line_direction, cage_options, options); },
+                    convert_result);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "python/bind.h"
 #include "python/cage_arrays.h"
-#include "python/gil_handover.h"
+#include "python/native_call.h"
 #include "reflines/errors.h"
 
 namespace reflines {
@@ -25,16 +25,16 @@ struct SubdividedCage {
   Subdivision result;
 };
 
-std::unique_ptr<SubdividedCage> build_subdivision(const Indices& face_offsets, const Indices& face_vertices,
-                                                  int vertices, int level, const std::string& scheme,
-                                                  const std::string& boundary, const Indices& creases,
-                                                  const Numbers& crease_sharpness, const Indices& corners,
-                                                  const Numbers& corner_sharpness, bool limit) {
+using BuildSubdivision = std::function<std::unique_ptr<SubdividedCage>()>;
+
+BuildSubdivision prepare_subdivision(const Indices& face_offsets, const Indices& face_vertices, int vertices, int level,
+                                     const std::string& scheme, const std::string& boundary, const Indices& creases,
+                                     const Numbers& crease_sharpness, const Indices& corners,
+                                     const Numbers& corner_sharpness, bool limit) {
   const Cage cage =
       cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness}, vertices);
   const SubdivisionOptions options = subdivision_options(level, scheme, boundary, limit);
-  const ReleaseGil release;
-  return std::make_unique<SubdividedCage>(SubdividedCage{vertices, subdivide(cage, options)});
+  return [=] { return std::make_unique<SubdividedCage>(SubdividedCage{vertices, subdivide(cage, options)}); };
 }
 
 Positions cage_positions(const SubdividedCage& cage, const Numbers& V) {
@@ -65,12 +65,15 @@ py::tuple matrix(const SubdividedCage& cage) {
 
 void bind_subdivision(py::module_& module) {
   const SubdivisionOptions defaults;
-  py::class_<SubdividedCage>(module, "Subdivision", py::module_local())
-      .def(py::init(&build_subdivision), "face_offsets"_a, "face_vertices"_a, py::kw_only(), "vertices"_a,
-           "level"_a = defaults.level, "scheme"_a = "catmull_clark", "boundary"_a = "all", "creases"_a = Indices(),
-           "crease_sharpness"_a = Numbers(), "corners"_a = Indices(), "corner_sharpness"_a = Numbers(),
-           "limit"_a = defaults.limit)
-      .def_property_readonly("faces", [](const SubdividedCage& cage) { return cage.result.faces; })
+  py::class_<SubdividedCage> subdivision(module, "Subdivision", py::module_local());
+  const auto define = [&](const auto&... arguments) {
+    subdivision.def(py::init(construct(&prepare_subdivision)), arguments...);
+    subdivision.def_static("create", create(&prepare_subdivision), arguments...);
+  };
+  define("face_offsets"_a, "face_vertices"_a, py::kw_only(), "vertices"_a, "level"_a = defaults.level,
+         "scheme"_a = "catmull_clark", "boundary"_a = "all", "creases"_a = Indices(), "crease_sharpness"_a = Numbers(),
+         "corners"_a = Indices(), "corner_sharpness"_a = Numbers(), "limit"_a = defaults.limit);
+  subdivision.def_property_readonly("faces", [](const SubdividedCage& cage) { return cage.result.faces; })
       .def_property_readonly("face_parent", [](const SubdividedCage& cage) { return cage.result.face_parent; })
       .def("positions", &positions, "V"_a)
       .def("normals", &normals, "V"_a)

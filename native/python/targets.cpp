@@ -26,52 +26,54 @@ Target set_weight(Target target, const Maybe& weight) {
   return target;
 }
 
-Target smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family,
-              const Maybe& weight) {
-  const NativeCall call(optimizer);
-  return set_weight(
-      build_smooth_target(optimizer.field(family), optimizer.smoother(family), {length, directional}, strength, family),
-      weight);
+py::object smooth(ShapeOptimizer& optimizer, double length, double strength, bool directional, int family,
+                  const Maybe& weight) {
+  return call_native(optimizer, [=, &optimizer] {
+    return set_weight(build_smooth_target(optimizer.field(family), optimizer.smoother(family), {length, directional},
+                                          strength, family),
+                      weight);
+  });
 }
 
-Target uniform(ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative, double density_end,
-               const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
+py::object uniform(ShapeOptimizer& optimizer, const Vector2& direction, double density, bool relative,
+                   double density_end, const Vector2& axis, const Maybe& influence, const Maybe& weight, int family) {
   const UniformOptions options{direction, density, relative, density_end, axis};
-  const NativeCall call(optimizer);
-  return set_weight(build_uniform_target(optimizer.region_field(family), options, influence.value_or(Vector())),
-                    weight);
+  return call_native(optimizer, [=, &optimizer] {
+    return set_weight(build_uniform_target(optimizer.region_field(family), options, influence.value_or(Vector())),
+                      weight);
+  });
 }
 
-Target turn(ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
-  const NativeCall call(optimizer);
-  return set_weight(build_turned_target(optimizer.region_field(family), angle, influence.value_or(Vector())), weight);
+py::object turn(ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
+  return call_native(optimizer, [=, &optimizer] {
+    return set_weight(build_turned_target(optimizer.region_field(family), angle, influence.value_or(Vector())), weight);
+  });
 }
 
-Target keep(ShapeOptimizer& optimizer, int family) {
-  const NativeCall call(optimizer);
-  return build_kept_target(optimizer.field(family), family);
+py::object keep(ShapeOptimizer& optimizer, int family) {
+  return call_native(optimizer, [&optimizer, family] { return build_kept_target(optimizer.field(family), family); });
 }
 
-Vector falloff_at(ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
-  const NativeCall call(optimizer);
-  return falloff(optimizer.region_field(0), centre, radius, curve);
+py::object falloff_at(ShapeOptimizer& optimizer, const Vector2& centre, double radius, const Vector& curve) {
+  return call_native(optimizer,
+                     [=, &optimizer] { return Vector(falloff(optimizer.region_field(0), centre, radius, curve)); });
 }
 
-py::tuple warp(ShapeOptimizer& optimizer, const Vector2& low, const Vector2& high, int columns, int rows,
-               const PlanePositions& position, bool by_value, int family) {
-  WarpResult result;
-  {
-    const NativeCall call(optimizer);
-    result = build_warp_target(optimizer.region_field(family), {low, high, columns, rows, position}, by_value);
-  }
-  return py::make_tuple(result.target, result.outside);
+py::object warp(ShapeOptimizer& optimizer, const Vector2& low, const Vector2& high, int columns, int rows,
+                const PlanePositions& position, bool by_value, int family) {
+  return call_native(optimizer, [=, &optimizer] {
+    WarpResult result =
+        build_warp_target(optimizer.region_field(family), {low, high, columns, rows, position}, by_value);
+    return std::pair(std::move(result.target), result.outside);
+  });
 }
 
-Target pattern(ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double strength, double blur, double keep,
-               const Vector2& centre, double width, double angle, bool by_value, const Maybe& weight, int family) {
+py::object pattern(ShapeOptimizer& optimizer, const Eigen::MatrixXd& image, double strength, double blur, double keep,
+                   const Vector2& centre, double width, double angle, bool by_value, const Maybe& weight, int family) {
   const PatternOptions options{strength, blur, keep, centre, width, angle, by_value};
-  const NativeCall call(optimizer);
-  return set_weight(build_pattern_target(optimizer.region_field(family), image, options), weight);
+  return call_native(optimizer, [=, &optimizer] {
+    return set_weight(build_pattern_target(optimizer.region_field(family), image, options), weight);
+  });
 }
 
 // Throws where the frames differ: the dense panel is evaluated at the region's vertices in their common image plane.
@@ -82,18 +84,17 @@ void check_same_view(const ImagePlane& one, const ImagePlane& other) {
       "The optimizer and that of the dense mesh have different views or line directions; give both the same.");
 }
 
-py::tuple match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int family) {
-  DenseHeights wanted;
-  ShapeOptimizer::Lines lines;
-  {
-    const NativeCall call(optimizer);
+py::object match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int family) {
+  return call_native(optimizer, [&optimizer, &dense, family] {
     std::optional<ExclusiveUse> dense_use;
     if (&dense != &optimizer) dense_use.emplace(dense, ExclusiveUse::Use::kChanges);
     check_same_view(optimizer.frame(), dense.frame());
-    wanted = sample_dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());
-    lines = optimizer.evaluate_lines(wanted.height, wanted.area, family);
-  }
-  return py::make_tuple(lines.target, lines.theta, wanted.height, wanted.area);
+    DenseHeights wanted =
+        sample_dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());
+    ShapeOptimizer::Lines lines = optimizer.evaluate_lines(wanted.height, wanted.area, family);
+    return std::tuple(std::move(lines.target), std::move(lines.theta), std::move(wanted.height),
+                      std::move(wanted.area));
+  });
 }
 
 void bind_image_tools(py::module_& module) {

@@ -47,7 +47,7 @@ def transfer_rows(times: Times) -> list[Row]:
                 f"Fair Brush over 500 vertices, median of {len(times['dab_100k'])}; the slowest "
                 f"{max(times['dab_100k']):.0f} ms"),
             *(Row(f"drag_solve_p95_ms_{size}", p95(times[f"step_{size}"]), "ms",
-                  f"in the thread: target, solve, positions; median {middle(times[f'step_{size}']):.0f} ms of "
+                  f"of the job: target, solve, positions; median {middle(times[f'step_{size}']):.0f} ms of "
                   f"{len(times[f'step_{size}'])} steps") for size in ("10k", "100k"))]
 
 

@@ -111,7 +111,7 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
     dragging.panel(driver, SIZES["100k"])
     driver.move(400, 300)
     yield 1.0
-    view, worker = driver.area(), sys.modules["reflection_lines"].interactive.background_thread
+    view, worker = driver.area(), sys.modules["reflection_lines"].interactive.background_work
     with driver.override():
         bpy.ops.reflines.smooth('INVOKE_DEFAULT', True, follow_mouse=True)
     view.type = 'IMAGE_EDITOR'
@@ -124,7 +124,7 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
         yield LOOK
         now = 1e3 * (time.perf_counter() - start)
         control = control or now * (space.show_region_ui != shown)
-        ended = ended or now * (control > 0.0 and not bpy.app.timers.is_registered(worker.end_stopped_threads))
+        ended = ended or now * (control > 0.0 and not bpy.app.timers.is_registered(worker.end_stopped_works))
     yield 0.5
     start = time.perf_counter()
     driver.key('N')

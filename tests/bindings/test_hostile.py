@@ -1,7 +1,6 @@
 """What no script may do to the module: crash it, stop it for ever, fill the memory, or get a runaway result."""
 import os
 import resource
-import threading
 import time
 
 import numpy as np
@@ -29,22 +28,6 @@ def test_no_object_is_made_without_its_constructor(kind) -> None:
         kind.__new__(kind)
     with pytest.raises(TypeError):
         object.__new__(kind)
-
-
-def test_lending_a_turn_that_nobody_takes_ends() -> None:
-    start = time.monotonic()
-    reflines.PythonTurn().lend(0.01)
-    assert time.monotonic() - start < 7.0
-
-
-def test_lending_a_turn_to_a_thread_that_has_ended_ends() -> None:
-    turn = reflines.PythonTurn()
-    thread = threading.Thread(target=turn.take)  # never rests
-    thread.start()
-    turn.lend(0.01)
-    turn.lend(0.01)
-    turn.give_away()
-    thread.join()
 
 
 def runaway(solver: reflines.ShapeOptimizer, kind: str) -> reflines.Target:

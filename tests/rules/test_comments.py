@@ -23,6 +23,7 @@ IDIOM = {
     r"(?<!last )to the bit": "to the last bit", r"nobody sees": "invisible", r"speaks? for": "stands for, weight",
     r"what is left": "residual, remainder", r"Python's lock": "GIL", r"a hand\b(?!-)": "a drag", r"a stand-in": "model",
 }
+FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
 IDIOMS = re.compile(r"\b(" + "|".join(IDIOM) + r")\b")
 
 COMMENT_LINE = re.compile(r"^\s*//(?: (.*))?$")
@@ -75,9 +76,9 @@ def docstrings(file: Path) -> Iterator[tuple[int, str, bool]]:
     for node in ast.walk(ast.parse((ROOT / file).read_text())):
         if isinstance(node, ast.ClassDef) and "_OT_" in node.name:
             continue
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and (text := ast.get_docstring(node)):
+        if isinstance(node, ast.Module | ast.ClassDef | FUNCTIONS) and (text := ast.get_docstring(node)):
             names = [ast.unparse(decorator) for decorator in getattr(node, "decorator_list", [])]
-            is_function = isinstance(node, ast.FunctionDef) and not any("property" in name for name in names)
+            is_function = isinstance(node, FUNCTIONS) and not any("property" in name for name in names)
             yield node.body[0].lineno, text, is_function
 
 

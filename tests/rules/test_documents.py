@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from bench.report import KEPT, REACH
+from figures import tool_table
 from tree import ROOT, python_files
 
 README = Path("README.md")
@@ -14,11 +15,13 @@ BENCHMARKS = Path("tests/bench/README.md")
 MANUAL = Path("addon/manual/index.html")
 DOCUMENTS = (README, BENCHMARKS, MANUAL, Path("blend_samples/README.md"), Path("CHANGELOG.md"))
 LONGEST_README = 950   # words; the models of this project have 40 to 1,000
-LARGEST_PICTURES = 1e6  # bytes of all pictures that the package carries for the manual
+LARGEST_PICTURES = 1.1e6  # bytes of all pictures that the package carries for the manual
 
 MARKDOWN_LINK = re.compile(r"\]\(([^)\s]+)\)")
 IDNAME = re.compile(r'bl_idname = "(reflines\.\w+)"')
 ROW = re.compile(r"^\| `(\w+)` \|([^|\n]*)\|([^|\n]*)\|([^|\n]*)\|", re.MULTILINE)  # name, meaning, aim, measured
+TOOLS = re.compile(r'<section id="blender-tools">(.*)<table class="measured">\n<tr>.*?</tr>\n(.*?)\n</table>',
+                   re.DOTALL)  # the text above the table, its rows
 NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?(?:e-?\d+)?")
 
 
@@ -83,6 +86,14 @@ def test_the_manual_shows_all_pictures_that_the_package_carries() -> None:
 def test_the_readme_is_for_the_first_ten_minutes() -> None:
     words = len(text_of(README).split())
     assert words < LONGEST_README, f"README.md has {words} words: move some to the manual or the benchmark report"
+
+
+def test_the_manual_compares_tools_by_the_numbers_that_are_kept() -> None:
+    """Its table is the kept file's, and the text above it quotes no decimal that the table lacks."""
+    text, table = TOOLS.search(text_of(MANUAL)).groups()
+    assert table == tool_table.write_html()
+    quoted = set(re.findall(r"\d+\.\d+", text))
+    assert len(quoted) > 5 and not quoted - set(re.findall(r"\d+\.\d+", table))
 
 
 @cache

@@ -1,6 +1,7 @@
-"""The thread of drags, live warps and fits of normals, beside a Blender that is used meanwhile."""
-import threading
+"""The background work of drags, live warps and fits of normals, beside a Blender that is used meanwhile."""
+import sys
 import time
+import traceback
 from collections.abc import Callable, Generator
 
 import bpy
@@ -8,8 +9,8 @@ import numpy as np
 import pytest
 
 import scenes
-from reflection_lines import native
-from reflection_lines.interactive.background_thread import BackgroundThread
+from reflection_lines import native, native_call
+from reflection_lines.interactive.background_work import BackgroundWork
 
 PATIENCE = 30.0  # seconds
 OPERATORS = 500  # with a context of a script's: a thread that ran Python at any time crashed Blender within 100
@@ -20,7 +21,7 @@ def made() -> Generator[Callable[..., object], None, None]:
     workers = []
 
     def make(*how: Callable) -> object:
-        workers.append(BackgroundThread(*how))
+        workers.append(BackgroundWork(*how))
         return workers[-1]
 
     yield make
@@ -45,14 +46,14 @@ def small_solver() -> object:
                                                     line_direction=np.array([0.0, 1.0, 0.0]))
 
 
-def test_scripts_run_operators_while_the_thread_works(made):
-    """Blender asks whether any thread has Python's lock where it means whether it has been called from Python."""
+def test_scripts_run_operators_while_native_calls_run(made):
+    """Blender asks whether any thread has the GIL where it means whether it has been called from Python."""
     solver = small_solver()
 
-    def work(_: object) -> int:
+    async def work(_: object) -> int:
         calls = 0
         while not enough:
-            solver.score(1.0)
+            await native_call.call(solver.score, 1.0)
             calls += 1
         return calls
 
@@ -69,10 +70,10 @@ def test_scripts_run_operators_while_the_thread_works(made):
 def test_overtaken_requests_are_never_begun(made):
     solver, begun = small_solver(), []
 
-    def work(request: int) -> int:
+    async def work(request: int) -> int:
         begun.append(request)
         while not hold:
-            solver.score(1.0)
+            await native_call.call(solver.score, 1.0)
         return request
 
     worker, hold = made(work), []
@@ -87,9 +88,9 @@ def test_overtaken_requests_are_never_begun(made):
 
 def test_an_error_ends_the_work_and_is_told(made, monkeypatch):
     told = []
-    monkeypatch.setattr(threading, "excepthook", lambda error: told.append(error.exc_type))
+    monkeypatch.setattr(traceback, "print_exc", lambda: told.append(sys.exc_info()[0]))
 
-    def work(_: object) -> None:
+    async def work(_: object) -> None:
         raise ZeroDivisionError
 
     worker = made(work)
@@ -100,10 +101,54 @@ def test_an_error_ends_the_work_and_is_told(made, monkeypatch):
     assert worker.is_idle()
 
 
-def test_a_stopped_thread_gives_up_and_ends(made):
-    said = []
-    worker = made(lambda request: request, lambda: said.append("give up"))
+def test_errors_of_native_calls_can_be_handled(made):
+    """Those of the arguments, and those of the work."""
+    solver = small_solver()
+
+    async def work(call: tuple) -> str:
+        try:
+            await native_call.call(*call)
+        except (TypeError, native.InvalidInput) as error:
+            return type(error).__name__
+        return "none"
+
+    worker = made(work)
+    for call, wanted in (((solver.score, "long"), "TypeError"), ((solver.score, -1.0), "InvalidInput"),
+                         ((solver.score, 1.0), "none")):
+        worker.submit(call)
+        assert taken(worker) == wanted
+
+
+def test_long_native_calls_are_not_waited_for_and_short_ones_are(made):
+    solver, ended = small_solver(), []
+
+    async def work(times: int) -> int:
+        for _ in range(times):
+            if not ended:
+                await native_call.call(solver.score, 1.0)
+        return times
+
+    worker = made(work, lambda: ended.append(True))
+    worker.submit(1)
+    assert worker.has_outcome() and worker.take() == 1
+    start = time.monotonic()
+    worker.submit(10**6)
+    assert time.monotonic() - start < 1.0 and not worker.is_idle() and worker.take() is None
+
+
+def test_stopped_work_gives_up_and_ends(made):
+    said, solver = [], small_solver()
+
+    async def work(_: object) -> str:
+        while not said:
+            await native_call.call(solver.score, 1.0)
+        return "gave up"
+
+    worker = made(work, lambda: said.append("give up"))
     worker.submit("go")
-    threads = threading.active_count()
+    assert not worker.is_idle()
     worker.stop()
-    assert said and threading.active_count() == threads - 1
+    while not worker.try_to_end():
+        time.sleep(0.002)
+    assert said == ["give up"] and worker.is_idle()
+    assert solver.score(1.0).shift >= 0.0  # it is in no call any more
