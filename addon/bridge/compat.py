@@ -53,3 +53,22 @@ def read_edited_values(edited: bmesh.types.BMesh, domain: str, name: str) -> lis
     elements = edited.edges if domain == 'EDGE' else edited.verts
     layer = elements.layers.float.get(name)
     return [0.0] * len(elements) if layer is None else [element[layer] for element in elements]
+
+
+def find_action_curves(holder: bpy.types.AnimData | bpy.types.NlaStrip) -> bpy.types.bpy_prop_collection | None:
+    """Finds the F-curves with which an action animates the owner of the animation data, or of the strip; None without.
+
+    From Blender 4.4 on an action has some for each of its slots, in the layers' strips; from 5 on these only.
+    """
+    action = holder.action
+    if action is None or bpy.app.version < (4, 4, 0):
+        return None if action is None else action.fcurves
+    slot = holder.action_slot
+    bags = () if slot is None else (strip.channelbag(slot) for layer in action.layers for strip in layer.strips)
+    return next((bag.fcurves for bag in bags if bag is not None), None)
+
+
+def find_slot_number(holder: bpy.types.AnimData | bpy.types.NlaStrip) -> int:
+    """Returns the number of the action's slot that is used; 0 before Blender 4.4, where actions have none."""
+    slot = holder.action_slot if bpy.app.version >= (4, 4, 0) else None
+    return 0 if slot is None else slot.handle

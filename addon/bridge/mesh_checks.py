@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 
 from ..model.refusal import Refusal
-from . import compat
+from . import baked_keys, compat
 
 
 def refuse_unusable(ob: bpy.types.Object, key: str, *, shared: bool = False) -> None:
@@ -16,7 +16,7 @@ def refuse_unusable(ob: bpy.types.Object, key: str, *, shared: bool = False) -> 
     if mesh.override_library is not None:
         raise Refusal(f"The mesh of {ob.name} is linked from another file and overridden here, which keeps no moved "
                       "vertices: make it local")
-    if ob.mode != 'EDIT' and keys is not None and not key:
+    if ob.mode != 'EDIT' and keys is not None and not key and not baked_keys.has_only_baked_keys(ob):
         raise Refusal(f"{ob.name} has shape keys: enter Edit Mode on the key that is to be changed, "
                       "or choose the result Shape Key")
     if key and keys is not None and not keys.use_relative:

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 
-from . import read_mesh
+from . import baked_keys, read_mesh
 
 NAME = "Reflection Lines"
 
@@ -45,6 +45,9 @@ def read_original_shape(ob: bpy.types.Object) -> np.ndarray | None:
 
 def describe_hidden_key(ob: bpy.types.Object, name: str) -> tuple[str, ...]:
     """Describes why the result in the key of this name cannot be seen: a sentence, or nothing."""
+    if baked_keys.are_seen(ob):
+        return (f"Nothing of the result is seen, since the shape keys {baked_keys.NAME} are seen instead of it: bake "
+                "again, or delete them",)
     blocks = ob.data.shape_keys.key_blocks if ob.data.shape_keys is not None else {}
     key = blocks.get(name)
     if key is None or key.value != 0.0 and not key.mute:

@@ -1,6 +1,6 @@
 """A session with handles on lines: places under the mouse, handles and their history, and what is drawn.
 
-Solves, mesh and thread are those of drag.py; events are handled by operators/pull_line.py.
+Solves, mesh and work are those of drag.py; events are handled by operators/pull_line.py.
 """
 from collections.abc import Callable
 from dataclasses import replace
@@ -96,7 +96,9 @@ class LineDrag(Drag):
     # Places and handles
 
     def to_local(self, point: np.ndarray) -> tuple[float, float, float]:
-        return tuple(np.linalg.solve(self.patches[0].matrix, np.append(point, 1.0))[:3].tolist())
+        """Returns a point in object space, in single precision: so it is kept with the object."""
+        local = np.linalg.solve(self.patches[0].matrix, np.append(point, 1.0))[:3]
+        return tuple(local.astype(np.float32).tolist())
 
     def can_follow(self, points: np.ndarray) -> np.ndarray:
         """Returns whether the lines at points of the image plane (#P x 2) can be laid elsewhere: #P, bool."""

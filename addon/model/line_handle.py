@@ -9,6 +9,8 @@ from .refusal import Refusal
 LARGEST = 1e15  # coordinate or radius: products of them stay finite
 MOST_HANDLES = 100
 MOST_POINTS = 64  # of a pinned line
+MOST_NUMBER = 2**31
+UNREADABLE = "The stored handles cannot be used: delete them in the sidebar, and pull the lines again"
 
 
 @dataclass(frozen=True)
@@ -23,6 +25,7 @@ class LineHandle:
     pinned: tuple[tuple[float, float, float], ...] = ()
     muted: bool = False
     curve: tuple[tuple[float, float, float], ...] = ()  # none, or two and more
+    number: int = 0  # its own among those of its object, as long as it is kept; 0: none yet
 
     @property
     def dots(self) -> tuple[tuple[float, float, float], ...]:
@@ -46,9 +49,10 @@ Handles = tuple[LineHandle, ...]
 
 
 def encode_handles(handles: Handles) -> str:
-    """Encodes handles as JSON; the numbers keep their bits."""
+    """Encodes handles as JSON, all of each; the numbers keep their bits."""
     return json.dumps([{"start": each.start, "end": each.end, "radius": each.radius, "pinned": each.pinned,
-                        "muted": each.muted, "curve": each.curve} for each in handles]) if handles else ""
+                        "muted": each.muted, "curve": each.curve, "number": each.number} for each in handles]
+                      ) if handles else ""
 
 
 def decode_handles(text: str) -> Handles:
@@ -59,20 +63,29 @@ def decode_handles(text: str) -> Handles:
             raise ValueError("no list of handles")
         return tuple(decode_handle(each) for each in stored)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError) as error:
-        raise Refusal("The stored handles cannot be used: delete them in the sidebar, and pull the lines again"
-                      ) from error
+        raise Refusal(UNREADABLE) from error
 
 
 def decode_handle(stored: dict) -> LineHandle:
-    pinned = stored["pinned"]
-    if not isinstance(pinned, list) or len(pinned) > MOST_POINTS:
-        raise ValueError("no pinned points")
     curve = stored.get("curve", [])  # files of before have none
-    if not isinstance(curve, list) or len(curve) > MOST_POINTS or len(curve) == 1:
+    if isinstance(curve, list) and len(curve) == 1:
         raise ValueError("no curve")
     return LineHandle(decode_point(stored["start"]), decode_point(stored["end"]), decode_number(stored["radius"]),
-                      tuple(decode_point(point) for point in pinned), stored["muted"] is True,
-                      tuple(decode_point(point) for point in curve))
+                      decode_points(stored["pinned"]), stored["muted"] is True,
+                      decode_points(curve), decode_own_number(stored.get("number", 0)))
+
+
+def decode_points(stored: list) -> tuple[tuple[float, float, float], ...]:
+    if not isinstance(stored, list) or len(stored) > MOST_POINTS:
+        raise ValueError("no points")
+    return tuple(decode_point(point) for point in stored)
+
+
+def decode_own_number(stored: int) -> int:
+    """Returns the number of a handle among those of its object."""
+    if isinstance(stored, bool) or not isinstance(stored, int) or not 0 <= stored <= MOST_NUMBER:
+        raise ValueError("no number of a handle")
+    return stored
 
 
 def decode_point(stored: list) -> tuple[float, float, float]:
@@ -81,6 +94,13 @@ def decode_point(stored: list) -> tuple[float, float, float]:
 
 
 def decode_number(stored: float) -> float:
+    """Returns a finite number in single precision, as animated values and meshes have it: a handle that is kept with an
+    object is solved to the same bits as the text that it came from.
+    """
+    return float(np.float32(decode_double(stored)))
+
+
+def decode_double(stored: float) -> float:
     """Returns a finite number."""
     if isinstance(stored, bool) or not isinstance(stored, int | float) or not abs(stored) < LARGEST:
         raise ValueError("no number")

@@ -5,7 +5,7 @@ In a drag Enter keeps the result and its values, Esc takes all back.
 import bpy
 from bpy.props import BoolProperty
 
-from ..bridge import modifiers
+from ..bridge import baked_keys, modifiers
 from ..bridge.read_falloff import choose_radius
 from ..interactive import drag_input
 from ..interactive.drag import Drag
@@ -91,6 +91,8 @@ class DraggedTool(SolveTool):
         context.view_layer.update()
         self.copy_settings(context.scene)
         try:
+            if self.follow_mouse:
+                self.refuse_hidden(context)
             self.drag = self.begin_drag(context) if self.follow_mouse else Drag(self, context, final=True)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
@@ -105,6 +107,12 @@ class DraggedTool(SolveTool):
         """Returns the settings of the automatic press that takes the place of a solve; None for most tools."""
         return None
 
+    def refuse_hidden(self, context: bpy.types.Context) -> None:
+        """Refuses a drag of which nothing would be seen."""
+        for ob in self.find_subjects(context):
+            if ob.mode == 'OBJECT' and baked_keys.are_seen(ob):
+                raise Refusal(f"{ob.name} shows the shape keys {baked_keys.NAME}: drag in Edit Mode, or mute them")
+
     def begin_drag(self, context: bpy.types.Context) -> Drag:
         """Begins the drag; refuses what cannot be dragged."""
         return Drag(self, context)
@@ -118,14 +126,14 @@ class DraggedTool(SolveTool):
             return {'CANCELLED'}
 
     def handle_timer(self, context: bpy.types.Context) -> set[str]:
-        """Submits moved values, and takes what the thread has finished."""
+        """Submits moved values, and takes what the work has finished."""
         drag = self.drag
-        if drag.moved and drag.thread.is_idle():
+        if drag.moved and drag.work.is_idle():
             drag.submit_request(context)  # not at each move: Blender redraws all windows when a property is set
-        outcome = drag.thread.take()
-        if drag.unmeasured and drag.thread.is_idle() and outcome is None:
+        outcome = drag.work.take()
+        if drag.unmeasured and drag.work.is_idle() and outcome is None:
             drag.submit_measurement()
-        if outcome is None and not drag.thread.is_alive():
+        if outcome is None and not drag.work.is_alive():
             return self.cancel_drag(context, "The solver stopped: the mesh is as it was before")
         if outcome is not None and (outcome.refusal or outcome.solutions or not drag.keeping):
             return self.take_outcome(context, outcome)

@@ -1,14 +1,14 @@
 """Pull Line."""
 from dataclasses import replace
-from functools import partial
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, IntVectorProperty, StringProperty
+from bpy.props import BoolProperty, IntProperty, IntVectorProperty, StringProperty
 
-from ..bridge import facing, group_weights, pinned_faces, scene_objects
+from ..bridge import scene_objects
 from ..interactive import drag_input, drawn_lines
 from ..interactive.drag_handles import Handle
+from ..interactive.line_build import LineBuild
 from ..interactive.line_drag import LineDrag
 from ..interactive.solve_job import SolveOutcome
 from ..model import line_handle
@@ -16,10 +16,8 @@ from ..model.line_handle import Handles
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution
-from ..solver.formulation import Formulation, choose_formulation
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
-from ..targets.line_handles import HandleBuild, HandleTargets, SpreadFalloff
 from ..ui.tool_properties import PullSettings
 from .dragged_tool import DraggedTool
 
@@ -75,31 +73,26 @@ where a line was pulled to; Enter applies them all"""
 
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         if self.anew and not self.handles and not self.in_session:
-            self.handles = line_handle.encode_handles(ob.reflection_lines.handles.read(ob.data))
+            kept = ob.reflection_lines.handles
+            self.handles, self.are_kept = line_handle.encode_handles(kept.read(ob.data)), bool(kept.kept)
         handles = line_handle.decode_handles(self.handles)
         if not handles and not self.in_session:
             raise Refusal(f"{patch.name}: no line is pulled; press Pull Line in a 3D view and drag a line")
-        formulation = choose_formulation(patch, facing.read_patch_view(context.scene, patch))
-        images, handles = (handles if sign is None else line_handle.mirror_handles(handles, sign)
-                           for sign in (formulation.follow_sign, formulation.image_sign))
-        if self.pinned is None:
-            self.pinned = pinned_faces.read_pinned_faces(ob)
-            self.builder.spread_falloff = read_spread_falloff(ob, patch, formulation)
-        choose_pinned = partial(formulation.choose_triangles, chosen=self.pinned)
-        return HandleBuild(self.builder, handles, images, patch.matrix, choose_pinned)
+        return self.lines.build(context.scene, ob, patch, handles)
 
     def begin(self, context: bpy.types.Context, *, in_session: bool) -> None:
         """Begins a run: what it keeps for itself, beside the properties."""
-        self.builder = HandleTargets(2.0 * np.pi / context.scene.reflection_lines.stripes.count)
-        self.in_session = in_session
-        self.pinned: np.ndarray | None = None  # #faces, bool
+        self.lines = LineBuild(context.scene)
+        self.builder, self.in_session = self.lines.builder, in_session
+        self.are_kept = False            # whether the handles are those of the object, as it has them
+        self.told: tuple[str, ...] = ()  # of the keys of handles
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         self.begin(context, in_session=False)
         try:
             return super().execute(context)
         finally:
-            self.builder = None
+            self.lines = self.builder = None
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         self.follow_mouse = True
@@ -221,32 +214,38 @@ where a line was pulled to; Enter applies them all"""
             (drag.step_forward if event.shift else drag.step_back)()
 
     def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
-        return self.builder.conflicts + self.builder.missed
+        return self.builder.conflicts + self.builder.missed + self.told
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
         held = self.builder.missed and not solution.report.limited and self.border != 'free'
+        if not self.are_kept:
+            self.keep_handles(ob)
         super().record_solution(ob, replace(solution, remedy="free") if held else solution)
-        ob.reflection_lines.handles.keep(self.handles, ob.data)
+
+    def keep_handles(self, ob: bpy.types.Object) -> None:
+        """Keeps the handles with the object, and takes their numbers for the redo panel."""
+        kept = ob.reflection_lines.handles
+        self.told = kept.keep(line_handle.decode_handles(self.handles), ob.data)
+        self.handles = line_handle.encode_handles(kept.read(ob.data))
 
     def end_drag(self, context: bpy.types.Context) -> None:
         super().end_drag(context)
-        self.builder = None
-
-
-def read_spread_falloff(ob: bpy.types.Object, patch: Patch, formulation: Formulation) -> SpreadFalloff | None:
-    """Reads the fall-off map of the object's handles, to be spread over an optimizer's vertices; None without one."""
-    name = ob.reflection_lines.follow_group
-    if not name:
-        return None
-    weights = group_weights.read_group_weights(ob, name, "the handles")[patch.index]
-    return partial(formulation.spread_weights, weights=weights)
+        self.lines = self.builder = None
 
 
 class REFLINES_OT_delete_handles(bpy.types.Operator):
-    """Delete the handles that are kept with the active object; its shape stays as it is"""
+    """Delete the handles that are kept with the active object, with their keys; its shape stays as it is"""
     bl_idname = "reflines.delete_handles"
     bl_label = "Delete Handles"
     bl_options = {'REGISTER', 'UNDO'}
+
+    index: IntProperty(default=-1, options={'HIDDEN', 'SKIP_SAVE'}, description="The only one to delete; -1: all")
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Returns the tooltip of the button for one handle; empty for the other, which has the docstring."""
+        one = properties.index >= 0
+        return "Delete this handle, with its keys; the shape stays as it is until Re-solve" if one else ""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -256,8 +255,23 @@ class REFLINES_OT_delete_handles(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = scene_objects.find_active_object(context)
-        ob.reflection_lines.handles.keep("", ob.data)
+        try:
+            left = self.find_left(ob)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        for note in ob.reflection_lines.handles.keep(left, ob.data):
+            self.report({'WARNING'}, f"{ob.name}: {note}")
         return {'FINISHED'}
+
+    def find_left(self, ob: bpy.types.Object) -> Handles:
+        """Returns the handles that stay; all go where they cannot be used."""
+        if self.index < 0:
+            return ()
+        if ob.mode == 'EDIT':
+            ob.update_from_editmode()
+        handles = ob.reflection_lines.handles.read(ob.data)
+        return tuple(each for index, each in enumerate(handles) if index != self.index)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_pull_line, REFLINES_OT_delete_handles])

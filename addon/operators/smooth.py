@@ -8,6 +8,7 @@ from ..bridge import facing
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
 from ..model.solution import BuildCrossed, Solution, SolveSettings
+from ..native_call import run_now
 from ..solver import automatic_smooth, live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
@@ -82,7 +83,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         settings = self.choose_press()
         seen = facing.read_patch_view(context.scene, patch)
         with live_optimizer.convert_native_errors(patch):
-            return automatic_smooth.smooth_panel(patch, seen, self.border, settings)
+            return run_now(automatic_smooth.smooth_panel(patch, seen, self.border, settings))
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_smooth])

@@ -24,12 +24,14 @@ def save_solves(*_: object) -> None:
 
 @persistent
 def load_solves(*_: object) -> None:
-    """Reads the last solves from the properties, after a file was opened."""
+    """Reads the last solves from the properties, after a file was opened; handles of a file of before can be keyed."""
     for ob in bpy.data.objects:
         text = ob.reflection_lines.last
         found = solve_record.decode_solve(ob, text) if text and ob.type == 'MESH' else None
         if found is not None:
             solve_history.remember_solve(LastSolve(*found))
+        if ob.type == 'MESH' and ob.library is None and ob.override_library is None:
+            ob.reflection_lines.handles.adopt(ob.data)
 
 
 @persistent

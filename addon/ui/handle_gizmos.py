@@ -38,7 +38,8 @@ class VIEW3D_GGT_reflines_handles(bpy.types.GizmoGroup):
         ob = context.view_layer.objects.active
         tool = context.workspace.tools.from_space_view3d_mode(context.mode, create=False)
         draws = tool is not None and tool.idname == DRAWING
-        key = ob.reflection_lines.handles.text, len(ob.data.vertices), [*map(tuple, ob.matrix_world)], draws
+        kept = ob.reflection_lines.handles  # a frame may change the values
+        key = kept.text, kept.read_values(), len(ob.data.vertices), [*map(tuple, ob.matrix_world)], draws
         if key != self.key:
             self.key = key
             self.place_dots(read_handles(ob), ob.matrix_world, draws=draws)

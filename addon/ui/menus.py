@@ -38,6 +38,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.operator("reflines.freeze_eye", icon='FREEZE')
         layout.operator("reflines.install_matcap", icon='MATSPHERE')
         layout.operator("reflines.resolve", icon='FILE_REFRESH')
+        layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
         layout.operator("reflines.store_result", icon='SPREADSHEET')
         layout.operator("reflines.check", icon='CHECKMARK')
 

@@ -193,8 +193,6 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
         pins = layout.row(align=True)
         pins.operator("reflines.pin_lines", icon='PINNED')
         pins.operator("reflines.pin_lines", text="", icon='UNPINNED').unpin = True
-        if ob is not None and ob.reflection_lines.handles.text:
-            layout.operator("reflines.delete_handles", icon='X')
 
 
 class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):

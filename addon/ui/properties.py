@@ -13,8 +13,8 @@ from .automatic_values import shown_property, switch_property
 from .check_properties import ReflinesCheck, ReflinesMarks
 from .handle_properties import ReflinesHandles
 from .stripe_properties import ReflinesSetups, ReflinesStripes
-from .tool_properties import (ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesUntwist,
-                              ReflinesWarp, SmoothSettings)
+from .tool_properties import (ReflinesBake, ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
+                              ReflinesUntwist, ReflinesWarp, SmoothSettings)
 
 LONGEST = 1e15  # length that is read from a file
 FLOAT_EPSILON = 2.0**-23  # of the coordinates of a mesh
@@ -265,6 +265,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     pull: PointerProperty(type=ReflinesPull)
+    bake: PointerProperty(type=ReflinesBake)
     brush: PointerProperty(type=ReflinesBrush)
     warp: PointerProperty(type=ReflinesWarp)
     live: PointerProperty(type=ReflinesLive)

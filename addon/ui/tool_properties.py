@@ -54,6 +54,7 @@ LIGHTS = (
      "not show cannot pay for the other"),
     ('SINGLE', "This Light", "Only the light as it is"),
 )
+LAST_FRAME = 1048574  # of Blender
 SAVED = {'options': {'SKIP_SAVE'}}
 # With the numbers that files hold: a new border gets a new one.
 BORDERS = (
@@ -190,6 +191,16 @@ class PullSettings:
                           "it, instead of the line at its start")
 
 
+class BakeSettings:
+    start: IntProperty(name="Start", min=-LAST_FRAME, max=LAST_FRAME, **SAVED,
+                       description="First frame; where the end is not after it, the range is that of the handles' keys")
+    end: IntProperty(name="End", min=-LAST_FRAME, max=LAST_FRAME, **SAVED,
+                     description="Last frame; 0 with the start 0: the range of the handles' keys")
+    step: IntProperty(name="Step", default=5, min=1, soft_max=50, max=10000, **SAVED,
+                      description="Frames from one solve to the next; keyed frames are solved besides, and between the "
+                      "shapes run evenly")
+
+
 class BrushSettings:
     border: border_property()
     size: IntProperty(name="Size", default=60, min=2, soft_max=500, max=5000, subtype='PIXEL', **SAVED,
@@ -208,6 +219,10 @@ class ReflinesUntwist(UntwistSettings, bpy.types.PropertyGroup):
 
 class ReflinesPull(PullSettings, bpy.types.PropertyGroup):
     """The scene's settings of Pull Line."""
+
+
+class ReflinesBake(BakeSettings, bpy.types.PropertyGroup):
+    """The scene's settings of Bake Handles."""
 
 
 class ReflinesBrush(BrushSettings, bpy.types.PropertyGroup):
@@ -230,4 +245,4 @@ class ReflinesPattern(PatternSettings, bpy.types.PropertyGroup):
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    ReflinesDirection, ReflinesUntwist, ReflinesPull, ReflinesBrush, ReflinesWarp, ReflinesPattern])
+    ReflinesDirection, ReflinesUntwist, ReflinesPull, ReflinesBake, ReflinesBrush, ReflinesWarp, ReflinesPattern])

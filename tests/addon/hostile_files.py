@@ -112,6 +112,14 @@ HANDLES = {
     "a pin at one point": json.dumps([{**UP, "pinned": [UP["start"]]}]),
     "a curve at one point": json.dumps([{**UP, "curve": [UP["start"]] * 64}]),
 }
+FIXED = {"number": 1, "start": [0.1, 0.0, 0.0], "pinned": [], "bends": []}
+VALUES = {"place": [0.1, 0.1, 0.0], "radius": 0.5, "muted": 0}
+KEPT = {
+    "a place that is no number": [{**VALUES, "place": [NAN, 0.0, 0.0]}],
+    "a radius without end": [{**VALUES, "radius": INF}],
+    "a place of two numbers": [{**VALUES, "place": [0.1, 0.1]}], "a place that is text": [{**VALUES, "place": "here"}],
+    "more values than handles": [VALUES, VALUES], "numbers": [1.0, 2.0], "a number": 5, "an empty group": [{}],
+}
 
 
 def change_record(change: Callable[[Arrays], None], ob: bpy.types.Object) -> None:
@@ -133,8 +141,22 @@ def set_run(run: tuple[str, str], ob: bpy.types.Object) -> None:
 
 
 def set_handles(text: str, ob: bpy.types.Object) -> None:
-    ob.reflection_lines.handles.keep(text, ob.data)
+    stored = ob.reflection_lines.handles
+    stored.text, stored.vertices, stored.faces = text, len(ob.data.vertices), len(ob.data.polygons)
     set_run(("REFLINES_OT_pull_line", "{}"), ob)
+
+
+def set_values(values: object, ob: bpy.types.Object) -> None:
+    """Handles of this version, with values that it never stores."""
+    set_handles(json.dumps([FIXED]), ob)
+    put_object("handles.kept", values, ob)
+
+
+def key_handles(frames: tuple[float, ...], ob: bpy.types.Object) -> None:
+    """A handle whose place is keyed, in a file whose last solve was another tool's or none."""
+    set_values([VALUES], ob)
+    for frame in frames:
+        ob.reflection_lines.handles.kept[0].keyframe_insert("place", frame=frame)
 
 
 def set_attribute(name: str, kind: str, domain: str, value: float | None, ob: bpy.types.Object) -> None:
@@ -246,6 +268,8 @@ FILES: dict[str, Change] = {
     **{f"record that unpacks to {shape.decode()}": partial(set_bomb, shape) for shape in BOMBS},
     **{f"run: {name}": partial(set_run, run) for name, run in (RUNS | ODD_RUNS).items()},
     **{f"handles: {name}": partial(set_handles, text) for name, text in HANDLES.items()},
+    **{f"kept handles: {name}": partial(set_values, values) for name, values in KEPT.items()},
+    **{f"handles keyed at {frames}": partial(key_handles, frames) for frames in ((1.0, 11.0), (0.0, 1e6))},
     **{f"attribute {name} of {kind} by {domain}, {value}":
        partial(set_attribute, f"reflines_{name}", kind, domain, value) for name, kind, domain, value in (
            ("border", 'INT', 'POINT', 99), ("border", 'INT', 'POINT', -5), ("border", 'FLOAT', 'POINT', 2.0),

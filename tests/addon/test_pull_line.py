@@ -7,9 +7,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from mathutils import Matrix
 
 import scenes
+from keying import fresh, mirror_half, pull
 
 UP = {"start": (0.1, 0.0, 0.0), "end": (0.1, 0.1, 0.0), "radius": 0.5, "pinned": [], "muted": False}
 
@@ -20,15 +20,7 @@ def text(*handles: dict) -> str:
 
 @pytest.fixture
 def panel() -> bpy.types.Object:
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    ob = scenes.panel(cells=32, height=scenes.crown)
-    scenes.look_from_above()
-    scenes.edit_inner(ob, 32)
-    return ob
-
-
-def pull(*handles: dict, **settings: object) -> set[str]:
-    return bpy.ops.reflines.pull_line('EXEC_DEFAULT', True, handles=text(*handles), **settings)
+    return fresh()
 
 
 def moved(ob: bpy.types.Object, before: np.ndarray) -> np.ndarray:
@@ -79,7 +71,7 @@ def test_handles_are_kept_and_solved_again_after_saving(panel, tmp_path: Path) -
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "pulled.blend"))
     ob = bpy.data.objects[name]
     kept, muted = ob.reflection_lines.handles.read(ob.data)
-    assert kept.end == UP["end"] and not kept.muted and muted.muted
+    assert kept.end == tuple(np.float32(UP["end"]).tolist()) and not kept.muted and muted.muted
     assert bpy.ops.reflines.resolve() == {'FINISHED'}
     assert np.abs(scenes.positions(ob) - once).max() < 1e-6 < np.abs(once - before).max()
     assert bpy.ops.reflines.delete_handles() == {'FINISHED'}
@@ -105,7 +97,8 @@ def test_texts_of_another_origin_are_refused(panel, bad: str) -> None:
     with pytest.raises(RuntimeError, match="stored handles cannot be used"):
         bpy.ops.reflines.pull_line('EXEC_DEFAULT', handles=bad)
     assert scenes.fingerprint(panel) == before
-    panel.reflection_lines.handles.keep(bad, panel.data)
+    stored = panel.reflection_lines.handles
+    stored.text, stored.vertices, stored.faces = bad, len(panel.data.vertices), len(panel.data.polygons)
     with pytest.raises(Exception, match="stored handles cannot be used"):
         panel.reflection_lines.handles.read(panel.data)
 
@@ -209,11 +202,7 @@ def test_a_group_of_1_changes_no_bit_and_one_that_is_missing_is_told(panel) -> N
 def test_a_group_holds_lines_of_cages_and_of_mirror_images(panel, mirrored: str) -> None:
     """Weights of the cage's vertices are spread over its surface, and over both halves."""
     if mirrored == "modifier":
-        scenes.object_mode()
-        panel.data.transform(Matrix.Translation((1.0, 0.0, 0.0)))
-        panel.modifiers.new("Mirror", 'MIRROR')
-        scenes.edit(panel)
-        scenes.select_faces(panel, lambda face: face % 32 < 31 and 0 < face // 32 < 31)
+        mirror_half(panel)
     panel.data.use_mirror_x = mirrored == "Mirror X"
     if mirrored == "no":
         panel.modifiers.new("Subdivision", 'SUBSURF').levels = 2

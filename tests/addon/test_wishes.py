@@ -2,6 +2,7 @@
 import bpy
 import numpy as np
 import pytest
+from reflection_lines import native_call
 from reflection_lines.bridge import image_pixels
 from reflection_lines.native import reflines
 from reflection_lines.targets import direction, falloff
@@ -27,7 +28,7 @@ def test_the_density_varies_along_or_across_the_lines(surface, axis: str, varies
     """From 1 at the first triangle to 2 at the last, and not at all along the other direction. The lines run along y;
     in the picture that is (0, 1) up to the light's slant."""
     wish = direction.Direction(np.array([0.0, 1.0, 0.0]), density=1.0, density_end=2.0, axis=axis, count=1)
-    wanted = direction.build_direction_target(surface, wish).gradient
+    wanted = native_call.run_now(direction.build_direction_target(surface, wish)).gradient
     density = np.linalg.norm(wanted, axis=1) / TURN
     world = surface.centers @ surface.frame[:2, :2]
     share = world @ varies
@@ -68,7 +69,7 @@ def test_a_fall_off_has_its_shape(shape: str) -> None:
 
 def test_the_influence_is_the_curves_at_the_distance_from_the_centre(surface) -> None:
     place = falloff.Falloff(np.array([0.5, 0.5, 9.0]), 0.4, falloff.tabulate_preset('SMOOTH'))
-    influence = falloff.compute_influence(surface, place, 0.8)
+    influence = native_call.run_now(falloff.compute_influence(surface, place, 0.8))
     away = np.linalg.norm(surface.centers - surface.frame[:2] @ place.centre, axis=1) / place.radius
     t = np.clip(1.0 - away, 0.0, 1.0)
     assert np.abs(influence - 0.8 * t * t * (3.0 - 2.0 * t)).max() < 1e-4

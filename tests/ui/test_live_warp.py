@@ -228,8 +228,24 @@ def test_changes_by_hand_are_told_and_not_written_over(driver: window.Window) ->
     assert np.array_equal(positions(), changed)
 
 
-window.run(test_the_panel_follows_while_the_lattice_is_dragged,
-           test_what_follows_after_a_rest_is_near_what_is_kept,
+def test_another_panel_of_the_same_name_is_followed_from_its_own_start(driver: window.Window) -> Steps:
+    """A script removes the panel and starts the live warp of a smaller one, before Blender has told of either."""
+    yield from started(driver)
+    yield from grab(driver, 40)
+    driver.key('RET')
+    yield from dragging.settled(driver)
+    yield from started(driver, cells=14)
+    before = positions()
+    yield from grab(driver, 40)
+    yield from dragging.settled(driver)
+    assert np.abs(positions() - before).max() > 1e-4 and not says()
+    driver.key('ESC')
+    yield from dragging.settled(driver)
+    assert np.array_equal(positions(), before)
+
+
+window.run(test_another_panel_of_the_same_name_is_followed_from_its_own_start,
+           test_the_panel_follows_while_the_lattice_is_dragged, test_what_follows_after_a_rest_is_near_what_is_kept,
            test_undo_and_redo_of_the_lattice_take_the_panel_along,
            test_proportional_editing_scaling_and_object_transforms, test_a_fold_over_is_told_and_the_panel_waits,
            test_the_panel_follows_after_reload, test_apply_is_one_undo_step_and_the_panel_follows_on_after_it,

@@ -212,7 +212,8 @@ def test_nothing_is_cut_in_what_tools_leave_behind(driver: window.Window) -> Ste
     with driver.override():
         bpy.context.scene.reflection_lines.marks.angle = 0.0
         bpy.ops.reflines.check('EXEC_DEFAULT', True)
-    yield from nothing_is_cut(driver, "Solve with Border", "reflines.delete_handles", "reflines.export_check")
+    yield from nothing_is_cut(driver, "Solve with Border", "reflines.delete_handles", "reflines.bake_handles",
+                              "reflines.export_check")
     pull(driver, 0.0, 0.1, limit=2e-3)
     ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
     yield from nothing_is_cut(driver, "Solve with Limit", "reflines.fit", "Curvature", "Clamped")

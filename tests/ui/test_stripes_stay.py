@@ -82,6 +82,24 @@ def test_a_map_of_a_mesh_that_has_changed_says_so(driver: window.Window) -> Step
     assert explained(driver) == ""
 
 
+def test_stripes_follow_a_shape_key_that_is_played(driver: window.Window) -> Steps:
+    """Its value is keyed: the surface rises through where the stripes were."""
+    ob = flat_panel(driver, "Played")
+    with driver.override():
+        ob.shape_key_add(name="Basis")
+        high = ob.shape_key_add(name="High")
+        for point in high.data:
+            point.co.z += 0.1
+        for frame, value in ((1, 0.0), (9, 1.0)):
+            high.value = value
+            high.keyframe_insert("value", frame=frame)
+    counts = []
+    for frame in (1, 5, 9, 1):
+        bpy.context.scene.frame_set(frame)
+        counts.append((yield from count(driver)))
+    assert min(counts) > 10000 and max(counts) < 1.02 * min(counts), counts
+
+
 def test_all_visible_and_empty_scopes(driver: window.Window) -> Steps:
     ob = flat_panel(driver, "One")
     with driver.override():
@@ -182,6 +200,6 @@ def test_stripes_follow_a_stroke_in_sculpt_mode(driver: window.Window) -> Steps:
 
 window.run(test_stripes_stay_while_light_camera_or_nothing_is_active,
            test_after_opening_a_file_stripes_are_on_what_was_solved, test_a_map_of_a_mesh_that_has_changed_says_so,
-           test_all_visible_and_empty_scopes,
+           test_stripes_follow_a_shape_key_that_is_played, test_all_visible_and_empty_scopes,
            test_the_overlay_switch_hides_them, test_what_is_missing_is_said,
            test_stripes_follow_a_stroke_in_sculpt_mode)

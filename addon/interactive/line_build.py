@@ -1,0 +1,39 @@
+"""The targets of handles for one object, with what that holds of its lines: pinned faces and a fall-off map."""
+from functools import partial
+
+import bpy
+import numpy as np
+
+from ..bridge import facing, group_weights, pinned_faces
+from ..model import line_handle
+from ..model.line_handle import Handles
+from ..model.patch import Patch
+from ..solver.formulation import Formulation, choose_formulation
+from ..targets.line_handles import HandleBuild, HandleTargets, SpreadFalloff
+
+
+class LineBuild:
+    """Builds targets of handles again and again, while pins and fall-off of the object stay."""
+
+    def __init__(self, scene: bpy.types.Scene) -> None:
+        self.builder = HandleTargets(2.0 * np.pi / scene.reflection_lines.stripes.count)
+        self.pinned: np.ndarray | None = None  # #faces, bool
+
+    def build(self, scene: bpy.types.Scene, ob: bpy.types.Object, patch: Patch, handles: Handles) -> HandleBuild:
+        formulation = choose_formulation(patch, facing.read_patch_view(scene, patch))
+        images, handles = (handles if sign is None else line_handle.mirror_handles(handles, sign)
+                           for sign in (formulation.follow_sign, formulation.image_sign))
+        if self.pinned is None:
+            self.pinned = pinned_faces.read_pinned_faces(ob)
+            self.builder.spread_falloff = read_spread_falloff(ob, patch, formulation)
+        choose_pinned = partial(formulation.choose_triangles, chosen=self.pinned)
+        return HandleBuild(self.builder, handles, images, patch.matrix, choose_pinned)
+
+
+def read_spread_falloff(ob: bpy.types.Object, patch: Patch, formulation: Formulation) -> SpreadFalloff | None:
+    """Reads the fall-off map of the object's handles, to be spread over an optimizer's vertices; None without one."""
+    name = ob.reflection_lines.follow_group
+    if not name:
+        return None
+    weights = group_weights.read_group_weights(ob, name, "the handles")[patch.index]
+    return partial(formulation.spread_weights, weights=weights)

@@ -1,0 +1,131 @@
+"""The operator Bake Handles."""
+import bpy
+
+from ..bridge import scene_objects, view_and_light
+from ..interactive.background_work import BackgroundWork
+from ..interactive.handle_bake import HandleBake
+from ..model.refusal import Refusal
+from ..native_call import run_now
+from ..state import optimizer_cache
+from ..ui.tool_properties import BakeSettings
+
+TICK_INTERVAL = 0.01  # seconds between two looks at the background work
+CANCEL_KEYS = {'ESC', 'RIGHTMOUSE'}
+
+
+class REFLINES_OT_bake_handles(BakeSettings, bpy.types.Operator):
+    """Solve the keyed handles frame by frame, and keep each as a shape key that comes and goes with its frame: played,
+the scene moves the panel"""
+    bl_idname = "reflines.bake_handles"
+    bl_label = "Bake Handles"
+    bl_options = {'UNDO'}  # no redo panel: Blender would stand still for all frames
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = scene_objects.find_active_object(context)
+        if ob is None or ob.type != 'MESH' or not ob.reflection_lines.handles.text:
+            cls.poll_message_set("Make a panel active that has handles")
+            return False
+        obstacle = view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
+        cls.poll_message_set(obstacle)
+        return not obstacle
+
+    def begin(self, context: bpy.types.Context) -> None:
+        """Begins the bake; settings that are not given are the scene's."""
+        context.view_layer.update()
+        settings = context.scene.reflection_lines.bake
+        for name in ("start", "end", "step"):
+            if not self.properties.is_property_set(name):
+                setattr(self, name, getattr(settings, name))
+        self.bake = HandleBake(context.scene, scene_objects.find_active_object(context))
+        self.bake.begin(self.start, self.end, self.step)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            self.begin(context)
+            while not self.bake.is_done():
+                self.bake.take(run_now(self.bake.solve(self.bake.gather_next())))
+            return self.finish()
+        except Refusal as refusal:
+            return self.give_up(refusal)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Begins, and solves frame by frame in the background."""
+        if context.area is None:
+            return self.execute(context)
+        try:
+            self.begin(context)
+            request = self.bake.gather_next()
+        except Refusal as refusal:
+            return self.give_up(refusal)
+        self.work = BackgroundWork(self.bake.solve, self.bake.progress.cancel)
+        self.work.submit(request)
+        self.area = context.area
+        self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        self.show_progress(context)
+        return {'RUNNING_MODAL'}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Takes a frame and begins with the next, or ends. Other events are swallowed: an undo would meet a scene at
+        another frame.
+        """
+        if event.type in CANCEL_KEYS and event.value == 'PRESS':
+            self.end_modal(context)
+            self.bake.cancel()
+            return self.drop({'CANCELLED'})
+        if event.type != 'TIMER':
+            return {'RUNNING_MODAL'}
+        try:
+            solution = self.work.take()
+            if solution is None and self.work.is_alive():
+                return {'RUNNING_MODAL'}
+            self.bake.take(solution or Refusal("The solver stopped: the mesh is as it was before"))
+            if not self.bake.is_done():
+                self.work.submit(self.bake.gather_next())
+                self.show_progress(context)
+                return {'RUNNING_MODAL'}
+            self.end_modal(context)
+            return self.finish()
+        except Refusal as refusal:
+            self.end_modal(context)
+            return self.give_up(refusal)
+
+    def finish(self) -> set[str]:
+        self.bake.write()
+        for note in self.bake.describe_notes():
+            self.report({'WARNING'}, f"{self.bake.name}: {note}")
+        self.report({'INFO'}, self.bake.describe_result())
+        return self.drop({'FINISHED'})
+
+    def give_up(self, refusal: Refusal) -> set[str]:
+        """Says why nothing is kept of the bake."""
+        self.bake.cancel()
+        self.report({'ERROR'}, str(refusal))
+        return self.drop({'CANCELLED'})
+
+    def drop(self, result: set[str]) -> set[str]:
+        """Drops the bake, which holds a shape for each frame; returns the result."""
+        optimizer_cache.drop_surplus({self.bake.name})
+        self.bake = None
+        return result
+
+    def show_progress(self, context: bpy.types.Context) -> None:
+        self.area.header_text_set(self.bake.describe())
+        context.workspace.status_text_set("Esc: cancel")
+
+    def end_modal(self, context: bpy.types.Context) -> None:
+        self.work.stop()
+        self.work = None
+        context.window_manager.event_timer_remove(self.timer)
+        self.area.header_text_set(None)
+        context.workspace.status_text_set(None)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Goes back to the frame before, when Blender exits or opens another file."""
+        self.end_modal(context)
+        self.bake.leave()
+        self.drop(set())
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_bake_handles])
