@@ -3,6 +3,7 @@
 // other thread could block Blender's window for the time of a solve, so the second call is refused.
 #pragma once
 
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -33,11 +34,12 @@ class ExclusiveUse {
   const void* object_;
 };
 
-// Calls `work` on an object that is used by nobody else meanwhile; see run_native.
+// Calls `work` on an object that is used by nobody else meanwhile; see run_native. The object is reserved at once, not
+// by the thread in the background, so that of two calls the one that was started later is refused, whichever runs first.
 template <typename Object, typename Work>
 pybind11::object call_native(Object& object, ExclusiveUse::Use use, Work work) {
-  return run_native([&object, use, work = std::move(work)] {
-    const ExclusiveUse exclusive_use(object, use);
+  check_single_call();
+  return run_native([exclusive_use = std::make_shared<const ExclusiveUse>(object, use), work = std::move(work)] {
     return work();
   });
 }

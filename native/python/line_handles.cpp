@@ -24,8 +24,7 @@ Handle make_handle(const PlanePositions& points, const std::optional<double>& va
 
 std::function<std::unique_ptr<LineHandles>()> prepare_line_handles(ShapeOptimizer& optimizer, int family,
                                                                    const std::optional<Vector>& falloff) {
-  return [=, &optimizer] {
-    const ExclusiveUse exclusive_use(optimizer, ExclusiveUse::Use::kChanges);
+  return [=, exclusive_use = std::make_shared<const ExclusiveUse>(optimizer, ExclusiveUse::Use::kChanges), &optimizer] {
     return std::make_unique<LineHandles>(optimizer.region_field(family), optimizer.changeable(), optimizer.factorizer(),
                                          falloff.value_or(Vector()));
   };

@@ -26,6 +26,9 @@ struct NativeCall {
   std::function<pybind11::object()> convert;
 };
 
+// Refuses a second call within one `reflines.start`.
+void check_single_call();
+
 // Runs a call now. Within `reflines.start`, leaves it to that and returns None.
 pybind11::object run_or_defer(NativeCall call);
 

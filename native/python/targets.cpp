@@ -85,9 +85,9 @@ void check_same_view(const ImagePlane& one, const ImagePlane& other) {
 }
 
 py::object match_dense(ShapeOptimizer& optimizer, ShapeOptimizer& dense, int family) {
-  return call_native(optimizer, [&optimizer, &dense, family] {
-    std::optional<ExclusiveUse> dense_use;
-    if (&dense != &optimizer) dense_use.emplace(dense, ExclusiveUse::Use::kChanges);
+  std::shared_ptr<const ExclusiveUse> dense_use;
+  if (&dense != &optimizer) dense_use = std::make_shared<ExclusiveUse>(dense, ExclusiveUse::Use::kChanges);
+  return call_native(optimizer, [&optimizer, &dense, dense_use, family] {
     check_same_view(optimizer.frame(), dense.frame());
     DenseHeights wanted =
         sample_dense_heights(optimizer.region_field(family), dense.region_field(family), dense.heights());

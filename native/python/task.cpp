@@ -133,15 +133,22 @@ void wait_at_exit() {
 
 }  // namespace
 
+void check_single_call() {
+  if (deferred != nullptr && *deferred) {
+    throw InvalidInput("A task is one native call: start each of several by itself.");
+  }
+}
+
 py::object run_or_defer(NativeCall call) {
+  check_single_call();
   if (deferred != nullptr) {
-    if (*deferred) throw InvalidInput("A task is one native call: start each of several by itself.");
     *deferred = std::move(call);
     return py::none();
   }
   {
     const ReleaseGil release;
     call.work();
+    call.work = nullptr;  // ends its exclusive use
   }
   return call.convert();
 }

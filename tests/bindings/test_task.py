@@ -1,4 +1,5 @@
 """Calls in the background: the same results and errors as calls at once, and no second thread ever runs Python."""
+import contextlib
 import gc
 import subprocess
 import sys
@@ -92,16 +93,21 @@ def test_errors_come_with_the_result() -> None:
 def test_an_optimizer_at_work_refuses_others() -> None:
     optimizer = solver(150)
     task = start_solve(optimizer)
-    while not task.done:
-        try:
-            optimizer.score(0.3)
-        except reflines.InvalidInput as error:
-            assert "in use" in str(error)
-            break
-        time.sleep(0.001)
-    else:
-        pytest.fail("the optimizer was never refused")
+    with pytest.raises(reflines.InvalidInput, match="in use"):  # also before the thread has begun
+        optimizer.score(0.3)
+    with pytest.raises(reflines.InvalidInput, match="in use"):
+        reflines.start(optimizer.score, 0.3).result()
     assert task.result().converged and optimizer.score(0.3).shift > 0.0
+
+
+def test_work_that_is_started_is_not_refused_by_calls_that_come_later() -> None:
+    """Had the thread reserved the optimizer, a call that is made before it runs would have the task refused."""
+    optimizer = solver(4)
+    for _ in range(200):
+        task = reflines.start(optimizer.score, 0.3)
+        with contextlib.suppress(reflines.InvalidInput):
+            optimizer.energy(reflines.smooth(optimizer, length=0.3))
+        assert task.result().shift > 0.0
 
 
 def test_a_collected_task_leaves_nothing_at_work() -> None:
