@@ -35,13 +35,13 @@ class ExclusiveUse {
 };
 
 // Calls `work` on an object that is used by nobody else meanwhile; see run_native. The object is reserved at once, not
-// by the thread in the background, so that of two calls the one that was started later is refused, whichever runs first.
+// by the thread in the background, so that of two calls the one that was started later is refused, whichever runs
+// first.
 template <typename Object, typename Work>
 pybind11::object call_native(Object& object, ExclusiveUse::Use use, Work work) {
   check_single_call();
-  return run_native([exclusive_use = std::make_shared<const ExclusiveUse>(object, use), work = std::move(work)] {
-    return work();
-  });
+  return run_native(
+      [exclusive_use = std::make_shared<const ExclusiveUse>(object, use), work = std::move(work)] { return work(); });
 }
 
 template <typename Object, typename Work>
