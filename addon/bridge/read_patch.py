@@ -11,11 +11,12 @@ from . import (border_segments, mesh_checks, read_creases, read_limit_share, rea
 
 
 def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
-                      or_all: bool = False, shared: bool = False) -> Patch:
+                      or_all: bool = False, shared: bool = False, reach: float = 0.0) -> Patch:
     """Gathers the region: the selected faces in Edit Mode, the stored region in Object Mode.
 
     `local` (#vertices x 3, object space) replaces the coordinates of the mesh. With `or_all` all visible faces are
-    taken where no region is stored; with `shared` the mesh may belong to other objects too.
+    taken where no region is stored; with `shared` the mesh may belong to other objects too. `reach` is that of
+    the surroundings, see read_surroundings.
     """
     mesh_checks.refuse_unusable(ob, key, shared=shared)
     if ob.mode == 'EDIT':
@@ -27,7 +28,7 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         F = F[:, ::-1]  # a mirroring transform turns triangles over, but not what Blender calls their front
     whole = local @ matrix[:3, :3].T + matrix[:3, 3]
-    around = read_surroundings.read_surroundings(ob.data, faces, index, whole)
+    around = read_surroundings.read_surroundings(ob.data, faces, index, whole, reach)
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         around = Surroundings(around.V, around.F[:, ::-1])
     local, V = local[index], whole[index]

@@ -8,12 +8,17 @@ from . import read_mesh
 RINGS = 4  # of faces around the region: a fit at its border takes in three rings of vertices
 
 
-def read_surroundings(mesh: bpy.types.Mesh, faces: np.ndarray, index: np.ndarray, V: np.ndarray) -> Surroundings:
+def read_surroundings(mesh: bpy.types.Mesh, faces: np.ndarray, index: np.ndarray, V: np.ndarray,
+                      reach: float = 0.0) -> Surroundings:
     """Reads the surroundings of the chosen faces, whose vertices are `index` (#V of the mesh); V (#vertices x 3) is the
     whole mesh in world space. In Edit Mode the mesh must have been updated from it. Hidden faces count, too.
+
+    With a reach, a fraction of the diagonal of the region's bounding box, all faces connected with the region count
+    that have a vertex in the box widened by it.
     """
     corners, sizes = read_mesh.read_corners(mesh)
-    beside = find_rings(corners, sizes, len(V), index) & ~faces
+    found = find_within(corners, sizes, V, index, reach) if reach else find_rings(corners, sizes, len(V), index)
+    beside = found & ~faces
     around = corners[np.repeat(beside, sizes)]
     if not beside.any() or not np.isfinite(V[around]).all():
         return NOTHING_AROUND
@@ -24,14 +29,32 @@ def read_surroundings(mesh: bpy.types.Mesh, faces: np.ndarray, index: np.ndarray
     return Surroundings(V[own], number[F])
 
 
-def find_rings(corners: np.ndarray, sizes: np.ndarray, vertices: int, index: np.ndarray) -> np.ndarray:
-    """Finds the faces (#faces, bool) within RINGS rings of the vertices `index`."""
+def find_within(corners: np.ndarray, sizes: np.ndarray, V: np.ndarray, index: np.ndarray, reach: float) -> np.ndarray:
+    """Finds the faces (#faces, bool) connected with the vertices `index` through the widened box of these."""
+    low, high = V[index].min(axis=0), V[index].max(axis=0)
+    margin = reach * np.linalg.norm(high - low)
+    with np.errstate(invalid="ignore"):
+        inside = (np.abs(V - 0.5 * (low + high)) <= 0.5 * (high - low) + margin).all(axis=1)
+    near = np.logical_or.reduceat(inside[corners], np.cumsum(sizes) - sizes)
+    numbers = np.flatnonzero(near)
+    own_corners, own_sizes = corners[np.repeat(near, sizes)], sizes[near]
+    found = np.zeros(len(sizes), dtype=bool)
+    found[numbers[find_rings(own_corners, own_sizes, len(V), index, rings=len(numbers))]] = True
+    return found
+
+
+def find_rings(corners: np.ndarray, sizes: np.ndarray, vertices: int, index: np.ndarray,
+               rings: int = RINGS) -> np.ndarray:
+    """Finds the faces (#faces, bool) within so many rings of the vertices `index`."""
     face_of_corner = np.repeat(np.arange(len(sizes)), sizes)
     reached = np.zeros(vertices, dtype=bool)
     reached[index] = True
-    for _ in range(RINGS):
-        found = np.zeros(len(sizes), dtype=bool)
+    found = np.zeros(len(sizes), dtype=bool)
+    for _ in range(rings):
+        before = found.sum()
         found[face_of_corner[reached[corners]]] = True
+        if found.sum() == before:
+            break
         reached[corners[found[face_of_corner]]] = True
     return found
 

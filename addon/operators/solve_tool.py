@@ -117,7 +117,12 @@ class SolveTool:
         return optimizer_cache.solve_with_cache(patch, seen, settings, build)
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
-        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), shared=self.shared)
+        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), shared=self.shared,
+                                   reach=self.choose_reach())
+
+    def choose_reach(self) -> float:
+        """Returns how far the faces beside the region are read, in its diagonals; 0: some rings of them."""
+        return 0.0
 
     def begin_run(self, ob: bpy.types.Object) -> np.ndarray | None:
         """Returns the shape to begin with: #vertices x 3, None for the mesh as it is.

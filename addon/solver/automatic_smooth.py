@@ -21,6 +21,7 @@ class AutomaticSmooth:
     strength: float
     symmetric: bool
     limit: float | None = None  # largest move along the view, world units; None: automatic
+    fair_border: bool = False   # the border moves, too; see native/include/reflines/smooth_panel.h
 
 
 async def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
@@ -32,7 +33,8 @@ async def smooth_panel(patch: Patch, seen: View, border: str, settings: Automati
     """
     begin = time.perf_counter()
     formulation = choose_formulation(patch, seen)
-    press = await formulation.press_smooth(border, {**vars(settings), "progress": progress})
+    arguments = {**vars(settings), "progress": progress}
+    press = await formulation.press_smooth(border, arguments, fair=arguments.pop("fair_border"))
     told = press.told
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
     report = build_report(told, time.perf_counter() - begin)

@@ -14,6 +14,7 @@ from ..model.border import CODES, UNSET, fill_border, needs_surroundings
 from ..model.cage import CagePatch
 from ..model.line_surface import LineState
 from ..model.patch import Patch
+from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings, join_images
 from ..model.view import View
 from ..native_call import call
@@ -68,12 +69,16 @@ class Formulation:
         """Returns the directions as arguments of the native presses, which add the crossed lines themselves."""
         return {"view_direction": self.view.view_direction, "line_direction": self.view.line_direction}
 
-    def choose_border(self, border: str) -> str | np.ndarray:
-        """Returns the border, or its codes vertex by vertex (#V), as the native module takes it."""
+    def choose_own_border(self) -> np.ndarray:
+        """Returns the codes of the vertices (#V) that have a border of their own, border.UNSET for the others."""
         own = self.patch.border
         if self.patch.mirror is not None and self.patch.mirror.image:
             own = np.where(self.patch.mirror.seam, CODES["clamped"], own)
-        return fill_border(own, border)
+        return own
+
+    def choose_border(self, border: str) -> str | np.ndarray:
+        """Returns the border, or its codes vertex by vertex (#V), as the native module takes it."""
+        return fill_border(self.choose_own_border(), border)
 
     def read_around(self) -> Surroundings:
         """Returns the surroundings of all that is solved."""
@@ -83,11 +88,15 @@ class Formulation:
         """Returns each solved vertex's share of the limit, as Patch.share has it."""
         return self.patch.share
 
-    def choose_edges(self, border: str) -> dict[str, "str | np.ndarray | tuple[np.ndarray, np.ndarray] | None"]:
-        """Returns what holds at the border as arguments of the native module."""
+    def choose_edges(self, border: str, *,
+                     fair: bool = False) -> dict[str, "str | np.ndarray | tuple[np.ndarray, np.ndarray] | None"]:
+        """Returns what holds at the border as arguments of the native module; `fair` moves what has no border of its
+        own in the native press.
+        """
         codes = self.choose_border(border)
-        around = self.read_around() if needs_surroundings(codes) else None
-        return {"border": codes, "around": None if around is None else (around.V, around.F)}
+        around = self.read_around() if fair or needs_surroundings(codes) else None
+        edges = {"border": codes, "around": None if around is None else (around.V, around.F)}
+        return {**edges, "fair_border": self.choose_own_border() == UNSET} if fair else edges
 
     async def build(self, border: str, progress: "native.Progress | None", *,
                     sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
@@ -144,11 +153,11 @@ class Formulation:
             held[self.patch.creases.marked.ravel()] = True
         return held
 
-    async def press_smooth(self, border: str, settings: PressSettings) -> Press:
-        """Calls the native press of Smooth; raises the native module's errors."""
+    async def press_smooth(self, border: str, settings: PressSettings, *, fair: bool) -> Press:
+        """Calls the native press of Smooth, where `fair` with a border that moves, too; raises the module's errors."""
         positions, told = await call(
             native.reflines.smooth_panel, self.patch.V, self.patch.F, **self.choose_press_directions(),
-            fixed=self.hold_marked_creases(), partner=self.partner, **self.choose_edges(border),
+            fixed=self.hold_marked_creases(), partner=self.partner, **self.choose_edges(border, fair=fair),
             face_of_triangle=self.patch.face_of_triangle, limit_share=self.choose_share(), **settings)
         return Press(positions, told.stray, told)
 
@@ -189,9 +198,9 @@ class JoinedFormulation(Formulation):
         local, F, partner = mirror.join_with_image(self.patch.mirror, self.patch.local, self.patch.F)
         return self.patch.to_world(local), F, partner
 
-    def choose_border(self, border: str) -> str | np.ndarray:
+    def choose_own_border(self) -> np.ndarray:
         own = self.patch.border
-        return fill_border(np.append(own, own[self.partner[len(own):]]), border)
+        return np.append(own, own[self.partner[len(own):]])
 
     def choose_share(self) -> np.ndarray | None:
         own = self.patch.share
@@ -228,13 +237,13 @@ class JoinedFormulation(Formulation):
         own = len(self.patch.V)
         return self.patch.V + (positions - self.join()[0])[:own]
 
-    async def press_smooth(self, border: str, settings: PressSettings) -> Press:
+    async def press_smooth(self, border: str, settings: PressSettings, *, fair: bool) -> Press:
         V, F, partner = self.join()
         own = self.hold_marked_creases()
         held = np.append(own, own[partner[len(own):]])
         positions, told = await call(
             native.reflines.smooth_panel, V, F, **self.choose_press_directions(), fixed=held, partner=partner,
-            **self.choose_edges(border), face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
+            **self.choose_edges(border, fair=fair), face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
             limit_share=self.choose_share(), **settings)
         return Press(self.read_own_half(positions), told.stray[:len(self.patch.F)], told)
 
@@ -255,17 +264,15 @@ class CageFormulation(Formulation):
     def image_sign(self) -> np.ndarray | None:
         return np.where(np.arange(3) == self.patch.mirror_axis, -1.0, 1.0) if self.is_symmetric else None
 
-    def choose_border(self, border: str) -> str | np.ndarray:
-        """Returns the border, or its codes for the cage's vertices; the image of a Mirror modifier has those of the
-        mesh's own half.
-        """
+    def choose_own_border(self) -> np.ndarray:
+        """Returns the codes of the cage's vertices; the image of a Mirror modifier has those of the mesh's own half."""
         cage, index = self.patch.cage, self.patch.index
         own = np.full(len(cage.V), UNSET)
         own[index] = self.patch.border
         image = cage.partner[index]
         added = (image >= 0) & ~np.isin(image, index)
         own[image[added]] = self.patch.border[added]
-        return fill_border(own, border)
+        return own
 
     def choose_share(self) -> np.ndarray | None:
         if self.patch.share is None:
@@ -324,7 +331,10 @@ class CageFormulation(Formulation):
         own = np.flatnonzero(self.patch.faces)
         return np.repeat(values[own], self.patch.cage.sizes[own] - 2)
 
-    async def press_smooth(self, border: str, settings: PressSettings) -> Press:
+    async def press_smooth(self, border: str, settings: PressSettings, *, fair: bool) -> Press:
+        if fair:
+            raise Refusal(f"{self.patch.name}: the border of a cage cannot be faired: switch Fair Border off, or solve "
+                          "for the mesh")
         cage = self.patch.cage
         arguments = cage.build_arguments(self.is_symmetric)
         arguments["limit_surface"] = arguments.pop("limit")

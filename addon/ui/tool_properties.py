@@ -120,6 +120,9 @@ class SmoothSettings:
     symmetric: BoolProperty(name="Symmetric", default=True, **SAVED,
                             description="With the automatic length, what one half of a symmetric panel has and the "
                             "other has not is a flaw")
+    fair_border: BoolProperty(name="Fair Border", **SAVED,
+                              description="With the automatic length, move the border of the region, too, to where the "
+                              "faces beside it tell that it should run: a border that is held keeps its flaws")
     limit: limit_property()
 
     def draw_smooth(self, layout: bpy.types.UILayout, draw_value: Callable) -> None:
@@ -130,6 +133,7 @@ class SmoothSettings:
         automatic = layout.column()
         automatic.active = not self.length and not self.directional
         draw_switch(automatic, self, "symmetric")
+        draw_switch(automatic, self, "fair_border")
 
 
 class DirectionSettings(FalloffSettings):

@@ -204,6 +204,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  partner: np.ndarray | None = None,                 # #V, as in ShapeOptimizer
                  around: tuple[np.ndarray, np.ndarray] | None = None,  # as in ShapeOptimizer
                  face_of_triangle: np.ndarray | None = None,        # #F, as in ShapeOptimizer
+                 fair_border: np.ndarray | None = None,             # #V bool: border vertices that move, too, see below
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
                  length: float | None = None,                       # size of the flaws; None: the diagonal / 14
                  strength: float = 1.0,                             # share of the move that is made, 0 to 1
@@ -213,6 +214,9 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
     """Takes flaws (noise, ripples, dents) out of a panel and leaves its design alone: the whole press of Smooth, with all its
     automatic rules. Returns the positions (#V x 3; vertices that did not move carry the bits they came with) and a report.
+
+    A border that is held keeps its flaws. Border vertices with `fair_border` move instead, as inner ones do: the press then takes
+    in the faces of `around` within two lengths of the region, which stay, and everything is judged over the region alone.
 
     Raises InvalidInput, SolverFailure, and Cancelled where `progress` was cancelled."""
 

@@ -52,15 +52,17 @@ py::object convert_result(SmoothPanelResult result) {
 py::object smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
                        const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
                        const std::optional<Indices>& partner, const Around& around,
-                       const std::optional<Indices>& face_of_triangle, const std::string& lights,
-                       const std::optional<double>& length, double strength, const std::optional<double>& limit,
-                       const Shares& limit_share, bool symmetric, std::shared_ptr<Progress> progress) {
+                       const std::optional<Indices>& face_of_triangle, const std::optional<Mask>& fair_border,
+                       const std::string& lights, const std::optional<double>& length, double strength,
+                       const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
+                       std::shared_ptr<Progress> progress) {
   SmoothPanelOptions options = options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   if (partner) options.partner = index_vector(*partner);
   options.around = surroundings_of(around);
   if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
+  if (fair_border) options.fair_border = *fair_border;
   const Triangles triangles = triangles_of(F);
   return run_native([=] { return smooth_panel(V, triangles, view_direction, line_direction, options); },
                     convert_result);
@@ -112,9 +114,10 @@ void bind_smooth_panel(py::module_& module) {
   module.def("smooth_panel", &smooth_mesh, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
              py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
              py::arg("partner") = py::none(), py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
-             py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("strength") = defaults.strength,
-             py::arg("limit") = py::none(), py::arg("limit_share") = py::none(),
-             py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
+             py::arg("fair_border") = py::none(), py::arg("lights") = "crossed", py::arg("length") = py::none(),
+             py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
+             py::arg("limit_share") = py::none(), py::arg("symmetric") = defaults.symmetric,
+             py::arg("progress") = py::none());
   const SubdivisionOptions subdivision;
   module.def("smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
              py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),

@@ -11,11 +11,11 @@ HALF = 15 / CELLS
 
 
 class Panel:
-    """A panel of which the inner part is the region."""
+    """A panel of which the inner part, or what is given (#F, bool), is the region."""
 
-    def __init__(self, V: Array, F: Array) -> None:
+    def __init__(self, V: Array, F: Array, region: Array | None = None) -> None:
         self.V, self.F = V, F
-        self.region = (np.abs(V[F].mean(axis=1)[:, :2]) < HALF).all(axis=1)
+        self.region = (np.abs(V[F].mean(axis=1)[:, :2]) < HALF).all(axis=1) if region is None else region
         self.used, own = np.unique(F[self.region], return_inverse=True)
         self.own = own.reshape(-1, 3)
         others = np.setdiff1d(np.arange(len(V)), self.used)

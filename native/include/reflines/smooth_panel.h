@@ -25,6 +25,9 @@ struct SmoothPanelOptions {
   IndexVector partner;           // #V, or empty: mirror images, which move alike; see ShapeOptions. Of a cage not read
   Surroundings around;           // or none; see ShapeOptions
   IndexVector face_of_triangle;  // #F or empty; see ShapeOptions
+  // #V or empty: border vertices that move as inner ones do, to where `around` tells that the border should run,
+  // instead of being held. A border that is held keeps its flaws, and the lines beside it run into them. Not for cages.
+  Mask fair_border;
   Lights lights = Lights::kCrossed;
   double length = 0.0;    // size of the flaws, in units of V; 0: the diagonal / 14
   double strength = 1.0;  // share of the move that is made, 0 to 1

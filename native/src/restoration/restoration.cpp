@@ -123,7 +123,7 @@ double Restoration::range_towards(Eigen::Index control, double move) const {
   return move < 0 ? -range_.lowest(control) : range_.highest(control);
 }
 
-SmoothPanelResult Restoration::run() {
+Vector Restoration::find_move() {
   smoother_.smooth(read_fields(start_), progress(), &creases_);
   Vector move = attempt();
   if (measure_gain(typical_before_, typical_after_) < kLeastGain &&
@@ -144,6 +144,24 @@ SmoothPanelResult Restoration::run() {
     flawless_.reset();
     move = attempt();
   }
+  return move;
+}
+
+bool Restoration::turns_faces(const Vector& move) const { return find_turned(surface_.surface_move(move)).any(); }
+
+SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found) {
+  report_.solve = found.solve;
+  report_.bumps = found.bumps;
+  report_.mirrored = found.mirrored;
+  report_.held_faces = found.held_faces;
+  const Vector reached = options_.strength > 0 ? Vector(move / options_.strength) : move;
+  if (found.limited > 0) {
+    report_.limited = static_cast<int>(
+        (move.array() != 0 && (reached.array() >= range_.highest.array() || reached.array() <= range_.lowest.array()))
+            .count());
+  }
+  smoother_.smooth(read_fields(start_), progress(), &creases_);
+  measure_result(move);
   return judge(move);
 }
 

@@ -23,7 +23,14 @@ class Restoration {
   Restoration(ControlledSurface& surface, const SmoothPanelOptions& options);
 
   // Finds the flaws and solves for the shape without them. Positions (#C x 3) are those of the control vertices.
-  SmoothPanelResult run();
+  SmoothPanelResult run() { return judge(find_move()); }
+
+  Vector find_move();                                          // of the control vertices (#C), not judged yet
+  const SmoothPanelReport& report() const { return report_; }  // so far: length and limit from the beginning
+  bool turns_faces(const Vector& move) const;  // a move of the control vertices, by more than 45 degrees
+
+  // Judges a move of the control vertices (#C) that was found on a larger surface, with its report.
+  SmoothPanelResult judge_move(const Vector& move, const SmoothPanelReport& found);
 
  private:
   Progress* progress() const { return options_.progress.get(); }

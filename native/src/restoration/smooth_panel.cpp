@@ -9,6 +9,7 @@
 #include "geometry/mesh.h"
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
+#include "restoration/faired_border.h"
 #include "restoration/restoration.h"
 #include "restoration/used_vertices.h"
 #include "solver/limited_move.h"
@@ -42,6 +43,12 @@ void check_share(const MoveLimit& share, Eigen::Index vertex_count) {
                      " vertices is beyond it; give -1 to 0 for the lowest move and 0 to 1 for the highest.");
 }
 
+void check_mask(const Mask& mask, const std::string& name, Eigen::Index vertex_count) {
+  if (mask.size() == 0 || mask.size() == vertex_count) return;
+  throw InvalidInput("The " + name + " mask has " + std::to_string(mask.size()) + " entries for " +
+                     std::to_string(vertex_count) + " vertices; give one for each.");
+}
+
 void check(const SmoothPanelOptions& options, Eigen::Index vertex_count) {
   const auto refuse = [](const char* what) { throw InvalidInput(what); };
   if (!(options.length >= 0) || !std::isfinite(options.length))
@@ -53,10 +60,8 @@ void check(const SmoothPanelOptions& options, Eigen::Index vertex_count) {
     throw InvalidInput("There are " + std::to_string(options.border.size()) + " border codes for " +
                        std::to_string(vertex_count) + " vertices; give one for each.");
   }
-  if (options.held.size() > 0 && options.held.size() != vertex_count) {
-    throw InvalidInput("The held mask has " + std::to_string(options.held.size()) + " entries for " +
-                       std::to_string(vertex_count) + " vertices; give one for each.");
-  }
+  check_mask(options.held, "held", vertex_count);
+  check_mask(options.fair_border, "fair border", vertex_count);
 }
 
 // Runs a press, which owns its arguments, so that nobody waits for one that is cancelled.
@@ -73,6 +78,14 @@ std::vector<Border> gather(const std::vector<Border>& border, const std::vector<
   return result;
 }
 
+SmoothPanelResult press_mesh(const Positions& V, const Triangles& F, const Vector3& view,
+                             const std::vector<Vector3>& families, const ShapeOptions& shape,
+                             const SmoothPanelOptions& options) {
+  if (options.fair_border.any()) return press_faired_border(V, F, view, families, shape, options);
+  MeshSurface surface(V, F, view, families, shape);
+  return Restoration(surface, options).run();
+}
+
 // Presses the vertices that are in faces; the others keep their bits.
 SmoothPanelResult press_used_vertices(const Positions& V, const UsedVertices& used, const Vector3& view_direction,
                                       const Vector3& line_direction, const SmoothPanelOptions& options) {
@@ -87,14 +100,14 @@ SmoothPanelResult press_used_vertices(const Positions& V, const UsedVertices& us
   if (options.around.exist()) shape.around = renumber_surroundings(options.around, used, static_cast<int>(V.rows()));
   shape.face_of_triangle = options.face_of_triangle;
   set_restoration_rules(options, kMeshProximity, shape);
-  MeshSurface surface(V(used.index, Eigen::all), used.F, view_direction,
-                      make_families(view_direction, line_direction, options.lights), shape);
   SmoothPanelOptions own = options;
   own.partner = shape.partner;
   if (own.limit_share.exists())
     own.limit_share = {options.limit_share.lowest(used.index), options.limit_share.highest(used.index)};
   own.limit_share = intersect_limits(own.limit_share, own.partner);
-  SmoothPanelResult result = Restoration(surface, own).run();
+  if (own.fair_border.size() > 0) own.fair_border = options.fair_border(used.index);
+  SmoothPanelResult result = press_mesh(V(used.index, Eigen::all), used.F, view_direction,
+                                        make_families(view_direction, line_direction, options.lights), shape, own);
   Positions all = V;
   all(used.index, Eigen::all) = result.positions;
   result.positions = std::move(all);
@@ -120,6 +133,8 @@ SmoothPanelResult smooth_cage_panel(const Cage& cage, const Positions& V, const 
                                     const Vector3& line_direction, const CageOptions& cage_options,
                                     const SmoothPanelOptions& options) {
   check(options, V.rows());
+  if (options.fair_border.any())
+    throw InvalidInput("The border of a cage cannot be faired: only that of a mesh, by the faces beside it.");
   return run_press(options.progress, [=] {
     CageOptions own = cage_options;
     set_restoration_rules(options, kCageProximity, own.shape);

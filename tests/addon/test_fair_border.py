@@ -1,0 +1,158 @@
+"""Smooth with a faired border in Blender: the native function's result, and what it must not touch."""
+import bpy
+import numpy as np
+import pytest
+from reflection_lines import native
+from reflection_lines.state import solve_history
+
+import scenes
+from test_borders import set_border
+
+CELLS, MARGIN = 48, 10
+ROW = CELLS + 1
+
+
+def noisy(x: float, y: float) -> float:
+    """The clean panel with waves that run across the border of the region, at x, y = +-0.58."""
+    return scenes.crown(x, y) + 6e-4 * np.sin(40.0 * x + 1.0) * np.cos(38.0 * y)
+
+
+def ready() -> bpy.types.Object:
+    ob = scenes.panel(height=noisy, cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, CELLS, MARGIN)
+    return ob
+
+
+def rim() -> np.ndarray:
+    """Vertices of the region's border (#V, bool)."""
+    i, j = np.arange(ROW**2) % ROW, np.arange(ROW**2) // ROW
+    edge = np.maximum(np.abs(i - CELLS // 2), np.abs(j - CELLS // 2))
+    return edge == CELLS // 2 - MARGIN
+
+
+def own_vertices() -> np.ndarray:
+    i, j = np.arange(ROW**2) % ROW, np.arange(ROW**2) // ROW
+    return np.maximum(np.abs(i - CELLS // 2), np.abs(j - CELLS // 2)) <= CELLS // 2 - MARGIN
+
+
+def unit_axis(ob: bpy.types.Object) -> np.ndarray:
+    axis = np.array(ob.matrix_world, dtype=float)[:3, 2]
+    return axis / np.linalg.norm(axis)
+
+
+def test_a_press_gives_the_positions_of_the_native_function_to_the_bit() -> None:
+    ob = ready()
+    before = scenes.positions(ob)
+    assert scenes.smooth(fair_border=True) == {'FINISHED'}
+    last, scene = solve_history.find_last_solve(ob.name), bpy.context.scene.reflection_lines
+    patch = last.patch
+    positions, told = native.reflines.smooth_panel(
+        patch.V, patch.F, view_direction=unit_axis(scene.camera), line_direction=unit_axis(scene.light),
+        around=(patch.around.V, patch.around.F), fair_border=np.ones(len(patch.V), dtype=bool))
+    assert told.applied and np.array_equal(last.positions, positions)
+    moved = (scenes.positions(ob) != before).any(axis=1)
+    assert moved[rim()].mean() > 0.9 and not moved[~own_vertices()].any()
+
+
+def test_all_faces_within_the_reach_are_read() -> None:
+    """Two lengths of a seventh of the diagonal, which the native press takes in, and no smaller number of rings."""
+    ob = ready()
+    scenes.smooth(fair_border=True)
+    patch = solve_history.find_last_solve(ob.name).patch
+    edge = 2.0 / CELLS
+    outside = np.abs(patch.around.V[:, :2]).max(axis=1) - np.abs(patch.V[:, :2]).max()
+    assert outside.max() >= patch.diagonal / 7.0 and outside.max() > 5.5 * edge
+    scenes.smooth()
+    near = solve_history.find_last_solve(ob.name).patch.around.V
+    assert np.abs(near[:, :2]).max() - np.abs(patch.V[:, :2]).max() == pytest.approx(4.0 * edge, rel=1e-3)
+
+
+def test_the_flaws_at_the_border_go() -> None:
+    left = []
+    for fair in (False, True):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        ob = ready()
+        assert scenes.smooth(fair_border=fair) == {'FINISHED'}
+        V = scenes.positions(ob)
+        clean = np.array([scenes.crown(x, y) for x, y in V[:, :2]])
+        left.append(float(np.std((V[:, 2] - clean)[rim()])))
+    print(f"{1e6 * left[0]:.0f} um are left at a held border, {1e6 * left[1]:.0f} um at a faired one")
+    assert left[1] < 0.5 * left[0]
+
+
+def test_segments_with_a_border_of_their_own_are_held() -> None:
+    ob = scenes.panel(height=noisy, cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit(ob)
+    side = np.flatnonzero(rim() & (np.arange(ROW**2) % ROW == MARGIN))
+    set_border(ob, side.tolist(), 'fixed')
+    scenes.select_faces(ob, scenes.inner(CELLS, MARGIN))
+    before = scenes.positions(ob)
+    assert scenes.smooth(fair_border=True) == {'FINISHED'}
+    moved = (scenes.positions(ob) != before).any(axis=1)
+    others = rim()
+    others[side] = False
+    assert not moved[side].any() and moved[others].mean() > 0.9
+
+
+def test_without_faces_beside_it_is_said() -> None:
+    ob = scenes.panel(height=noisy, cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    assert scenes.smooth(fair_border=True) == {'FINISHED'}
+    assert "There are no faces beside the region" in ob.reflection_lines.report.notes
+
+
+def test_with_a_length_it_makes_no_difference() -> None:
+    """Only the automatic press knows what the border should be; the switch is drawn grey with a length."""
+    results = []
+    for fair in (False, True):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        ob = ready()
+        scenes.smooth(length=0.3, fair_border=fair)
+        results.append(scenes.positions(ob))
+    assert np.array_equal(*results)
+
+
+def test_resolve_fairs_again() -> None:
+    ob = ready()
+    scenes.smooth(fair_border=True)
+    first = scenes.positions(ob)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT') == {'FINISHED'}
+    assert np.array_equal(scenes.positions(ob), first)
+
+
+@pytest.mark.parametrize("even", [True, False])
+def test_a_half_below_a_mirror_is_faired_with_its_image(even: bool) -> None:
+    """Lit unevenly it is solved alone, and its seam stays."""
+    grid = np.linspace(-1.0, 1.0, ROW)
+    half, row = grid[CELLS // 2:], CELLS // 2 + 1
+    ob = scenes.linked("Half", [(x, y, noisy(x, y)) for y in grid for x in half],
+                       [(i, i + 1, i + row + 1, i + row) for j in range(CELLS)
+                        for i in range(j * row, j * row + row - 1)])
+    ob.modifiers.new("Mirror", 'MIRROR')
+    scenes.look_from_above(light_degrees=90.0 if even else 70.0)
+    scenes.edit(ob)
+    scenes.select_faces(ob, lambda face: MARGIN <= face // (row - 1) < CELLS - MARGIN
+                        and face % (row - 1) < CELLS // 2 - MARGIN)
+    before = scenes.positions(ob)
+    assert scenes.smooth(fair_border=True) == {'FINISHED'}
+    move = np.abs(scenes.positions(ob) - before).max(axis=1).reshape(ROW, row)
+    own = slice(MARGIN, CELLS - MARGIN + 1), slice(0, CELLS // 2 - MARGIN + 1)
+    assert (move[own][:, -1] > 0.0).mean() > 0.9  # the border
+    seam = (move[own][:, 0] > 0.0).mean()
+    assert seam > 0.7 if even else seam == 0.0
+    outside = np.ones_like(move, dtype=bool)
+    outside[own] = False
+    assert not move[outside].any()
+
+
+def test_cages_are_refused_in_a_sentence() -> None:
+    ob = ready()
+    ob.modifiers.new("Subdivision", 'SUBSURF')
+    before = scenes.positions(ob)
+    with pytest.raises(RuntimeError, match="the border of a cage cannot be faired"):
+        scenes.smooth(fair_border=True, solve_for='CAGE')
+    assert np.array_equal(scenes.positions(ob), before)
