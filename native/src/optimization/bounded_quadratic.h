@@ -19,8 +19,8 @@ struct QuadraticModel {
 // A minimum that touches its bounds at few unknowns, as smooth surfaces do at their highest places, is found with few
 // factors: from the free minimum on, unknowns are held at the peaks of the violation, and those that pull are released
 // (an active set method of the dual kind, as Goldfarb and Idnani's, Math. Program. 27, 1983). Of a noisy panel of
-// 10,000 vertices 5 (43) touch the limit, where hundreds of the free minimum are beyond it: 2 factorizations and 23
-// (112) solves instead of 14 (20) factorizations and 46 (74) solves; of 100,000 vertices 17, 3 factorizations and 70
+// 10,000 vertices 5 (43) touch the limit, where hundreds of the free minimum are beyond it: 2 factorizations and 18
+// (30) solves instead of 14 (20) factorizations and 46 (74) solves; of 100,000 vertices 17, 3 factorizations and 37
 // solves instead of more than 90 factorizations.
 //
 // Others are found by the primal-dual active set method, a semismooth Newton method (Hintermueller, Ito and Kunisch,

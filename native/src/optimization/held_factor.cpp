@@ -1,6 +1,7 @@
 #include "optimization/held_factor.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace reflines {
@@ -20,6 +21,8 @@ void clear(const Sides& held, Vector& x) {
 void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progress* progress, const Vector& added) {
   contacts_.clear();
   known_.clear();
+  half_.clear();
+  lower_.resize(0);
   inverse_.resize(0, 0);
   factored_ = held;
   matrix_ = H;
@@ -36,6 +39,11 @@ void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progr
   is_current_ = false;
   solver_.factorize(matrix_, progress);
   is_current_ = added.size() == 0;
+}
+
+void HeldFactor::forget() {
+  is_current_ = false;
+  lower_.resize(0);
 }
 
 // Returns the contacts, or nothing where they cannot be held by this factor.
@@ -66,10 +74,38 @@ std::optional<int> HeldFactor::hold(const Sides& held, const Progress* progress)
     if (place == known_.end()) wanted.push_back(k);
   }
   if (static_cast<int>(wanted.size()) > kMostNewContacts) return {};
-  add_columns(wanted, progress);
+  const int solves = add_known(wanted, progress);
   contacts_ = std::move(*contacts);
   schur_.compute(inverse_(column, column));
-  return static_cast<int>(wanted.size());
+  column_ = std::move(column);
+  return solves;
+}
+
+// Adds the rows and columns of the inverse of these unknowns; returns the number of solves that took.
+int HeldFactor::add_known(const std::vector<int>& unknowns, const Progress* progress) {
+  if (solver_.has_halves()) return add_halves(unknowns, progress), 0;
+  add_columns(unknowns, progress);
+  return static_cast<int>(unknowns.size());
+}
+
+// Computes the rows and columns as products of halves: A^-1 = (L^-1 P)^T L^-1 P.
+void HeldFactor::add_halves(const std::vector<int>& unknowns, const Progress* progress) {
+  const auto before = static_cast<Eigen::Index>(known_.size());
+  const auto count = static_cast<Eigen::Index>(unknowns.size());
+  std::vector<SparseVector> halves = half_;
+  for (Eigen::Index first = 0; first < count; first += kBlock) {
+    throw_if_cancelled(progress);
+    const auto begin = unknowns.begin() + first;
+    std::vector<SparseVector> some =
+        solver_.solve_lower_units({begin, begin + std::min<Eigen::Index>(kBlock, count - first)});
+    std::move(some.begin(), some.end(), std::back_inserter(halves));
+  }
+  inverse_.conservativeResize(before + count, before + count);
+  for (Eigen::Index j = before; j < before + count; ++j) {
+    for (Eigen::Index i = 0; i <= j; ++i) inverse_(i, j) = inverse_(j, i) = halves[i].dot(halves[j]);
+  }
+  half_ = std::move(halves);
+  known_.insert(known_.end(), unknowns.begin(), unknowns.end());
 }
 
 // Computes the columns of these unknowns, and keeps their entries at the known ones.
@@ -93,19 +129,52 @@ void HeldFactor::add_columns(const std::vector<int>& unknowns, const Progress* p
   known_ = std::move(known);
 }
 
-int HeldFactor::solve(Vector& x) const {
-  clear(factored_, x);
-  const Vector right = contacts_.empty() ? Vector() : x;
-  solver_.solve(x);
-  if (!contacts_.empty()) {
-    const Vector force = schur_.solve(x(contacts_));
-    x = right;
-    x(contacts_) -= force;
-    solver_.solve(x);
-    for (const int k : contacts_) x(k) = 0.0;
+Vector HeldFactor::select_left_out(const Vector& x) const {
+  Vector result = Vector::Zero(x.size());
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    if (factored_[k] != Side::kBetween) result(k) = x(k);
   }
+  return result;
+}
+
+int HeldFactor::solve(Vector& x, const Vector& at_contacts) {
   clear(factored_, x);
-  return contacts_.empty() ? 1 : 2;
+  const int solves = solver_.has_halves() ? solve_by_halves(x, at_contacts) : solve_whole(x, at_contacts);
+  for (const int k : contacts_) x(k) = at_contacts.size() > 0 ? at_contacts(k) : 0.0;
+  clear(factored_, x);
+  return solves;
+}
+
+// Returns the forces that move the contacts from where they would be to where they are held.
+Vector HeldFactor::find_forces(Vector reached, const Vector& at_contacts) const {
+  if (at_contacts.size() > 0) reached -= at_contacts(contacts_);
+  return schur_.solve(reached);
+}
+
+int HeldFactor::solve_by_halves(Vector& x, const Vector& at_contacts) {
+  if (lower_.size() == 0 || x != right_) {
+    right_ = lower_ = x;
+    solver_.solve_lower(lower_);
+  }
+  x = lower_;
+  if (!contacts_.empty()) {
+    Vector reached(contacts_.size());
+    for (Eigen::Index j = 0; j < reached.size(); ++j) reached(j) = half_[column_[j]].dot(x);
+    const Vector force = find_forces(std::move(reached), at_contacts);
+    for (Eigen::Index j = 0; j < force.size(); ++j) half_[column_[j]].add_to(x, -force(j));
+  }
+  solver_.solve_upper(x);
+  return 1;
+}
+
+int HeldFactor::solve_whole(Vector& x, const Vector& at_contacts) {
+  Vector right = x;
+  solver_.solve(x);
+  if (contacts_.empty()) return 1;
+  right(contacts_) -= find_forces(x(contacts_), at_contacts);
+  x = std::move(right);
+  solver_.solve(x);
+  return 2;
 }
 
 }  // namespace reflines

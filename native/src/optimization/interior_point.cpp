@@ -98,7 +98,7 @@ Vector InteriorPoint::compute_missed_slack(const Barrier& barrier) const {
 Vector InteriorPoint::dual_residual() const { return gradient_ - barriers_[0].force + barriers_[1].force; }
 
 // Solves Newton's system for a change of the products by `products` and, where asked for, for residuals of 0.
-InteriorPoint::Change InteriorPoint::solve(const HeldFactor& factor, const Products& products, bool residuals) const {
+InteriorPoint::Change InteriorPoint::solve(HeldFactor& factor, const Products& products, bool residuals) const {
   Change change;
   change.d = residuals ? Vector(-dual_residual()) : Vector::Zero(d_.size());
   for (int b = 0; b < 2; ++b) {
@@ -117,7 +117,7 @@ InteriorPoint::Change InteriorPoint::solve(const HeldFactor& factor, const Produ
   return change;
 }
 
-InteriorPoint::Change InteriorPoint::predict_and_correct(const HeldFactor& factor, Report& counts) {
+InteriorPoint::Change InteriorPoint::predict_and_correct(HeldFactor& factor, Report& counts) {
   Products products;
   for (int b = 0; b < 2; ++b) products[b] = -barriers_[b].slack.cwiseProduct(barriers_[b].force);
   const Change predicted = solve(factor, products, true);
@@ -133,7 +133,7 @@ InteriorPoint::Change InteriorPoint::predict_and_correct(const HeldFactor& facto
 
 // Corrects the products that a longer step would leave far too small or too large; returns false where that did not
 // help.
-bool InteriorPoint::correct_further(const HeldFactor& factor, Change& change) const {
+bool InteriorPoint::correct_further(HeldFactor& factor, Change& change) const {
   const double now = std::min(1.0, longest(change));
   const double aimed_at = std::min(1.0, std::max(1.5 * now, now + 0.3));
   Products products;

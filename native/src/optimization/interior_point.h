@@ -39,9 +39,9 @@ class InteriorPoint {
   Vector barrier_diagonal() const;
   Vector compute_missed_slack(const Barrier& barrier) const;
   Vector dual_residual() const;
-  Change solve(const HeldFactor& factor, const Products& products, bool residuals) const;
-  Change predict_and_correct(const HeldFactor& factor, Report& counts);
-  bool correct_further(const HeldFactor& factor, Change& change) const;
+  Change solve(HeldFactor& factor, const Products& products, bool residuals) const;
+  Change predict_and_correct(HeldFactor& factor, Report& counts);
+  bool correct_further(HeldFactor& factor, Change& change) const;
   double longest(const Change& change) const;
   double mean_product(const Change& change, double step) const;
   void move(const Change& change, double step);

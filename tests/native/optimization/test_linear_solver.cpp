@@ -176,5 +176,45 @@ TEST_P(LinearSolverTest, ACancelledFactorizationIsLeftBehindAndTheNextHasTheSame
   EXPECT_EQ(solve_ones(solver, matrix, &watched), expected);
 }
 
+// Of a 40 x 40 grid, whose factor has fronts of many sizes: with L^-1 P = M the inverse is M^T M.
+SparseMatrix grid_laplacian(int side) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int k = 0; k < side * side; ++k) {
+    entries.emplace_back(k, k, 4.5);
+    if ((k + 1) % side != 0) entries.emplace_back(k + 1, k, -1.0);
+    if (k + side < side * side) entries.emplace_back(k + side, k, -1.0);
+  }
+  SparseMatrix lower(side * side, side * side);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+TEST(LinearSolverHalves, MakeTheSolveAndTheInverse) {
+  const int side = 40, n = side * side;
+  const SparseMatrix matrix = grid_laplacian(side);
+  LinearSolver solver(LinearSolverKind::kCholmod);
+  solver.analyze(matrix);
+  solver.factorize(matrix);
+  Vector whole = Vector::LinSpaced(n, -1.0, 2.0), halves = whole;
+  solver.solve(whole);
+  solver.solve_lower(halves);
+  solver.solve_upper(halves);
+  EXPECT_LT((halves - whole).norm(), 1e-14 * whole.norm());
+
+  const std::vector<int> unknowns = {0, 7, 8, 800, n - 1};
+  const std::vector<SparseVector> rows = solver.solve_lower_units(unknowns);
+  for (size_t j = 0; j < unknowns.size(); ++j) {
+    Vector column = Vector::Unit(n, unknowns[j]), lower = column;
+    solver.solve(column);
+    solver.solve_lower(lower);
+    Vector dense = Vector::Zero(n);
+    rows[j].add_to(dense, 1.0);
+    EXPECT_LT((dense - lower).norm(), 1e-14 * lower.norm());
+    EXPECT_LT(rows[j].index.size(), n / 3);  // a path, not the tree
+    for (size_t i = 0; i < unknowns.size(); ++i)
+      EXPECT_NEAR(rows[i].dot(rows[j]), column(unknowns[i]), 1e-14 * column.maxCoeff());
+  }
+}
+
 }  // namespace
 }  // namespace reflines

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "optimization/linear/elimination_path.h"
 #include "optimization/linear/page_prefault.h"
 #include "reflines/errors.h"
 #include "threads/abandonable_work.h"
@@ -107,6 +108,9 @@ class LinearSolver::Backend {
   virtual void allocate() {}  // allocates the memory of a factor, on all cores
   virtual bool factorize(const SparseMatrix& matrix, const double* values) = 0;
   virtual void solve(Eigen::Ref<Eigen::MatrixXd> X) = 0;
+  virtual void solve_lower(Vector&) {}
+  virtual void solve_upper(Vector&) {}
+  virtual std::vector<SparseVector> solve_lower_units(const std::vector<int>&) { return {}; }
 
   // Factors with the first shift that succeeds and returns that.
   double factorize_shifted(const SparseMatrix& matrix) {
@@ -170,7 +174,35 @@ class LinearSolver::Cholmod final : public Backend {
     return common_.status == CHOLMOD_OK && smallest_pivot_share(matrix, values) > kSmallestPivotShare;
   }
 
-  void solve(Eigen::Ref<Eigen::MatrixXd> X) override {
+  void solve(Eigen::Ref<Eigen::MatrixXd> X) override { solve(CHOLMOD_A, X); }
+
+  void solve_lower(Vector& x) override {
+    permute(x, [](Vector& to, int j, const Vector& from, int k) { to(j) = from(k); });
+    solve(CHOLMOD_L, x);
+  }
+
+  void solve_upper(Vector& x) override {
+    solve(CHOLMOD_Lt, x);
+    permute(x, [](Vector& to, int j, const Vector& from, int k) { to(k) = from(j); });
+  }
+
+  std::vector<SparseVector> solve_lower_units(const std::vector<int>& unknowns) override {
+    const EliminationPaths paths(view_factor());
+    std::vector<int> place(factor_->n);
+    const auto* order = static_cast<const int*>(factor_->Perm);
+    for (int j = 0; j < static_cast<int>(place.size()); ++j) place[order[j]] = j;
+    std::vector<SparseVector> result(unknowns.size());
+#pragma omp parallel if (unknowns.size() > 1)
+    {
+      Vector work = Vector::Zero(static_cast<Eigen::Index>(place.size()));
+#pragma omp for schedule(dynamic)
+      for (int k = 0; k < static_cast<int>(unknowns.size()); ++k) result[k] = paths.solve(place[unknowns[k]], work);
+    }
+    return result;
+  }
+
+ private:
+  void solve(int system, Eigen::Ref<Eigen::MatrixXd> X) {
     cholmod_dense right_side{};
     right_side.nrow = right_side.d = static_cast<std::size_t>(X.rows());
     right_side.ncol = static_cast<std::size_t>(X.cols());
@@ -178,25 +210,39 @@ class LinearSolver::Cholmod final : public Backend {
     right_side.x = X.data();
     right_side.xtype = CHOLMOD_REAL;
     right_side.dtype = CHOLMOD_DOUBLE;
-    const int done = cholmod_solve2(CHOLMOD_A, factor_, &right_side, nullptr, &solution_, nullptr, &y_, &e_, &common_);
+    const int done = cholmod_solve2(system, factor_, &right_side, nullptr, &solution_, nullptr, &y_, &e_, &common_);
     require_memory(done != 0, "solving", X.rows());
     std::copy_n(static_cast<const double*>(solution_->x), X.size(), X.data());
   }
 
- private:
+  // Moves every entry between its unknown k and its place j in the order of elimination.
+  template <typename Move>
+  void permute(Vector& x, Move move) const {
+    const auto* order = static_cast<const int*>(factor_->Perm);
+    const Vector from = x;
+    for (int j = 0; j < x.size(); ++j) move(x, j, from, order[j]);
+  }
+
+  SupernodalFactor view_factor() const {
+    return {static_cast<int>(factor_->n),
+            static_cast<int>(factor_->nsuper),
+            static_cast<const int*>(factor_->super),
+            static_cast<const int*>(factor_->pi),
+            static_cast<const int*>(factor_->px),
+            static_cast<const int*>(factor_->s),
+            static_cast<const double*>(factor_->x)};
+  }
+
   // Returns the smallest L_jj^2 / A_jj. Columns of a supernode lie one below the other, each as high as the first.
   double smallest_pivot_share(const SparseMatrix& matrix, const double* values) const {
-    const auto* first_column = static_cast<const int*>(factor_->super);
-    const auto* rows = static_cast<const int*>(factor_->pi);
-    const auto* start = static_cast<const int*>(factor_->px);
+    const SupernodalFactor L = view_factor();
     const auto* order = static_cast<const int*>(factor_->Perm);
-    const auto* L = static_cast<const double*>(factor_->x);
     double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t s = 0; s < factor_->nsuper; ++s) {
-      const std::size_t height = static_cast<std::size_t>(rows[s + 1] - rows[s]);
-      for (int j = first_column[s]; j < first_column[s + 1]; ++j) {
-        const double root =
-            L[static_cast<std::size_t>(start[s]) + static_cast<std::size_t>(j - first_column[s]) * (height + 1)];
+    for (int s = 0; s < L.supernode_count; ++s) {
+      const auto height = static_cast<std::size_t>(L.row_start[s + 1] - L.row_start[s]);
+      for (int j = L.first_column[s]; j < L.first_column[s + 1]; ++j) {
+        const auto column = static_cast<std::size_t>(j - L.first_column[s]);
+        const double root = L.value[static_cast<std::size_t>(L.block_start[s]) + column * (height + 1)];
         smallest = std::min(smallest, root * root / values[matrix.outerIndexPtr()[order[j]]]);
       }
     }
@@ -393,6 +439,22 @@ void LinearSolver::solve(Vector& x) {
   keep_blas_to_one_thread();
   const SerialLoops serial_loops;
   backend_->solve(x);
+}
+
+void LinearSolver::solve_lower(Vector& x) {
+  keep_blas_to_one_thread();
+  const SerialLoops serial_loops;
+  backend_->solve_lower(x);
+}
+
+void LinearSolver::solve_upper(Vector& x) {
+  keep_blas_to_one_thread();
+  const SerialLoops serial_loops;
+  backend_->solve_upper(x);
+}
+
+std::vector<SparseVector> LinearSolver::solve_lower_units(const std::vector<int>& unknowns) {
+  return backend_->solve_lower_units(unknowns);
 }
 
 void LinearSolver::solve(Eigen::MatrixXd& X) {
