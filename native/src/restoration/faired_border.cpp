@@ -20,10 +20,6 @@ struct JoinedMesh {
   Triangles F;
 };
 
-double measure_squared_distance(const Eigen::RowVector3d& p, const Positions& points) {
-  return (points.rowwise() - p).rowwise().squaredNorm().minCoeff();
-}
-
 std::vector<int> find_border_vertices(const Triangles& F, int vertex_count) {
   const Triangles neighbors = edge_neighbors(F);
   Mask on_border = Mask::Constant(vertex_count, false);
@@ -40,33 +36,46 @@ std::vector<int> find_border_vertices(const Triangles& F, int vertex_count) {
   return result;
 }
 
+// Finds the vertices (#S) that lie within `reach` of some of the points. The box sorts most of the others out.
+Mask find_near(const Positions& vertices, const Positions& points, double reach) {
+  const Eigen::RowVector3d low = points.colwise().minCoeff().array() - reach,
+                           high = points.colwise().maxCoeff().array() + reach;
+  Mask near = Mask::Constant(vertices.rows(), false);
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    const Eigen::RowVector3d p = vertices.row(v);
+    if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) continue;
+    for (Eigen::Index k = 0; k < points.rows() && !near(v); ++k)
+      near(v) = (points.row(k) - p).squaredNorm() < reach * reach;
+  }
+  return near;
+}
+
 // Joins the region with the triangles around it that have a vertex within `reach` of its border. Vertices beside it
 // that are in none of them are left out, so that the mesh has no others.
 JoinedMesh join_surroundings(const Positions& V, const Triangles& F, const Surroundings& around, double reach) {
-  const int own = static_cast<int>(V.rows());
-  const Positions border = V(find_border_vertices(F, own), Eigen::all);
-  Mask near(around.V.rows());
-  for (Eigen::Index v = 0; v < near.size(); ++v)
-    near(v) = measure_squared_distance(around.V.row(v), border) < reach * reach;
-  JoinedMesh joined{V, F};
-  IndexVector number = IndexVector::Constant(near.size(), -1);
+  const auto own = static_cast<int>(V.rows());
+  const Mask near = find_near(around.V, V(find_border_vertices(F, own), Eigen::all), reach);
+  std::vector<int> number(near.size(), -1), beside;
+  std::vector<Eigen::RowVector3i> taken;
   const auto is_near = [&](int v) { return v < own || near(v - own); };
-  const auto take = [&](int v) {
+  const auto renumber = [&](int v) {
     if (v < own) return v;
-    if (number(v - own) < 0) {
-      number(v - own) = static_cast<int>(joined.V.rows());
-      joined.V.conservativeResize(joined.V.rows() + 1, Eigen::NoChange);
-      joined.V.bottomRows<1>() = around.V.row(v - own);
+    int& result = number[v - own];
+    if (result < 0) {
+      result = own + static_cast<int>(beside.size());
+      beside.push_back(v - own);
     }
-    return number(v - own);
+    return result;
   };
-  joined.F.conservativeResize(F.rows() + around.F.rows(), Eigen::NoChange);
-  Eigen::Index count = F.rows();
   for (const auto& triangle : around.F.rowwise()) {
-    if (is_near(triangle(0)) || is_near(triangle(1)) || is_near(triangle(2)))
-      joined.F.row(count++) << take(triangle(0)), take(triangle(1)), take(triangle(2));
+    if (!is_near(triangle(0)) && !is_near(triangle(1)) && !is_near(triangle(2))) continue;
+    taken.emplace_back(renumber(triangle(0)), renumber(triangle(1)), renumber(triangle(2)));
   }
-  joined.F.conservativeResize(count, Eigen::NoChange);
+  JoinedMesh joined{V, F};
+  joined.V.conservativeResize(own + static_cast<Eigen::Index>(beside.size()), Eigen::NoChange);
+  joined.V.bottomRows(beside.size()) = around.V(beside, Eigen::all);
+  joined.F.conservativeResize(F.rows() + static_cast<Eigen::Index>(taken.size()), Eigen::NoChange);
+  for (size_t t = 0; t < taken.size(); ++t) joined.F.row(F.rows() + static_cast<Eigen::Index>(t)) = taken[t];
   return joined;
 }
 
