@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "geometry/mesh.h"
@@ -28,6 +29,26 @@ TEST(Crease, AGentlePanelHasNone) {
 TEST(Crease, ALongGrooveIsOneThoughNoEdgeIsSharp) {
   // Depth 0.006 over a cell of 1 / 32: the sides tilt by 11 degrees, the bottom bends by 22.
   EXPECT_GT(crease_count(grooved(0.006)), 32);
+}
+
+// The bowl with 64 cells a side and a groove along x = 0.5 that ends inside, whose bottom has `length` vertices. The
+// edges that it bends reach over length + 1 cells.
+samples::Mesh short_groove(int length) {
+  samples::Mesh mesh = samples::lifted(samples::grid(64), [](double x, double y) { return 0.05 * (x * x + y * y); });
+  for (int j = 28; j < 28 + length; ++j) mesh.V(j * 65 + 32, 2) -= 0.003;
+  return mesh;
+}
+
+// The region reaches over the diagonal of its square, 90 cells, of which 8 % are 7.2.
+TEST(Crease, AChainReachesOverEightPercentOfTheRegionHoweverItIsTurned) {
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::AngleAxisd turn(0.7 * k, Vector3(1, k % 4, k % 3).normalized());
+    for (const int length : {4, 5, 8, 12}) {
+      samples::Mesh mesh = short_groove(length);
+      for (int v = 0; v < mesh.V.rows(); ++v) mesh.V.row(v) = (turn * mesh.V.row(v).transpose()).transpose();
+      EXPECT_EQ(crease_count(mesh) > 0, length + 1 > 7.2) << length << " vertices, turned by " << turn.angle();
+    }
+  }
 }
 
 TEST(Crease, AVertexOutOfPlaceIsNoCrease) {

@@ -141,6 +141,29 @@ TEST_F(EnergyTest, AssemblyOverFreeVerticesIsTheSubmatrix) {
   }
 }
 
+// A unit square of 2 x 2 cells in another unit, its middle lifted by half a side: the six triangles around it have
+// three quarters of the area, a third of which is the middle's, and the diagonal is the root of two.
+TEST(EnergyUnits, NeitherThePullNorTheFitDependsOnTheUnitOfLength) {
+  const ImagePlane frame(Vector3::UnitZ(), Vector3::UnitY());
+  double fit[2];
+  for (const double unit : {1.0, 1000.0}) {
+    samples::Mesh mesh = samples::grid(2);
+    mesh.V *= unit;
+    const HeightField field = samples::height_field(mesh);
+    const Stencils stencils = make_stencils(field, StencilKind::kConsistent);
+    Energy energy(field, stencils, 0.8);
+    Vector z = field.z;
+    z(4) += 0.5 * unit;
+    const double pull = energy.evaluate(z, nullptr);
+    EXPECT_NEAR(pull, 0.8 * (0.5 * 0.5) * (0.75 / 3) / 4, 1e-15);
+    const PlaneVectors still = PlaneVectors::Zero(field.triangle_count(), 2);
+    energy.set_terms({{ReflectionFunction(frame, frame.z(), Vector3(0, 1, 0.3)), still, {}, field.area}});
+    fit[unit > 1] = energy.evaluate(z, nullptr) - pull;
+  }
+  EXPECT_GT(fit[0], 1);
+  EXPECT_NEAR(fit[1], fit[0], 1e-13 * fit[0]);
+}
+
 TEST_F(EnergyTest, OwnFieldAsTargetIsZeroAndStationary) {
   TriangleDerivatives u;
   apply_stencils(stencils_, field_.z, u);

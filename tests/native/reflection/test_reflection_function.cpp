@@ -63,6 +63,21 @@ TEST_F(Reflection, AnotherFamilyInTheSameFrameIsEquationOneToo) {
   }
 }
 
+TEST_F(Reflection, VisibilityIsTheSineBetweenTheReflectedRayAndTheLines) {
+  for (int k = 0; k < 2000; ++k) {
+    const Vector3 v = direction(), a = direction();
+    if (v.cross(a).norm() < 0.05) continue;
+    const ImagePlane frame(v, a);
+    const double steep = std::pow(10.0, k % 4);
+    const double p = steep * slope(), q = steep * slope();
+    const Vector3 n = (-p * frame.x() - q * frame.y() + frame.z()).normalized();
+    const Vector3 ray = 2 * n.dot(v) * n - v;
+    const double visibility = ReflectionFunction(frame, v, a).visibility(p, q);
+    EXPECT_NEAR(visibility, ray.cross(a).norm(), 1e-13);
+    EXPECT_LE(visibility, 1 + 1e-13);
+  }
+}
+
 TEST_F(Reflection, DerivativesAgreeWithCentralDifferences) {
   const ImagePlane frame(Vector3(0, 0, 1), Vector3(0.3, 1, 0.4));
   const ReflectionFunction reflection(frame, frame.z(), Vector3(0.3, 1, 0.4));

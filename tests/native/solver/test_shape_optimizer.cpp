@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "reflines/errors.h"
 #include "reflines/shape_optimizer.h"
 #include "tests/native/allocations.h"
 #include "tests/native/sample_meshes.h"
@@ -95,6 +96,19 @@ TEST_F(ShapeOptimizerTest, StepsAllocateNothing) {
     ASSERT_EQ(report.factorizations, 0);
   }
   EXPECT_EQ(used[0], used[1]);
+}
+
+TEST_F(ShapeOptimizerTest, AFailedSolveChangesNoBitOfTheHeights) {
+  const samples::Mesh own = mesh(1.0);
+  ShapeOptions options;
+  options.border.assign(own.V.rows(), Border::kFree);
+  ShapeOptimizer solver(own.V, own.F, Vector3::UnitZ(), {{0, 1, 0.3}}, options);
+  ASSERT_GT(solver.solve({target(0.5)}).largest_move, 0.0);
+  const Vector before = solver.heights();
+  Target runaway;
+  runaway.gradient = PlaneVectors::Constant(solver.triangle_count(), 2, 1e6);
+  EXPECT_THROW(solver.solve({runaway}), SolverFailure);
+  EXPECT_EQ(solver.heights(), before);
 }
 
 TEST_F(ShapeOptimizerTest, HandsOutTheMatrixThatASolveFactors) {
