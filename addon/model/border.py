@@ -1,13 +1,14 @@
 """The condition at a region's border: one for all vertices, or each segment's own."""
 import numpy as np
 
-CODES = {"free": 0, "fixed": 1, "clamped": 2, "curvature": 3}  # by which the native module knows them
+CODES = {"free": 0, "fixed": 1, "clamped": 2, "curvature": 3, "flow": 4}  # by which the native module knows them
 UNSET = -1  # of a vertex without a condition of its own
 
 
 def needs_surroundings(border: str | np.ndarray) -> bool:
-    """Returns whether a border, or one of its codes, takes its curvature from the faces around the region."""
-    return border == "curvature" if isinstance(border, str) else bool((border == CODES["curvature"]).any())
+    """Returns whether a border, or one of its codes, takes its curvature, or more, from the faces around the region."""
+    codes = CODES[border] if isinstance(border, str) else border
+    return bool(np.max(codes) >= CODES["curvature"])
 
 
 def fill_border(own: np.ndarray, border: str) -> str | np.ndarray:

@@ -3,6 +3,7 @@ import numpy as np
 
 from .. import native
 from ..model import mirror
+from ..model.border import CODES
 from ..model.patch import Patch
 from ..model.solution import SolveReport
 from .formulation import Formulation
@@ -34,7 +35,7 @@ def describe_far_move(patch: Patch, move: float, border: str) -> tuple[str, ...]
     """Warns where vertices moved by more than FAR_MOVE of the patch's diagonal."""
     if move <= FAR_MOVE * patch.diagonal:
         return ()
-    remedy = "less strength" if border in {"clamped", "curvature"} else "less strength, or the border Clamped,"
+    remedy = "less strength" if CODES[border] >= CODES["clamped"] else "less strength, or the border Clamped,"
     return (f"Vertices move by up to {move / patch.diagonal:.0%} of the panel's size: the lines asked for are far from "
             f"those of its shape; {remedy} keeps it nearer",)
 

@@ -261,7 +261,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     result: result_property()
     show_borders: BoolProperty(name="Show Borders", default=True,
                                description="Draw the borders that were set by segment: green Free, orange Fixed, blue "
-                               "Clamped, violet Curvature")
+                               "Clamped, violet Curvature, red Flow")
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     pull: PointerProperty(type=ReflinesPull)

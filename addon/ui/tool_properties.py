@@ -58,6 +58,8 @@ LAST_FRAME = 1048574  # of Blender
 SAVED = {'options': {'SKIP_SAVE'}}
 # With the numbers that files hold: a new border gets a new one.
 BORDERS = (
+    ('flow', "Flow", "As Curvature, and the curvature changes across the border as it does in the faces beside the "
+     "region, where they tell it", 'NONE', 4),
     ('curvature', "Curvature", "As Clamped, and the lines run on from the faces beside the region without a kink: "
      "their curvature is continued", 'NONE', 3),
     ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly", 'NONE', 0),

@@ -10,8 +10,8 @@ std::vector<Border> border_codes(const Codes& border, Eigen::Index vertex_count)
     return std::vector<Border>(vertex_count, find_named(kBorders, std::get<std::string>(border), "border"));
   }
   const IndexVector codes = index_vector(std::get<Indices>(border));
-  if (codes.size() > 0 && (codes.minCoeff() < 0 || codes.maxCoeff() > 3)) {
-    throw InvalidInput("Border codes are 0 (free), 1 (fixed), 2 (clamped) and 3 (curvature); one is " +
+  if (codes.size() > 0 && (codes.minCoeff() < 0 || codes.maxCoeff() > 4)) {
+    throw InvalidInput("Border codes are 0 (free), 1 (fixed), 2 (clamped), 3 (curvature) and 4 (flow); one is " +
                        std::to_string(codes.minCoeff() < 0 ? codes.minCoeff() : codes.maxCoeff()) + ".");
   }
   std::vector<Border> result;

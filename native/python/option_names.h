@@ -23,7 +23,8 @@ Enum find_named(const std::map<std::string, Enum>& names, const std::string& nam
 inline const std::map<std::string, Border> kBorders = {{"free", Border::kFree},
                                                        {"fixed", Border::kFixed},
                                                        {"clamped", Border::kClamped},
-                                                       {"curvature", Border::kCurvature}};
+                                                       {"curvature", Border::kCurvature},
+                                                       {"flow", Border::kFlow}};
 inline const std::map<std::string, StencilKind> kStencils = {{"averaged", StencilKind::kAveraged},
                                                              {"quadratic", StencilKind::kQuadratic},
                                                              {"hybrid", StencilKind::kHybrid},

@@ -6,7 +6,7 @@ surface towards the viewer), line_direction a (3, along the line lights). Angles
 from typing import Any, Callable, Generic, Literal, ParamSpec, Sequence, TypeVar
 import numpy as np
 
-Border = Literal["free", "fixed", "clamped", "curvature"]
+Border = Literal["free", "fixed", "clamped", "curvature", "flow"]
 Stencil = Literal["averaged", "quadratic", "hybrid", "consistent"]
 CreaseRule = Literal["automatic", "marked", "none"]
 Strategy = Literal["adaptive", "linearized", "gauss_newton", "newton"]
@@ -126,12 +126,13 @@ class ShapeOptimizer:
     changeable: np.ndarray # #F bool: those of them with a vertex that can move
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
                  line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
-                 border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature
+                 border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature,
+                                                                 # 4 flow
                  fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
                  partner: np.ndarray | None = None,              # #V of mirror_pairs, mutual, -1: none. Partners keep equal
                                                                  # moves, and what holds or limits one holds for both
-                 around: tuple[np.ndarray, np.ndarray] | None = None,  # for the border "curvature": positions #S x 3 of
-                                                                 # vertices around, and triangles that name the region's
+                 around: tuple[np.ndarray, np.ndarray] | None = None,  # for the borders "curvature" and "flow": positions
+                                                                 # #S x 3 of vertices around, and triangles that name the region's
                                                                  # by 0 .. #V - 1 and those by #V and more
                  face_of_triangle: np.ndarray | None = None,     # #F: the face that each was cut from, by any numbers;
                                                                  # counts are those of faces. None: each is its own
@@ -199,7 +200,8 @@ class SmoothPanelReport:
     messages: list[str]        # sentences for the user, the most important first
 
 def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
-                 border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature
+                 border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature,
+                                                                    # 4 flow
                  fixed: np.ndarray | None = None,                   # #V bool: held whatever the border says
                  partner: np.ndarray | None = None,                 # #V, as in ShapeOptimizer
                  around: tuple[np.ndarray, np.ndarray] | None = None,  # as in ShapeOptimizer

@@ -1,5 +1,6 @@
 """The border by segment in Blender: what was set on vertices holds in every tool, and bad attributes are refused."""
 import json
+import re
 import sys
 
 import bmesh
@@ -145,14 +146,14 @@ def test_other_segments_make_another_optimizer() -> None:
     assert not (scenes.positions(ob) != before).any(axis=1)[side(2)].any()  # clamped, as the tool has it
 
 
-@pytest.mark.parametrize("value", [-1, 5, 2**31 - 1, -2**31])
+@pytest.mark.parametrize("value", [-1, 6, 2**31 - 1, -2**31])
 def test_values_that_are_no_borders_are_refused(value: int) -> None:
     ob = segmented_panel()
     scenes.object_mode()
     ob.data.attributes["reflines_border"].data[side(1)[0]].value = value
     scenes.edit_inner(ob)
     before = scenes.fingerprint(ob)
-    with pytest.raises(RuntimeError, match="1 vertices have a border that is none of Free, Fixed, Clamped and"):
+    with pytest.raises(RuntimeError, match="1 vertices have a border that is none of Free, Fixed, Clamped, Curv"):
         scenes.smooth()
     assert scenes.fingerprint(ob) == before
     set_border(ob, [side(1)[0]], 'fixed')
@@ -217,12 +218,40 @@ def test_the_curvature_runs_on_from_the_faces_beside(transform: str) -> None:
     assert curvature < 0.75 * clamped  # the largest is at a corner
 
 
-def test_without_faces_beside_it_is_said() -> None:
+def test_flow_joins_as_curvature_does_and_says_nothing_where_the_faces_tell_its_rate() -> None:
+    clamped, flow = (measure_border_curvature(border) for border in ("clamped", "flow"))
+    print(f"{clamped:.1f} % clamped, {flow:.1f} % with the flow of the faces beside")
+    assert flow < 0.75 * clamped
+    notes = bpy.context.view_layer.objects.active.reflection_lines.report.notes
+    assert "Flow is the same as Curvature" not in notes
+
+
+def noisy(x: float, y: float) -> float:
+    seed = [round(1e3 * (1.0 + x)), round(1e3 * (1.0 + y))]
+    return bent(x, y) + 0.003 * float(np.random.default_rng(seed).standard_normal())
+
+
+def test_flow_by_segment_is_said_to_fall_back_where_noise_hides_the_rate() -> None:
+    """Only the vertices of its segment can: the rest is clamped."""
+    ob = scenes.panel(height=noisy, cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit(ob)
+    segment = [MARGIN + (CELLS + 1) * k for k in range(MARGIN + 3, CELLS - MARGIN - 2)]
+    set_border(ob, segment, 'flow')
+    assert (stored(ob)[segment] == 5).all()
+    scenes.select_faces(ob, scenes.inner(CELLS, MARGIN))
+    assert scenes.smooth(length=0.3, border='clamped') == {'FINISHED'}
+    said = re.search(r"At (\d+) vertices .* Flow is the same as Curvature", ob.reflection_lines.report.notes)
+    assert 0.8 * len(segment) <= int(said[1]) <= len(segment)
+
+
+@pytest.mark.parametrize("border", ["curvature", "flow"])
+def test_without_faces_beside_it_is_said(border: str) -> None:
     ob = scenes.panel()
     scenes.look_from_above()
     scenes.edit(ob)
     bpy.ops.mesh.select_all(action='SELECT')
-    assert scenes.smooth(length=0.6, border='curvature') == {'FINISHED'}
+    assert scenes.smooth(length=0.6, border=border) == {'FINISHED'}
     assert "No faces beside the region tell the curvature" in ob.reflection_lines.report.notes
 
 

@@ -1,4 +1,4 @@
-"""Borders set by segment are drawn in four colours, in Edit Mode and Object Mode, and follow undo."""
+"""Borders set by segment are drawn in five colours, in Edit Mode and Object Mode, and follow undo."""
 from collections.abc import Generator
 
 import bmesh
@@ -11,8 +11,9 @@ import window
 from picture import CELLS, Steps, fresh_panel, pixels, prepare
 
 ROW = CELLS + 1
-SEGMENTS = {"free": 4, "curvature": 12, "fixed": 20, "clamped": 36}  # condition and column of vertices
-HUES = {"free": (0, 1, 0), "fixed": (1, 0.5, 0), "clamped": (0, 0.4, 1), "curvature": (0.6, 0.1, 1)}
+SEGMENTS = {"free": 4, "curvature": 12, "fixed": 20, "flow": 28, "clamped": 36}  # condition and column of vertices
+HUES = {"free": (0, 1, 0), "fixed": (1, 0.5, 0), "clamped": (0, 0.4, 1), "curvature": (0.6, 0.1, 1),
+        "flow": (1, 0, 0.35)}
 
 
 def select_column(ob: bpy.types.Object, column: int) -> None:
@@ -65,7 +66,7 @@ def check_colors(driver: window.Window, ob: bpy.types.Object, *, drawn: bool) ->
         assert (away < 0.5 and np.ptp(color) > 0.4) if drawn else np.ptp(color) < 0.2
 
 
-def test_four_colors_in_both_modes(driver: window.Window) -> Steps:
+def test_five_colors_in_both_modes(driver: window.Window) -> Steps:
     ob = fresh_panel(driver, "Segments")
     prepare(driver, ob)
     set_columns(driver, ob)
@@ -94,4 +95,4 @@ def test_undo_takes_the_last_segment_away(driver: window.Window) -> Steps:
     assert np.ptp(hue(driver, picture, ob, SEGMENTS["fixed"])) > 0.4
 
 
-window.run(test_four_colors_in_both_modes, test_undo_takes_the_last_segment_away)
+window.run(test_five_colors_in_both_modes, test_undo_takes_the_last_segment_away)

@@ -11,6 +11,10 @@ enum class Border : signed char {
   // The condition kClamped, with lines that run on from the surroundings: see ShapeOptions::around. Of a cage it is
   // kClamped, which keeps the curvature, too, where the region ends inside a regular surface.
   kCurvature = 3,
+  // The condition kCurvature, where the curvature also changes across the border at the rate of the surroundings (G3).
+  // It is kCurvature at vertices whose surroundings do not tell that rate, and of a cage, where neither differs from
+  // kClamped.
+  kFlow = 4,
 };
 
 }  // namespace reflines

@@ -40,7 +40,7 @@ struct ShapeOptions {
   // keep equal moves along the view to the last bit: one unknown moves both. What holds or limits one of them holds for
   // both. That preserves the symmetry of a mesh where the view direction lies in the mirror plane.
   IndexVector partner;
-  Surroundings around;  // or none; read for border vertices with Border::kCurvature
+  Surroundings around;  // or none; read for border vertices with Border::kCurvature or kFlow
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
   CreaseOptions creases;  // which edges are held, and no stencil reaches across

@@ -101,7 +101,8 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
 
 void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
                                      const std::vector<ReflectionFunction>& families) {
-  if (std::count(boundary.border.begin(), boundary.border.end(), Border::kCurvature) == 0) return;
+  const auto continues = [](Border border) { return border >= Border::kCurvature; };
+  if (std::none_of(boundary.border.begin(), boundary.border.end(), continues)) return;
   BorderCurvature curvature;
   if (around.exist()) {
     check_surroundings(around, pieces_->vertex_count());
@@ -116,6 +117,12 @@ void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& b
     region_.messages.push_back("At " + std::to_string(curvature.unknown) +
                                " vertices of the border too few faces beside it tell its curvature: it is only clamped "
                                "there.");
+  }
+  if (curvature.constant > 0) {
+    region_.messages.push_back(
+        "At " + std::to_string(curvature.constant) +
+        " vertices of the border the faces beside it do not tell the rate at which its curvature "
+        "changes: Flow is the same as Curvature there.");
   }
 }
 
