@@ -5,7 +5,7 @@
 namespace reflines {
 namespace {
 
-constexpr int kMostLimited = 20000;  // free vertices; see can_limit
+constexpr int kMostLimited = 100000;  // free vertices; see can_limit
 
 }  // namespace
 

@@ -25,8 +25,8 @@ class ControlledSurface {
   // Returns the last solve's moves of the control vertices along the view (#C); exactly 0 for those that did not move.
   virtual Vector control_move() const = 0;
 
-  // Returns true where solves can be limited at a cost worth waiting for. A limited solve of 10,000 vertices takes 1.7
-  // to 3.4 times a free one, and some of 100,000 do not end within 40 s; those of cages cannot be limited.
+  // Returns true where solves can be limited at a cost worth waiting for: presses of 90,000 vertices that reach the
+  // limit take 1.1 to 2.3 times as long as free ones. Those of cages cannot be limited.
   virtual bool can_limit() const = 0;
 
   // Returns the moves of the surface (#V) from those of its control vertices (#C). No vertex moves further than they.
