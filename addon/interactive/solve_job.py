@@ -172,9 +172,8 @@ class SolveJob:
         """Solves warm-started. Beyond the limit all moves are scaled at once; the final solve takes its time."""
         report = await call(follower.solve, wanted.targets, gradient_tolerance=wanted.follow_tolerance,
                             progress=self.progress)
-        largest = choose_formulation(start.patch, start.view).measure_largest_move(follower, report)
-        if largest > limit:
-            scale_to_limit(follower, largest, limit)
+        if report.largest_move > limit:
+            scale_to_limit(follower, report.largest_move, limit)
 
     async def measure(self, request: SolveRequest) -> Gain:
         """Measures the present heights against those of the start, by the numbers that the result will be told by."""

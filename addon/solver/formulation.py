@@ -88,6 +88,10 @@ class Formulation:
         """Returns each solved vertex's share of the limit, as Patch.share has it."""
         return self.patch.share
 
+    async def choose_ranges(self, _optimizer: "native.ShapeOptimizer") -> np.ndarray | None:
+        """Returns the share of the limit of each vertex of the optimizer's triangles, as Patch.share has it."""
+        return self.choose_share()
+
     def choose_edges(self, border: str, *,
                      fair: bool = False) -> dict[str, "str | np.ndarray | tuple[np.ndarray, np.ndarray] | None"]:
         """Returns what holds at the border as arguments of the native module; `fair` moves what has no border of its
@@ -131,10 +135,6 @@ class Formulation:
     def measure_cage_move(self, _optimizer: "native.ShapeOptimizer") -> float:
         """Measures the largest move of a cage's vertices, world units; 0 where vertices are those of the surface."""
         return 0.0
-
-    def measure_largest_move(self, optimizer: "native.ShapeOptimizer", report: "native.Report") -> float:
-        """Measures the largest move of any vertex after a solve, of a surface and of its cage."""
-        return max(report.largest_move, self.measure_cage_move(optimizer))
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         """Returns the target for all that is solved, from one that was built for it."""
@@ -283,6 +283,20 @@ class CageFormulation(Formulation):
         share[self.patch.index] = self.patch.share
         return share
 
+    async def choose_ranges(self, optimizer: "native.CageOptimizer") -> np.ndarray | None:
+        """Returns the shares of the cage's vertices subdivided as its positions are."""
+        share = self.choose_share()
+        if share is None:
+            return None
+        spread = await self.subdivide(optimizer, np.column_stack([share, np.zeros(len(share))]))
+        return np.clip(spread[:, :2], [-1.0, 0.0], [0.0, 1.0])
+
+    async def subdivide(self, optimizer: "native.CageOptimizer", values: np.ndarray) -> np.ndarray:
+        """Returns three values of each vertex of the cage (#cage x 3) for the vertices of the optimizer's triangles."""
+        subdivision = await call(native.reflines.Subdivision.create, **self.patch.cage.build_topology_arguments(),
+                                 vertices=len(values))
+        return subdivision.positions(values)[optimizer.refined]
+
     async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool,
                     held: np.ndarray | None = None) -> "native.CageOptimizer":
         fixed = None
@@ -311,10 +325,8 @@ class CageFormulation(Formulation):
         image = cage.partner[index]
         own[image[image >= 0]] = weights[image >= 0]
         own[index] = weights
-        subdivision = await call(native.reflines.Subdivision.create, **cage.build_topology_arguments(),
-                                 vertices=len(own))
-        refined = subdivision.positions(np.repeat(own[:, None], 3, axis=1))[:, 0]
-        return np.clip(refined[optimizer.refined], 0.0, 1.0)
+        refined = await self.subdivide(optimizer, np.repeat(own[:, None], 3, axis=1))
+        return np.clip(refined[:, 0], 0.0, 1.0)
 
     def measure_cage_move(self, optimizer: "native.CageOptimizer") -> float:
         return float(np.linalg.norm(optimizer.cage_positions - self.patch.cage.V, axis=1).max())

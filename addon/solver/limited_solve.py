@@ -14,7 +14,8 @@ from .live_optimizer import LiveOptimizer
 # Relative to the patch's diagonal: the same share of the length of what changes as in the automatic press of Smooth.
 # Tools change the lines of the whole region, and a panel that has moved by more is another panel.
 AUTOMATIC_LIMIT = 1.0 / 20.0
-MOST_BOUNDED = 20_000  # unknowns; larger solves with bounds take minutes, see tests/bench
+MOST_BOUNDED = 100_000  # unknowns; a solve with bounds takes up to ten times as long as a free one, see tests/bench
+MOST_BOUNDED_CAGE = 8_000  # a limit that 3,266 of 7,469 unknowns of a cage touch takes 30 s
 
 
 def choose_limit(patch: Patch, settings: SolveSettings) -> float:
@@ -28,21 +29,25 @@ async def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]"
                              progress: "native.Progress | None") -> "native.Report | SolveReport":
     """Minimizes from the optimizer's present heights, and again with bounds where a vertex moved beyond the limit.
 
-    A cage, whose vertices are no heights of its surface, and a region of many vertices have all moves scaled instead.
+    Of a cage these are the vertices of its surface. A region of many vertices has all moves scaled instead.
     """
-    share = choose_formulation(live.patch, live.view).choose_share()
+    share = await choose_formulation(live.patch, live.view).choose_ranges(live.optimizer)
     if share is not None:
         return await solve_within_shares(live, targets, np.where(share == 0.0, 0.0, limit * share), progress)
     report = await call(live.optimizer.solve, targets, progress=progress)
-    largest = choose_formulation(live.patch, live.view).measure_largest_move(live.optimizer, report)
+    largest = report.largest_move
     if largest <= limit or report.termination == "cancelled":
         return report
     beyond = scale_to_limit(live.optimizer, largest, limit)
-    if not isinstance(live.patch, CagePatch) and report.unknowns <= MOST_BOUNDED:
+    if report.unknowns <= choose_most_bounded(live.patch):
         return await call(live.optimizer.solve, targets, limit=limit, progress=progress)
-    move = report.largest_move * limit / largest
-    return SolveReport(report.termination, report.message, report.iterations, report.seconds, report.unknowns, move,
+    return SolveReport(report.termination, report.message, report.iterations, report.seconds, report.unknowns, limit,
                        beyond)
+
+
+def choose_most_bounded(patch: Patch) -> int:
+    """Returns the largest number of unknowns that are solved with bounds."""
+    return MOST_BOUNDED_CAGE if isinstance(patch, CagePatch) else MOST_BOUNDED
 
 
 async def solve_within_shares(live: LiveOptimizer, targets: "list[native.Target]", ranges: np.ndarray,
@@ -51,16 +56,17 @@ async def solve_within_shares(live: LiveOptimizer, targets: "list[native.Target]
     name = live.patch.name
     if not ranges.any():
         raise Refusal(f"{name}: no vertex may move: the vertex group of its limit has no weight here")
-    if isinstance(live.patch, CagePatch) or np.count_nonzero(live.optimizer.free) > MOST_BOUNDED:
-        raise Refusal(f"{name}: moves one way, and limits by a vertex group, are only for meshes of up to "
-                      f"{MOST_BOUNDED} vertices in the region, and for Smooth with the automatic length: choose Both "
-                      "Ways and no group")
+    is_cage, most = isinstance(live.patch, CagePatch), choose_most_bounded(live.patch)
+    if np.count_nonzero(live.optimizer.cage_free if is_cage else live.optimizer.free) > most:
+        raise Refusal(f"{name}: moves one way, and limits by a vertex group, are only for regions of up to {most} "
+                      f"vertices{' of a cage' if is_cage else ''}, and for Smooth with the automatic length: choose "
+                      "Both Ways and no group")
     return await call(live.optimizer.solve, targets, limit=ranges, progress=progress)
 
 
 def clip_to_shares(patch: Patch, view: View, positions: np.ndarray, limit: float) -> np.ndarray:
     """Returns positions (#V x 3) with each vertex's move along the view cut to its share of the limit, to show a drag:
-    its last solve finds the shape within them.
+    its last solve finds the shape within them. A cage whose own vertices are within them has its surface there, too.
     """
     if patch.share is None:
         return positions
@@ -71,7 +77,7 @@ def clip_to_shares(patch: Patch, view: View, positions: np.ndarray, limit: float
 
 def scale_to_limit(optimizer: "native.ShapeOptimizer", largest_move: float, limit: float) -> int:
     """Scales all moves by the share that the limit is of the largest; returns how many vertices of the surface were
-    beyond it, at least one: the largest may be that of a cage.
+    beyond it, at least one: the numbers are rounded.
     """
     share, moved = limit / largest_move, optimizer.heights
     optimizer.scale_move(share)

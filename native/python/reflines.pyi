@@ -163,7 +163,8 @@ class ShapeOptimizer:
 
         `limit`: no vertex moves further along the view than this length from the heights the optimizer was built with, or,
         of #V x 2, beyond its lowest (<= 0) and highest (>= 0) move; infinity is no limit. It holds to the last bit, for
-        `positions` too, until the next solve or a reset. Not for cages (InvalidInput)."""
+        `positions` too, until the next solve or a reset. The vertices of a cage's optimizer are those of its surface: the
+        cage's own move as far as that allows, and those that would move vertices of limit 0 stay."""
     def watch(self, progress: Progress | None) -> None:
         """Reports the stages of smoothing and of the score to `progress`, and raises Cancelled there where it was cancelled.
         A solve has a progress of its own."""

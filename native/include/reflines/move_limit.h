@@ -5,7 +5,8 @@
 
 namespace reflines {
 
-// The range of each vertex's move; ShapeOptimizer::positions respects it exactly, to the last bit.
+// The range of each vertex's move; ShapeOptimizer::positions respects it exactly, to the last bit, and so does the
+// surface of CageOptimizer::cage_positions.
 struct MoveLimit {
   Vector lowest, highest;  // #V each, lowest <= 0 <= highest, infinite where there is none; empty: no limit
 

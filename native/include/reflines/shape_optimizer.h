@@ -125,8 +125,9 @@ class ShapeOptimizer {
 
   // Moves the heights to a minimum of the targets' energy, every piece on its own; for targets with reachable_only, see
   // ReachableTarget. On cancellation or failure the heights are unchanged. With a limit no vertex is beyond it, to the
-  // last bit, until the next solve or reset; heights beyond it from an earlier solve are first moved back to it. Throws
-  // InvalidInput for a limit that does not fit, and for any limit of a cage.
+  // last bit, until the next solve or reset; heights beyond it from an earlier solve are first moved back to it. A
+  // cage's limit is one of its surface: its own vertices move as far as that allows, and those that would move vertices
+  // of limit 0 stay. Throws InvalidInput for a limit that does not fit.
   Report solve(const std::vector<Target>& targets, const MinimizerOptions& options = {}, Progress* progress = nullptr,
                const MoveLimit& limit = MoveLimit::none());
 

@@ -45,6 +45,9 @@ class HeldFactor {
   // empty for 0), whatever their right-hand side. Returns the number of solves by the factor.
   int solve(Vector& x, const Vector& at_contacts = {});
 
+  // Solves for all columns of X at once, whose entries of held unknowns are 0. Only without contacts.
+  void solve(Eigen::MatrixXd& X) const { solver_.solve(X); }
+
  private:
   std::optional<std::vector<int>> find_contacts(const Sides& held) const;
   int add_known(const std::vector<int>& unknowns, const Progress* progress);

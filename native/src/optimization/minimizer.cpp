@@ -5,6 +5,7 @@
 #include <string>
 
 #include "optimization/bounded_descent.h"
+#include "optimization/contact_descent.h"
 #include "optimization/descent.h"
 #include "optimization/workspace.h"
 #include "reflines/errors.h"
@@ -45,6 +46,12 @@ Report Minimizer::minimize(Problem& problem, const Bounds& bounds, Vector& x, co
                            Progress* progress) {
   check(options);
   return measure_time([&] { return BoundedDescent(problem, bounds, options, progress, *workspace_).run(x); });
+}
+
+Report Minimizer::minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options,
+                           Progress* progress) {
+  check(options);
+  return measure_time([&] { return ContactDescent(problem, limits, options, progress, *workspace_).run(x); });
 }
 
 }  // namespace reflines

@@ -6,6 +6,7 @@
 #include "optimization/bounds.h"
 #include "optimization/linear/linear_solver.h"
 #include "optimization/problem.h"
+#include "optimization/row_limits.h"
 #include "reflines/minimizer_options.h"
 #include "reflines/progress.h"
 #include "reflines/report.h"
@@ -31,6 +32,10 @@ class Minimizer {
 
   // Minimizes within bounds, which x satisfies exactly (see BoundedDescent); a start outside is first moved into them.
   Report minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options = {},
+                  Progress* progress = nullptr);
+
+  // Minimizes within limits of linear functions of x (see ContactDescent); a start outside is first moved into them.
+  Report minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options = {},
                   Progress* progress = nullptr);
 
  private:

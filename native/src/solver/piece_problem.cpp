@@ -82,6 +82,7 @@ void PieceProblem::find_hidden() {
 void PieceProblem::set_heights(const Vector& x) {
   x_ = x;
   map_.apply(x_, z_);
+  if (!is_mesh()) largest_move_ = (z_ - piece_.field.z).cwiseAbs().maxCoeff();
   lines_.assign(families_.size(), std::nullopt);
 }
 
@@ -193,8 +194,9 @@ TargetTerms::Misfit PieceProblem::misfit(const std::vector<Target>& targets) con
 
 Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progress) {
   Vector x = x_;
-  const Report report = limit_.exists() ? minimizer_->minimize(*this, bounds(), x, options, progress)
-                                        : minimizer_->minimize(*this, x, options, progress);
+  const Report report = !limit_.exists() ? minimizer_->minimize(*this, x, options, progress)
+                        : is_mesh()      ? minimizer_->minimize(*this, bounds(), x, options, progress)
+                                         : minimizer_->minimize(*this, row_limits(), x, options, progress);
   set_heights(x);
   return report;
 }

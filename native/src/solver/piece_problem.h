@@ -61,9 +61,9 @@ class PieceProblem : public Problem {
   double energy() { return energy_.evaluate(z_, nullptr); }
   Report minimize(const MinimizerOptions& options, Progress* progress);
 
-  // Sets the limit of the moves from the next `minimize` on; rows follow the region's vertices. Throws InvalidInput for
-  // a cage, whose vertices are no heights of the surface.
-  void set_limit(const MoveLimit& limit);
+  // Sets the limit of the moves from the next `minimize` on; rows follow the region's vertices. `rounding` is the error
+  // of a move that is measured between positions.
+  void set_limit(const MoveLimit& limit, double rounding);
   double move(int v) const;  // along the view, from the start; within the limit to the last bit
   int limited(int v) const;  // -1 or 1 where the vertex lies at its lowest or highest move, else 0
 
@@ -93,7 +93,9 @@ class PieceProblem : public Problem {
   std::unique_ptr<CoarseProblem> coarse(const Vector& x, const Vector& gradient) override;
 
  private:
-  Bounds bounds() const;
+  Bounds bounds() const;         // of a mesh's unknowns
+  RowLimits row_limits() const;  // of a cage's surface
+  double touching_distance(int v) const;
   void find_hidden();
   HessianAssembly& assembly();
   PlanePositions image_places();
@@ -116,6 +118,9 @@ class PieceProblem : public Problem {
   std::optional<Minimizer> minimizer_;         // never empty; replaced by reset
   LinearSolverKind solver_;
   MoveLimit limit_;  // #V of the piece
+  double limit_rounding_ = 0.0;
+  double limit_size_ = 0.0;    // the largest finite end of a range
+  double largest_move_ = 0.0;  // of a cage's surface
   PieceSmoother smoother_;
   std::vector<std::optional<ReflectionField>> lines_;  // of each family at the current heights, once asked for
   std::optional<FieldAverage> average_;                // built on first use

@@ -5,6 +5,13 @@
 #include "reflection/strong_features.h"
 
 namespace reflines {
+namespace {
+
+// The error of a move that is measured between two positions, in roundings of the largest coordinate: each coordinate
+// is rounded once, of a cage's vertices as of its surface's.
+constexpr double kPositionRoundings = 16.0;
+
+}  // namespace
 
 RegionPieces::RegionPieces(const Positions& V, const Triangles& F, const ImagePlane& frame)
     : frame_(frame), V_(V), F_(F) {}
@@ -55,7 +62,8 @@ Mask RegionPieces::free() const {
 }
 
 void RegionPieces::set_limit(const MoveLimit& limit) {
-  for (const auto& piece : pieces_) piece->set_limit(limit);
+  const double rounding = kPositionRoundings * std::numeric_limits<double>::epsilon() * V_.cwiseAbs().maxCoeff();
+  for (const auto& piece : pieces_) piece->set_limit(limit, rounding);
   limit_ = limit;
 }
 

@@ -1,0 +1,63 @@
+// Limits of linear functions of the unknowns: those of a surface's heights that follow fewer unknowns.
+#pragma once
+
+#include <vector>
+
+#include "optimization/bounds.h"
+#include "reflines/types.h"
+
+namespace reflines {
+
+// The limits low <= modes^T (x - origin) <= high. They are in terms of what the caller limits; narrow() prepares the
+// form that a minimization works with.
+class RowLimits {
+ public:
+  // Takes `modes` (n x m), which outlives this: column i holds the weights of function i, none of them negative; low
+  // and high (m), low <= 0 <= high, which may be infinite; and the origin (n), where all functions are 0. `rounding` is
+  // the error of a function's value as its caller measures it. Throws InvalidInput for a negative weight.
+  RowLimits(const SparseMatrix& modes, Vector low, Vector high, Vector origin, double rounding);
+
+  Vector values(const Vector& x) const;  // m
+  // Returns whether all functions are within the limits, in spite of rounding.
+  bool contain(const Vector& x) const { return contain_values(values(x)); }
+  int count_beyond(const Vector& x) const;  // functions that are not
+  double reach(const Vector& x) const { return values(x).cwiseAbs().maxCoeff(); }
+  bool are_zero() const { return low_.isZero(0) && high_.isZero(0); }
+
+  struct Narrow;
+  // Narrows the limits by a tolerance, a share of the smaller one of `reach`, the largest value that the functions
+  // would have, and of the largest finite limit: results that are within that tolerance of the narrow limits are within
+  // the limits themselves.
+  Narrow narrow(double reach) const;
+
+ private:
+  bool contain_values(const Vector& values) const;
+  bool is_beyond(int i, double value) const;
+  double choose_tolerance(double reach) const;
+
+  const SparseMatrix& modes_;
+  Vector low_, high_, origin_;
+  double rounding_;
+};
+
+// Narrow limits: every function is a mean of unknowns, the weights of which sum to 1, so that one tolerance suits those
+// that depend on unknowns by 1e-6, too; functions that are equal are one.
+struct RowLimits::Narrow {
+  SparseMatrix rows;  // n x #rows, each column a mean
+  Vector low, high;   // #rows
+  Vector origin;      // n
+  double tolerance = 0.0;
+  // The unknowns that stay at the origin, since they would move functions that cannot grow and others that cannot fall;
+  // functions that can do neither are both.
+  Sides held;   // n
+  Vector base;  // n: a point within the narrow limits next to the origin
+
+  Vector values(const Vector& x) const { return rows.transpose() * (x - origin); }
+  bool may_move() const { return count_held(held) < static_cast<int>(held.size()); }
+  // Returns the farthest point on the way from a point within the narrow limits to another that is within them, too.
+  Vector pull_inside(const Vector& from, const Vector& to) const;
+
+  void merge_equal(const Vector& sum);
+};
+
+}  // namespace reflines
