@@ -136,6 +136,26 @@ def test_segments_of_flow_and_curvature_meet() -> None:
     assert change[x < -HALF + 8 * H].max() > 10.0 * change[x > HALF - 8 * H].max()
 
 
+def test_a_flat_panel_stays_flat() -> None:
+    """Second and third derivatives vanish: none of them is a scale for the other."""
+    V, F = mesh("jittered", 24)
+    panel = Panel(V * [1.0, 1.0, 0.0], F)
+    solver = panel.build("flow")
+    solver.solve(reflines.Target(solver.field()))
+    assert np.array_equal(solver.positions, panel.V[panel.used])
+
+
+@pytest.mark.parametrize("bend", [10.0, 100.0])
+def test_surroundings_that_turn_away_move_a_panel_little(bend: float) -> None:
+    """Behind the border they bend down ever more: their third derivatives continue only as far as their range."""
+    V, F = mesh("random", test_curvature_border.CELLS)
+    V[:, 2] -= bend * np.maximum(V[:, 0] - HALF, 0.0) ** 3
+    panel = Panel(V, F)
+    move = np.abs(solve(panel, "flow", "dent")[0] - panel.V).max()
+    print(f"moved by {move:.4f}")
+    assert move < 0.02 * HALF
+
+
 def test_codes_beyond_are_refused() -> None:
     panel = Panel(*mesh("regular", 12))
     with pytest.raises(reflines.InvalidInput, match="4 \\(flow\\); one is 5"):

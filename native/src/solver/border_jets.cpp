@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace reflines {
 namespace {
@@ -86,7 +87,7 @@ BorderJets fit_border(const Beside& beside, const HeightField& field, const std:
     result.unknown += fit.degree == 0;
     if (fit.degree == 0) continue;
     const bool flows = border[v] == Border::kFlow && std::isfinite(fit.third_error);
-    result.of_vertex[v] = {(Vector5() << fit.slope, fit.second).finished(), fit.third, fit.third_error, flows};
+    result.of_vertex[v] = {(Vector5() << fit.slope, fit.second).finished(), fit.third, fit.third_error, 0, flows};
   }
   return result;
 }
@@ -105,6 +106,16 @@ std::vector<int> list_beside(const Beside& beside, const Jets& jets, int v) {
 double squared_norm(const Vector4& third) { return third.cwiseAbs2().dot(Vector4(1, 3, 3, 1)); }
 
 double squared_norm(const Vector5& u) { return u.tail<3>().cwiseAbs2().dot(Vector3(1, 2, 1)); }
+
+// Sets the ranges of the jets, by the second derivatives of the whole border, which may vanish at one place.
+void set_ranges(Jets& jets) {
+  double second = 0;
+  for (const auto& [v, jet] : jets) second += squared_norm(jet.u) / static_cast<double>(jets.size());
+  for (auto& [v, jet] : jets) {
+    const double third = squared_norm(jet.third);
+    jet.range = third > 0 ? std::sqrt(second / third) : std::numeric_limits<double>::infinity();
+  }
+}
 
 // Tells whether third derivatives are known at a vertex, by those of its neighbours that have some, too: at one alone
 // they may vanish, or seem to be exact. Estimates with the error e of a tensor T have the expected square T^2 + e^2:
@@ -156,7 +167,11 @@ Jets average_along(const Beside& beside, const Jets& own) {
 
 Vector5 BorderJet::at(const Vector2& place) const {
   if (!flows) return u;
-  const double x = place.x(), y = place.y();
+  // The place tends to the range from inside, and leaves the polynomial like the fifth power of the distance. Without
+  // a range, a clean bonnet whose surroundings begin to bend down beside the region moves by 67 mm, with it by 14 mm;
+  // half the range gives 12 mm, but leaves the rates across beside dents and ripples 13 and 35 % further off.
+  const double far = place.squaredNorm() / (range * range), share = std::pow(1 + far * far, -0.25);
+  const double x = share * place.x(), y = share * place.y();
   const Vector3 turned(third(0) * x + third(1) * y, third(1) * x + third(2) * y, third(2) * x + third(3) * y);
   const Vector3 middle = u.tail<3>() + 0.5 * turned;
   Vector5 result = u;
@@ -172,6 +187,7 @@ BorderJets fit_border_jets(const Positions& V, const HeightField& field, const s
   choose_flowing(beside, reach, result.of_vertex);
   for (const auto& [v, jet] : result.of_vertex) result.constant += border[v] == Border::kFlow && !jet.flows;
   for (int pass = 0; pass < kAverages; ++pass) result.of_vertex = average_along(beside, result.of_vertex);
+  set_ranges(result.of_vertex);
   return result;
 }
 

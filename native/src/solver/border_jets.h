@@ -18,10 +18,11 @@ struct BorderJet {
   Vector5 u = Vector5::Zero();
   Vector4 third = Vector4::Zero();  // f_xxx, f_xxy, f_xyy, f_yyy
   double third_error = 0;           // see HeightFit
+  double range = 0;                 // the distance at which third derivatives change the second ones by their size
   bool flows = false;               // the third derivatives are wanted and known
 
-  // Returns the derivatives at a place beside the vertex: of a jet that flows those of its polynomial there, of others
-  // the vertex's own.
+  // Returns the derivatives at a place beside the vertex: of a jet that flows those of its polynomial there, beyond its
+  // range those that it has in this direction at the range; of others the vertex's own.
   Vector5 at(const Vector2& place) const;
 };
 

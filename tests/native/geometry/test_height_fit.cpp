@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "geometry/height_fit.h"
@@ -34,7 +35,28 @@ TEST(HeightFit, ReproducesACubicFromOneSideInAnyUnit) {
     EXPECT_NEAR(fit.height, 0.3, 1e-12);
     EXPECT_LT((scale * fit.slope - Vector2(0.2, -0.4)).norm(), 1e-11);
     EXPECT_LT((scale * scale * fit.second - Vector3(3, -0.7, 0.5)).norm(), 1e-10);
+    EXPECT_LT((scale * scale * scale * fit.third - Vector4(0, 4, 0, -6)).norm(), 1e-9);
+    EXPECT_LT(scale * scale * scale * fit.third_error, 1e-9);
   }
+}
+
+TEST(HeightFit, TheStandardErrorIsThatOfManyNoisyHeights) {
+  const PlanePositions points = points_beside(0);
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 0.01);
+  double squared = 0, expected = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    Vector heights(points.rows());
+    for (int k = 0; k < points.rows(); ++k) heights(k) = cubic(points(k, 0), points(k, 1)) + noise(random);
+    const HeightFit fit = fit_heights(points, heights);
+    squared += (fit.third - Vector4(0, 4, 0, -6)).cwiseAbs2().dot(Vector4(1, 3, 3, 1));
+    expected += fit.third_error * fit.third_error;
+  }
+  EXPECT_NEAR(expected / squared, 1, 0.1);
+}
+
+TEST(HeightFit, WithoutAResidualTheErrorIsUnknown) {
+  EXPECT_EQ(fit_cubic(points_beside(0).topRows(10), 1).third_error, std::numeric_limits<double>::infinity());
 }
 
 TEST(HeightFit, RowsThatLeaveACubicOpenGiveAQuadratic) {
