@@ -26,8 +26,8 @@ class ControlledSurface {
   virtual Vector control_move() const = 0;
 
   // Returns true where solves can be limited at a cost worth waiting for: presses of 90,000 vertices that reach the
-  // limit take 1.1 to 2.3 times as long as free ones. Those of cages have a limit for their surface, not for the control
-  // vertices.
+  // limit take 1.1 to 2.3 times as long as free ones. Those of cages have a limit for their surface, not for the
+  // control vertices.
   virtual bool can_limit() const = 0;
 
   // Returns the moves of the surface (#V) from those of its control vertices (#C). No vertex moves further than they.
