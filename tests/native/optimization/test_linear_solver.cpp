@@ -195,7 +195,8 @@ TEST(LinearSolverHalves, MakeTheSolveAndTheInverse) {
   LinearSolver solver(LinearSolverKind::kCholmod);
   solver.analyze(matrix);
   solver.factorize(matrix);
-  Vector whole = Vector::LinSpaced(n, -1.0, 2.0), halves = whole;
+  Eigen::MatrixXd whole = Vector::LinSpaced(n, -1.0, 2.0);
+  Vector halves = whole;
   solver.solve(whole);
   solver.solve_lower(halves);
   solver.solve_upper(halves);

@@ -4,20 +4,10 @@
 #include <vector>
 
 #include "optimization/linear/sparse_vector.h"
+#include "optimization/linear/supernodal_factor.h"
 #include "reflines/types.h"
 
 namespace reflines {
-
-// The arrays of a supernodal factor L (n x n), as CHOLMOD has them: a supernode is a range of columns with the same
-// rows below, stored as one dense block whose first rows are those of the columns themselves.
-struct SupernodalFactor {
-  int size, supernode_count;
-  const int* first_column;  // #supernodes + 1
-  const int* row_start;     // #supernodes + 1: into `row`
-  const int* block_start;   // #supernodes: into `value`
-  const int* row;
-  const double* value;
-};
 
 // Solves L y = e for unit vectors e. By the theorem of Gilbert and Peierls y is not zero on the path from e's place to
 // the root of the elimination tree only, so that a solve reads some columns of L instead of all: 600 of 10,000 unknowns

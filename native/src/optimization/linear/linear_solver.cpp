@@ -11,11 +11,15 @@
 #include <cstdint>
 #include <limits>
 #include <mutex>
+#include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "optimization/linear/elimination_path.h"
+#include "optimization/linear/multifrontal_cholesky.h"
 #include "optimization/linear/page_prefault.h"
+#include "optimization/linear/triangular_solve.h"
 #include "reflines/errors.h"
 #include "threads/abandonable_work.h"
 
@@ -62,9 +66,9 @@ void keep_blas_to_one_thread() {
 }
 
 // Makes CHOLMOD's own loops serial for a scope: they request four threads on any machine. On two cores they take as
-// long as one thread, and each team of another size makes OpenMP end and start threads: some milliseconds in each
-// factorization of a small system. The setting belongs to the calling thread; before GCC 12 it belonged to the process,
-// so that a thread of a team, whose loops are serial anyway, does not change it.
+// long as one thread, and each team of another size makes OpenMP end and start threads: some milliseconds. The setting
+// belongs to the calling thread; before GCC 12 it belonged to the process, so that a thread of a team, whose loops are
+// serial anyway, does not change it.
 class SerialLoops {
  public:
   SerialLoops() : active_levels_(omp_get_max_active_levels()) { set(0); }
@@ -107,7 +111,8 @@ class LinearSolver::Backend {
   virtual void analyze(const SparseMatrix& matrix, const std::vector<int>& order) = 0;
   virtual void allocate() {}  // allocates the memory of a factor, on all cores
   virtual bool factorize(const SparseMatrix& matrix, const double* values) = 0;
-  virtual void solve(Eigen::Ref<Eigen::MatrixXd> X) = 0;
+  virtual void solve(Vector& x) = 0;
+  virtual void solve(Eigen::MatrixXd& X) = 0;
   virtual void solve_lower(Vector&) {}
   virtual void solve_upper(Vector&) {}
   virtual std::vector<SparseVector> solve_lower_units(const std::vector<int>&) { return {}; }
@@ -115,7 +120,6 @@ class LinearSolver::Backend {
   // Factors with the first shift that succeeds and returns that.
   double factorize_shifted(const SparseMatrix& matrix) {
     allocate();
-    const SerialLoops serial_loops;
     Vector shifted;
     for (const double shift : kDiagonalShifts) {
       if (shift > 0.0) shifted = shift_diagonal(matrix, shift);
@@ -130,8 +134,9 @@ class LinearSolver::Backend {
   static std::shared_ptr<Backend> make(LinearSolverKind kind);
 };
 
-// CHOLMOD's supernodal L L^T, with 32-bit indices: they suffice for 2^31 entries of L, about eight million unknowns,
-// and take less memory than 64-bit ones.
+// CHOLMOD's order and structure of a supernodal L L^T, with 32-bit indices: they suffice for 2^31 entries of L, about
+// eight million unknowns, and take less memory than 64-bit ones. Its values, and solves for one vector, are computed on
+// all cores (see MultifrontalCholesky).
 class LinearSolver::Cholmod final : public Backend {
  public:
   Cholmod() {
@@ -155,35 +160,65 @@ class LinearSolver::Cholmod final : public Backend {
     common_.method[0].ordering = !order.empty()                      ? CHOLMOD_GIVEN
                                  : matrix.rows() < kNestedDissection ? CHOLMOD_AMD
                                                                      : CHOLMOD_METIS;
-    factor_ = cholmod_analyze_p(&view, const_cast<int*>(order.data()), nullptr, 0, &common_);
+    {
+      const SerialLoops serial_loops;
+      factor_ = cholmod_analyze_p(&view, const_cast<int*>(order.data()), nullptr, 0, &common_);
+    }
     require_memory(factor_ != nullptr, "ordering", matrix.rows());
+    multifrontal_.emplace(view_factor(), matrix, static_cast<const int*>(factor_->Perm));
   }
 
-  // Allocates the factor here, since CHOLMOD would clear it on one thread.
   void allocate() override {
     if (factor_->xtype != CHOLMOD_PATTERN) return;
     const int done = cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_);
     require_memory(done != 0, "factorizing", static_cast<Eigen::Index>(factor_->n));
     provide_pages(factor_->x, factor_->xsize * sizeof(double));
+    triangular_solve_.emplace(view_factor());
   }
 
   bool factorize(const SparseMatrix& matrix, const double* values) override {
-    cholmod_sparse view = wrap_matrix(matrix, values);
-    cholmod_factorize(&view, factor_, &common_);
-    require_memory(common_.status >= CHOLMOD_OK, "factorizing", matrix.rows());
-    return common_.status == CHOLMOD_OK && smallest_pivot_share(matrix, values) > kSmallestPivotShare;
+    factor_->minor = factor_->n;  // CHOLMOD's mark of a factor without a failed pivot
+    try {
+      return multifrontal_->factorize(values, static_cast<double*>(factor_->x)) &&
+             smallest_pivot_share(matrix, values) > kSmallestPivotShare;
+    } catch (const std::bad_alloc&) {
+      require_memory(false, "factorizing", matrix.rows());
+      return false;
+    }
   }
 
-  void solve(Eigen::Ref<Eigen::MatrixXd> X) override { solve(CHOLMOD_A, X); }
+  void solve(Vector& x) override {
+    solve_lower(x);
+    solve_upper(x);
+  }
 
   void solve_lower(Vector& x) override {
-    permute(x, [](Vector& to, int j, const Vector& from, int k) { to(j) = from(k); });
-    solve(CHOLMOD_L, x);
+    const auto* order = static_cast<const int*>(factor_->Perm);
+    permuted_.resize(x.size());
+    for (Eigen::Index j = 0; j < x.size(); ++j) permuted_(j) = x(order[j]);
+    x.swap(permuted_);
+    triangular_solve_->solve_lower(x);
   }
 
   void solve_upper(Vector& x) override {
-    solve(CHOLMOD_Lt, x);
-    permute(x, [](Vector& to, int j, const Vector& from, int k) { to(k) = from(j); });
+    triangular_solve_->solve_upper(x);
+    const auto* order = static_cast<const int*>(factor_->Perm);
+    permuted_.resize(x.size());
+    for (Eigen::Index j = 0; j < x.size(); ++j) permuted_(order[j]) = x(j);
+    x.swap(permuted_);
+  }
+
+  void solve(Eigen::MatrixXd& X) override {
+    cholmod_dense right_side{};
+    right_side.nrow = right_side.d = static_cast<std::size_t>(X.rows());
+    right_side.ncol = static_cast<std::size_t>(X.cols());
+    right_side.nzmax = static_cast<std::size_t>(X.size());
+    right_side.x = X.data();
+    right_side.xtype = CHOLMOD_REAL;
+    right_side.dtype = CHOLMOD_DOUBLE;
+    const int done = cholmod_solve2(CHOLMOD_A, factor_, &right_side, nullptr, &solution_, nullptr, &y_, &e_, &common_);
+    require_memory(done != 0, "solving", X.rows());
+    std::copy_n(static_cast<const double*>(solution_->x), X.size(), X.data());
   }
 
   std::vector<SparseVector> solve_lower_units(const std::vector<int>& unknowns) override {
@@ -202,27 +237,6 @@ class LinearSolver::Cholmod final : public Backend {
   }
 
  private:
-  void solve(int system, Eigen::Ref<Eigen::MatrixXd> X) {
-    cholmod_dense right_side{};
-    right_side.nrow = right_side.d = static_cast<std::size_t>(X.rows());
-    right_side.ncol = static_cast<std::size_t>(X.cols());
-    right_side.nzmax = static_cast<std::size_t>(X.size());
-    right_side.x = X.data();
-    right_side.xtype = CHOLMOD_REAL;
-    right_side.dtype = CHOLMOD_DOUBLE;
-    const int done = cholmod_solve2(system, factor_, &right_side, nullptr, &solution_, nullptr, &y_, &e_, &common_);
-    require_memory(done != 0, "solving", X.rows());
-    std::copy_n(static_cast<const double*>(solution_->x), X.size(), X.data());
-  }
-
-  // Moves every entry between its unknown k and its place j in the order of elimination.
-  template <typename Move>
-  void permute(Vector& x, Move move) const {
-    const auto* order = static_cast<const int*>(factor_->Perm);
-    const Vector from = x;
-    for (int j = 0; j < x.size(); ++j) move(x, j, from, order[j]);
-  }
-
   SupernodalFactor view_factor() const {
     return {static_cast<int>(factor_->n),
             static_cast<int>(factor_->nsuper),
@@ -230,7 +244,7 @@ class LinearSolver::Cholmod final : public Backend {
             static_cast<const int*>(factor_->pi),
             static_cast<const int*>(factor_->px),
             static_cast<const int*>(factor_->s),
-            static_cast<const double*>(factor_->x)};
+            static_cast<double*>(factor_->x)};
   }
 
   // Returns the smallest L_jj^2 / A_jj. Columns of a supernode lie one below the other, each as high as the first.
@@ -270,6 +284,9 @@ class LinearSolver::Cholmod final : public Backend {
   cholmod_dense* solution_ = nullptr;
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
+  std::optional<TriangularSolve> triangular_solve_;
+  std::optional<MultifrontalCholesky> multifrontal_;
+  Vector permuted_;
 };
 
 // UMFPACK's L U with its symmetric strategy, with 64-bit indices: the 32-bit interface overflows its work space at one
@@ -300,6 +317,7 @@ class LinearSolver::Umfpack final : public Backend {
     umfpack_dl_free_symbolic(&symbolic_);
     mirror_pattern(matrix);
     const auto n = static_cast<SuiteSparse_long>(matrix.rows());
+    const SerialLoops serial_loops;
     const auto status = umfpack_dl_symbolic(n, n, starts_.data(), rows_.data(), nullptr, &symbolic_, control_, info_);
     require_memory(status == UMFPACK_OK, "ordering", matrix.rows());
     right_side_.resize(matrix.rows());
@@ -325,15 +343,19 @@ class LinearSolver::Umfpack final : public Backend {
     return true;
   }
 
-  void solve(Eigen::Ref<Eigen::MatrixXd> X) override {
-    for (Eigen::Index j = 0; j < X.cols(); ++j) {
-      right_side_ = X.col(j);
-      umfpack_dl_wsolve(UMFPACK_A, starts_.data(), rows_.data(), values_.data(), X.col(j).data(), right_side_.data(),
-                        numeric_, control_, info_, index_work_.data(), work_.data());
-    }
+  void solve(Vector& x) override { solve_column(x.data()); }
+
+  void solve(Eigen::MatrixXd& X) override {
+    for (Eigen::Index j = 0; j < X.cols(); ++j) solve_column(X.col(j).data());
   }
 
  private:
+  void solve_column(double* x) {
+    right_side_ = Eigen::Map<const Vector>(x, right_side_.size());
+    umfpack_dl_wsolve(UMFPACK_A, starts_.data(), rows_.data(), values_.data(), x, right_side_.data(), numeric_,
+                      control_, info_, index_work_.data(), work_.data());
+  }
+
   // Builds the pattern of both triangles, which UMFPACK needs; source_ maps each entry to a value of the lower one.
   void mirror_pattern(const SparseMatrix& lower) {
     const int n = static_cast<int>(lower.cols());
@@ -419,10 +441,7 @@ void LinearSolver::work(const SparseMatrix& matrix, const Progress* progress,
 
 void LinearSolver::analyze(const SparseMatrix& matrix, const std::vector<int>& order, const Progress* progress) {
   pattern_->starts.clear();
-  work(matrix, progress, [order](Backend& backend, const SparseMatrix& own) {
-    const SerialLoops serial_loops;
-    backend.analyze(own, order);
-  });
+  work(matrix, progress, [order](Backend& backend, const SparseMatrix& own) { backend.analyze(own, order); });
   pattern_->starts.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
   pattern_->rows.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
 }
@@ -435,23 +454,11 @@ void LinearSolver::factorize(const SparseMatrix& matrix, const Progress* progres
   has_factor_ = true;
 }
 
-void LinearSolver::solve(Vector& x) {
-  keep_blas_to_one_thread();
-  const SerialLoops serial_loops;
-  backend_->solve(x);
-}
+void LinearSolver::solve(Vector& x) { backend_->solve(x); }
 
-void LinearSolver::solve_lower(Vector& x) {
-  keep_blas_to_one_thread();
-  const SerialLoops serial_loops;
-  backend_->solve_lower(x);
-}
+void LinearSolver::solve_lower(Vector& x) { backend_->solve_lower(x); }
 
-void LinearSolver::solve_upper(Vector& x) {
-  keep_blas_to_one_thread();
-  const SerialLoops serial_loops;
-  backend_->solve_upper(x);
-}
+void LinearSolver::solve_upper(Vector& x) { backend_->solve_upper(x); }
 
 std::vector<SparseVector> LinearSolver::solve_lower_units(const std::vector<int>& unknowns) {
   return backend_->solve_lower_units(unknowns);
