@@ -3,6 +3,7 @@ import hashlib
 import os
 import subprocess
 import sys
+import time
 from types import ModuleType
 
 import numpy as np
@@ -226,6 +227,37 @@ def test_cancelled_everything_is_as_it_was():
     again = solved(2e-4)[0].solve(target, limit=1e-4)
     report = solver.solve(target, limit=1e-4)
     assert report.energy_after == again.energy_after
+
+
+def test_a_solve_that_ends_at_its_limit_at_once_can_be_followed_by_another():
+    """One free vertex: the start on the way to the free minimum is the result, and no model was made."""
+    positions, triangles = panel(2)
+    options = {"view": (0, 0, 1), "border": "fixed", "crease_rule": "none"}
+    positions[4, 2] += 0.05
+    free = made(positions, triangles, **options)
+    target = reflines.Target(np.zeros((len(triangles), 2)))
+    largest = free.solve(target).largest_move
+    solver = made(positions, triangles, **options)
+    for share in (0.3, 0.3, 0.2, 0.5):
+        solver.solve(target, limit=share * largest)
+        assert np.abs(solver.positions - positions).max() == share * largest
+
+
+def test_a_cancelled_limited_solve_can_be_followed_by_another():
+    limit = 0.3 * largest_free_move()
+    expected = solved(limit)[0].positions
+    stages = set()
+    for wanted in range(1, 12):
+        positions, triangles = ripples()
+        solver = made(positions, triangles)
+        target, progress = reflines.smooth(solver, length=SMOOTH), reflines.Progress()
+        task = reflines.start(solver.solve, target, limit=limit, progress=progress)
+        time.sleep(1e-3 * wanted)
+        progress.cancel()
+        stages.add((task.result().termination, progress.stage))
+        assert solver.solve(target, limit=limit).converged
+        assert np.abs(solver.positions - expected).max() < 1e-4 * limit
+    print(stages)
 
 
 def test_a_drag_of_the_target_makes_few_factors():

@@ -19,10 +19,7 @@ void clear(const Sides& held, Vector& x) {
 }  // namespace
 
 void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progress* progress, const Vector& added) {
-  contacts_.clear();
-  known_.clear();
-  half_.clear();
-  lower_.resize(0);
+  forget();
   inverse_.resize(0, 0);
   factored_ = held;
   matrix_ = H;
@@ -36,13 +33,15 @@ void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progr
       }
     }
   }
-  is_current_ = false;
   solver_.factorize(matrix_, progress);
   is_current_ = added.size() == 0;
 }
 
 void HeldFactor::forget() {
   is_current_ = false;
+  contacts_.clear();
+  known_.clear();
+  half_.clear();
   lower_.resize(0);
 }
 

@@ -29,6 +29,7 @@ class HeldFactor {
 
   // Tells that the matrix, or the solver's factor, has become another.
   void forget();
+  bool is_current() const { return is_current_; }  // the solver's factor is that of the matrix given last
 
   // Holds these unknowns, of which those that the factor does not leave out are contacts. Returns the number of solves
   // that took: none where the solver has halves, else one for each contact that was none since the last factorization.

@@ -32,7 +32,8 @@ struct Workspace {
     return solver.has_factor() && held.empty() && factored_model == model && rounding_weight.size() == n;
   }
   bool has_bounded_factor_of(HessianModel model, Eigen::Index n) const {
-    return solver.has_factor() && factored_model == model && static_cast<Eigen::Index>(held.size()) == n;
+    return solver.has_factor() && held_factor.is_current() && factored_model == model &&
+           static_cast<Eigen::Index>(held.size()) == n;
   }
 
   // Analyses the pattern of the matrix, whose values are not read. Returns the number of analyses made, 0 where the
