@@ -48,7 +48,8 @@ class Task(Generic[Result]):
 def start(function: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs) -> Task[Result]:
     """Starts a call of a function or method of this module on a background thread, which never takes the GIL: arguments are
     converted now, and the result when it is taken. What is no long work, such as a property, is done at once; classes
-    are built in the background by their `create`. Python's exit waits for what was started.
+    are built in the background by their `create`. Python's exit waits for what was started. Raises InvalidInput for a
+    function written in Python.
     """
 
 class Region:

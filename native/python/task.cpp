@@ -28,6 +28,17 @@ void finish(Outcome& outcome, std::exception_ptr error) {
   outcome.changed.notify_all();
 }
 
+// Refuses functions written in Python: objects that these alone refer to may be deleted while native work uses them.
+void check_is_native(const py::function& function) {
+  PyObject* called = function.ptr();
+  if (PyMethod_Check(called)) called = PyMethod_GET_FUNCTION(called);
+  if (PyInstanceMethod_Check(called)) called = PyInstanceMethod_GET_FUNCTION(called);
+  if (PyCFunction_Check(called)) return;
+  throw InvalidInput(
+      "start takes a function or a method of this module, and its arguments apart: start(solver.solve, "
+      "target), not start(lambda: solver.solve(target)).");
+}
+
 // The call that the `start` of this thread waits for; null outside of it.
 thread_local std::optional<NativeCall>* deferred = nullptr;
 
@@ -159,6 +170,7 @@ void bind_task(py::module_& module) {
       .def("wait", &Task::wait, py::arg("seconds"))
       .def("result", &Task::result);
   module.def("start", [](const py::function& function, const py::args& arguments, const py::kwargs& named) {
+    check_is_native(function);
     return std::make_unique<Task>(function, arguments, named);
   });
   py::module_::import("atexit").attr("register")(py::cpp_function(&wait_at_exit));

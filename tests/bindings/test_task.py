@@ -129,11 +129,45 @@ def test_what_is_no_long_work_is_done_at_once() -> None:
     assert task.done and np.array_equal(task.result(), reflines.image_plane(VIEW, LINE))
 
 
+class LengthThatScores:
+    """An argument whose conversion makes a call of its own."""
+
+    def __init__(self, optimizer: reflines.ShapeOptimizer) -> None:
+        self.optimizer = optimizer
+
+    def __float__(self) -> float:
+        self.optimizer.score(0.3)
+        return 0.3
+
+
 def test_a_task_is_one_call() -> None:
     optimizer = solver(4)
     with pytest.raises(reflines.InvalidInput, match="one native call"):
-        reflines.start(lambda: (optimizer.score(0.3), optimizer.score(0.3))).result()
+        reflines.start(optimizer.score, LengthThatScores(optimizer)).result()
     assert optimizer.score(0.3).shift > 0.0
+
+
+def test_functions_of_python_are_refused() -> None:
+    """What they alone refer to could be deleted while native work uses it."""
+    optimizer = solver(4)
+    for function in (lambda: optimizer.score(0.3), partial(optimizer.score, 0.3), print_nothing,
+                     Scorer(optimizer).score):
+        with pytest.raises(reflines.InvalidInput, match="not start\\(lambda"):
+            reflines.start(function)
+
+
+def print_nothing() -> None:
+    """A function of Python."""
+
+
+class Scorer:
+    """An object with a method of Python."""
+
+    def __init__(self, optimizer: reflines.ShapeOptimizer) -> None:
+        self.optimizer = optimizer
+
+    def score(self) -> "reflines.Score":
+        return self.optimizer.score(0.3)
 
 
 @pytest.mark.parametrize("seconds", [-1.0, np.nan])
