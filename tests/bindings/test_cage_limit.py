@@ -193,6 +193,23 @@ def test_a_painted_limit_keeps_what_has_none():
     assert np.array_equal(solver.positions[painted == 0], start[painted == 0])
 
 
+@pytest.mark.parametrize("seed", [1039, 1096, 1167, 1232])
+def test_ranges_of_every_size_hold(seed):
+    """Where solves from inside end without all digits, too. Moves are those of the control vertices, subdivided."""
+    random = np.random.default_rng(seed)
+    cage = dented(hood(*((8, 14), (12, 14), (16, 8))[seed % 3]), VIEW, LINE)
+    solver = optimizer(cage, level=LEVEL, border="fixed")
+    target = reflines.smooth(solver, length=SMOOTH)
+    largest = solver.solve(target).largest_move
+    for power in (1, 4):
+        ends = 0.2 * largest * random.random((len(solver.positions), 2)) ** power
+        solver.reset()
+        report = solver.solve(target, limit=ends * [-1.0, 1.0])
+        move = surface_move(cage, solver)
+        assert (move <= ends[:, 1]).all() and (move >= -ends[:, 0]).all()
+        assert report.energy_after < report.energy_before and report.limited > 0
+
+
 def test_neighbours_that_may_only_go_opposite_ways():
     cage = bonnet()
     solver = optimizer(cage, level=LEVEL)
@@ -243,6 +260,13 @@ def test_a_result_beyond_the_limit_is_put_back_first():
     assert np.abs(surface_move(cage, solver)).max() <= limit
     afresh = solved(limit)[0]
     assert np.abs(solver.cage_positions - afresh.cage_positions).max() < 1e-3 * limit
+
+
+def test_a_reset_leaves_the_bits_of_the_start():
+    solver, cage, _, _ = solved(None)
+    solver.reset()
+    fresh = optimizer(cage, level=LEVEL)
+    assert np.array_equal(solver.positions, fresh.positions) and np.array_equal(solver.heights, fresh.heights)
 
 
 def test_solved_again_it_stays():

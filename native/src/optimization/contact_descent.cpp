@@ -197,6 +197,7 @@ bool ContactDescent::solve_model() {
     many_contacts_ = work_.direction.size() == 0;
   }
   if (many_contacts_) solve_from_inside();
+  work_.direction *= narrow_.longest_step(work_.x, work_.direction);
   work_.memory.clear();
   contacts_keep_ = false;
   measure();

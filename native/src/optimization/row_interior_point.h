@@ -44,7 +44,8 @@ class RowInteriorPoint {
   };
   using Products = std::array<Vector, 2>;
 
-  End make_end(const Vector& bound, double sign, double force) const;
+  End make_end(const Vector& bound, double sign) const;
+  void balance(double force);
   SparseMatrix build_matrix() const;
   Change solve(HeldFactor& factor, const Products& products) const;
   Change predict_and_correct(HeldFactor& factor) const;

@@ -22,6 +22,10 @@ constexpr double kPrecision = 1e-9;
 constexpr double kNoRoom = 3.0;
 constexpr double kBaseMove = 2.0;
 
+// The part of the tolerance that a step may end beyond the narrow limits: more than the half that models keep, and less
+// than all, for rounding.
+constexpr double kStray = 0.75;
+
 using Entries = std::pair<const int*, const double*>;
 
 bool comes_before(const SparseMatrix& rows, int a, int b) {
@@ -168,6 +172,17 @@ Vector RowLimits::Narrow::pull_inside(const Vector& from, const Vector& to) cons
     if (last(i) < low(i)) share = std::min(share, (low(i) - first(i)) / (last(i) - first(i)));
   }
   return share == 1.0 ? end : Vector(from + std::max(share, 0.0) * (end - from));
+}
+
+double RowLimits::Narrow::longest_step(const Vector& x, const Vector& step) const {
+  const Vector first = values(x), way = rows.transpose() * step;
+  const double stray = kStray * tolerance;
+  double part = 1.0;
+  for (int i = 0; i < way.size(); ++i) {
+    if (first(i) + way(i) > high(i) + stray) part = std::min(part, (high(i) + stray - first(i)) / way(i));
+    if (first(i) + way(i) < low(i) - stray) part = std::min(part, (low(i) - stray - first(i)) / way(i));
+  }
+  return std::max(part, 0.0);
 }
 
 }  // namespace reflines

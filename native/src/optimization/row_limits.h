@@ -56,6 +56,9 @@ struct RowLimits::Narrow {
   bool may_move() const { return count_held(held) < static_cast<int>(held.size()); }
   // Returns the farthest point on the way from a point within the narrow limits to another that is within them, too.
   Vector pull_inside(const Vector& from, const Vector& to) const;
+  // Returns the part of a step, 1 at most, that ends within the tolerance of the narrow limits: a model's solution that
+  // lacks digits may be farther beyond.
+  double longest_step(const Vector& x, const Vector& step) const;
 
   void merge_equal(const Vector& sum);
 };

@@ -81,7 +81,10 @@ void PieceProblem::find_hidden() {
 
 void PieceProblem::set_heights(const Vector& x) {
   x_ = x;
-  map_.apply(x_, z_);
+  if (x_ == map_.start())
+    z_ = piece_.field.z;  // without the rounding of B x + c
+  else
+    map_.apply(x_, z_);
   if (!is_mesh()) largest_move_ = (z_ - piece_.field.z).cwiseAbs().maxCoeff();
   lines_.assign(families_.size(), std::nullopt);
 }
