@@ -84,12 +84,40 @@ def fell_back(solver: reflines.ShapeOptimizer) -> int:
     ("nowhere", 0.0, 0.0), ("right", 0.4, 0.6), ("everywhere", 0.8, 1.0),
 ])
 def test_it_falls_back_where_noise_hides_the_rate(noisy: str, least: float, most: float) -> None:
-    """Noise of a thousandth of an edge, on a panel without third derivatives."""
+    """Noise of a few ten-thousandths of an edge, on a panel without third derivatives."""
     V, F = mesh("jittered", CELLS)
     where = {"nowhere": 0.0, "right": V[:, 0] > 0.0, "everywhere": 1.0}[noisy]
-    V[:, 2] += 1e-3 * H * where * np.random.default_rng(0).standard_normal(len(V))
+    V[:, 2] += 2e-4 * H * where * np.random.default_rng(0).standard_normal(len(V))
     share = fell_back(Panel(V, F).build("flow")) / (4 * 2 * HALF * CELLS)
     assert least <= share <= most
+
+
+def beside_noise(amount: float) -> Panel:
+    """A dent in a panel whose surroundings have noise, in edges."""
+    V, F = mesh("jittered", test_curvature_border.CELLS)
+    panel = Panel(flawed("dent", V), F)
+    outside = np.setdiff1d(np.arange(len(V)), panel.used)
+    panel.V[outside, 2] += amount / test_curvature_border.CELLS * np.random.default_rng(0).standard_normal(len(outside))
+    return Panel(panel.V, F)
+
+
+@pytest.mark.parametrize("amount", [0.01, 0.1])
+@pytest.mark.parametrize("border", ["curvature", "flow"])
+def test_where_noise_hides_the_curvature_it_is_clamped_to_the_bit(border: str, amount: float) -> None:
+    panel = beside_noise(amount)
+    moved, solver = solve(panel, border, "dent")
+    assert any("No faces beside the region tell the curvature" in message for message in solver.region.messages)
+    assert np.array_equal(moved, solve(panel, "clamped", "dent")[0])
+
+
+@pytest.mark.parametrize("slope", [0.2, 1.0, 3.0])
+@pytest.mark.parametrize("border", ["curvature", "flow"])
+def test_where_the_border_is_a_crease_it_is_clamped_to_the_bit(border: str, slope: float) -> None:
+    """Behind the border the panel bends down like a flange."""
+    V, F = mesh("jittered", test_curvature_border.CELLS)
+    V[:, 2] -= slope * np.maximum(np.abs(V[:, :2]).max(axis=1) - HALF, 0.0)
+    panel = Panel(flawed("dent", V), F)
+    assert np.array_equal(solve(panel, border, "dent")[0], solve(panel, "clamped", "dent")[0])
 
 
 def test_a_panel_whose_rate_is_told_says_nothing() -> None:

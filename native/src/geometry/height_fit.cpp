@@ -21,19 +21,27 @@ Eigen::MatrixXd list_monomials(const PlanePositions& points, double size, int de
   return M;
 }
 
-// Adds the third derivatives, from the coefficients c of the monomials M in units of `size`, and their standard error.
-void add_third(const Eigen::MatrixXd& M, const Decomposition& decomposition, const Vector& heights, const Vector& c,
-               double size, HeightFit& fit) {
-  const Vector4 factor = Vector4(6, 2, 2, 6) / (size * size * size), times(1, 3, 3, 1);
-  fit.third = factor.cwiseProduct(c.segment<4>(6));
-  if (M.rows() <= M.cols()) return;
-  const double variance = (heights - M * c).squaredNorm() / static_cast<double>(M.rows() - M.cols());
-  const Eigen::MatrixXd picked =
-      decomposition.colsPermutation().transpose() * Eigen::MatrixXd::Identity(M.cols(), M.cols()).middleCols(6, 4);
+// Returns the variances of the coefficients (6 or 10), for heights whose errors have the variance 1.
+Vector find_spread(const Decomposition& decomposition) {
+  const Eigen::Index count = decomposition.cols();
+  const Eigen::MatrixXd picked = decomposition.colsPermutation().transpose() * Eigen::MatrixXd::Identity(count, count);
   const Eigen::MatrixXd root =
-      decomposition.matrixR().topRows(M.cols()).triangularView<Eigen::Upper>().transpose().solve(picked);
-  const Vector4 spread = root.colwise().squaredNorm().transpose();
-  fit.third_error = std::sqrt(variance * times.dot(factor.cwiseAbs2().cwiseProduct(spread)));
+      decomposition.matrixR().topRows(count).triangularView<Eigen::Upper>().transpose().solve(picked);
+  return root.colwise().squaredNorm().transpose();
+}
+
+// Sets the derivatives of second and third degree, from the coefficients c of monomials in units of `size`, and their
+// errors, from the squared residual, of which `more` heights than coefficients are left.
+void set_derivatives(const Vector& c, double size, const Vector& spread, double residual, Eigen::Index more,
+                     HeightFit& fit) {
+  const Vector3 second = Vector3(2, 1, 2) / (size * size);
+  const Vector4 third = Vector4(6, 2, 2, 6) / (size * size * size);
+  const double variance = more > 0 ? residual / static_cast<double>(more) : std::numeric_limits<double>::infinity();
+  fit.second = second.cwiseProduct(c.segment<3>(3));
+  fit.second_error = std::sqrt(variance * Vector3(1, 2, 1).dot(second.cwiseAbs2().cwiseProduct(spread.segment<3>(3))));
+  if (fit.degree < 3) return;
+  fit.third = third.cwiseProduct(c.segment<4>(6));
+  fit.third_error = std::sqrt(variance * Vector4(1, 3, 3, 1).dot(third.cwiseAbs2().cwiseProduct(spread.segment<4>(6))));
 }
 
 }  // namespace
@@ -47,8 +55,8 @@ HeightFit fit_heights(const PlanePositions& points, const Vector& heights) {
     decomposition.setThreshold(kDetermined);
     if (decomposition.compute(M).rank() < M.cols()) continue;
     const Vector c = decomposition.solve(heights);
-    HeightFit fit{degree, c(0), Vector2(c(1), c(2)) / size, Vector3(2 * c(3), c(4), 2 * c(5)) / (size * size)};
-    if (degree == 3) add_third(M, decomposition, heights, c, size, fit);
+    HeightFit fit{degree, c(0), Vector2(c(1), c(2)) / size};
+    set_derivatives(c, size, find_spread(decomposition), (heights - M * c).squaredNorm(), M.rows() - M.cols(), fit);
     return fit;
   }
   return {};

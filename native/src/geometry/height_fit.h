@@ -16,8 +16,10 @@ struct HeightFit {
   Vector2 slope = Vector2::Zero();
   Vector3 second = Vector3::Zero();
   Vector4 third = Vector4::Zero();  // f_xxx, f_xxy, f_xyy, f_yyy
-  // The standard error of the third derivatives, by the residuals and the covariance of the least squares: the root of
-  // the expected square of their error's norm as a tensor. Infinite where no residual is left, or the degree is 2.
+  // The standard errors of the second and third derivatives, by the residuals and the covariance of the least squares:
+  // the root of the expected square of their error's norm as a tensor. Infinite where no residual is left, those of the
+  // third ones also where the degree is 2.
+  double second_error = std::numeric_limits<double>::infinity();
   double third_error = std::numeric_limits<double>::infinity();
 };
 

@@ -65,10 +65,10 @@ Nearest find_nearest(const HeightField& field, const std::map<int, BorderJet>& k
 }  // namespace
 
 BorderCurvature continue_curvature(const Positions& V, const HeightField& field, const std::vector<Border>& border,
-                                   const Surroundings& around, const ImagePlane& frame, int triangle_count,
-                                   const std::vector<ReflectionFunction>& families) {
+                                   const Surroundings& around, const ImagePlane& frame, const CreaseOptions& creases,
+                                   int triangle_count, const std::vector<ReflectionFunction>& families) {
   const double edge = measure_mean_edge(field), reach = std::max(kReachEdges * edge, kReachShare * field.diagonal());
-  const BorderJets jets = fit_border_jets(V, field, border, around, frame, kFlowReach * reach);
+  const BorderJets jets = fit_border_jets(V, field, border, around, frame, creases, kFlowReach * reach);
   BorderCurvature result{{}, jets.unknown, jets.constant};
   if (jets.of_vertex.empty()) return result;
   const bool flow =

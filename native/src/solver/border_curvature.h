@@ -33,7 +33,7 @@ struct BorderCurvature {
 // derivatives, on 96 x 96 jittered cells, the rate ends 6.4 and 3.3 beside that of the surroundings (a dent, ripples)
 // instead of 3.7 and 2.0.
 BorderCurvature continue_curvature(const Positions& V, const HeightField& field, const std::vector<Border>& border,
-                                   const Surroundings& around, const ImagePlane& frame, int triangle_count,
-                                   const std::vector<ReflectionFunction>& families);
+                                   const Surroundings& around, const ImagePlane& frame, const CreaseOptions& creases,
+                                   int triangle_count, const std::vector<ReflectionFunction>& families);
 
 }  // namespace reflines

@@ -17,7 +17,8 @@ namespace reflines {
 struct BorderJet {
   Vector5 u = Vector5::Zero();
   Vector4 third = Vector4::Zero();  // f_xxx, f_xxy, f_xyy, f_yyy
-  double third_error = 0;           // see HeightFit
+  double second_error = 0;          // see HeightFit
+  double third_error = 0;           // likewise
   double range = 0;                 // the distance at which third derivatives change the second ones by their size
   bool flows = false;               // the third derivatives are wanted and known
 
@@ -34,10 +35,13 @@ struct BorderJets {
 
 // Fits the surroundings of the border vertices with Border::kCurvature or kFlow. Slopes, second and third derivatives
 // at such a vertex are those of a polynomial (see fit_heights) through three rings of their vertices around it and
-// nothing of the region but its border; second and third ones are averaged along the border. Third derivatives count as
-// known where their standard error is below half of themselves, or changes the second derivatives over `reach` by less
-// than a tenth.
+// nothing of the region but its border; second and third ones are averaged along the border. Where a crease lies within
+// these rings, the border itself among them, the surface does not run on, and they tell nothing: a clean panel beside a
+// flange of 45 degrees moved by 29 times as much as with a clamped border, and by 55 times with kFlow. Nor do they
+// where noise hides the second derivatives. Third derivatives count as known where their standard error is below half
+// of themselves, or changes the second derivatives over `reach` by less than a tenth.
 BorderJets fit_border_jets(const Positions& V, const HeightField& field, const std::vector<Border>& border,
-                           const Surroundings& around, const ImagePlane& frame, double reach);
+                           const Surroundings& around, const ImagePlane& frame, const CreaseOptions& creases,
+                           double reach);
 
 }  // namespace reflines

@@ -106,8 +106,8 @@ void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& b
   BorderCurvature curvature;
   if (around.exist()) {
     check_surroundings(around, pieces_->vertex_count());
-    curvature =
-        continue_curvature(pieces_->start(), field, boundary.border, around, frame(), triangle_count(), families);
+    curvature = continue_curvature(pieces_->start(), field, boundary.border, around, frame(), boundary.creases,
+                                   triangle_count(), families);
   }
   border_ = std::move(curvature.targets);
   if (border_.empty()) {
@@ -115,8 +115,8 @@ void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& b
         "No faces beside the region tell the curvature of its border, which is only clamped.");
   } else if (curvature.unknown > 0) {
     region_.messages.push_back("At " + std::to_string(curvature.unknown) +
-                               " vertices of the border too few faces beside it tell its curvature: it is only clamped "
-                               "there.");
+                               " vertices of the border the faces beside it do not tell its curvature, since they are "
+                               "too few, bend at a crease or have noise: it is only clamped there.");
   }
   if (curvature.constant > 0) {
     region_.messages.push_back(

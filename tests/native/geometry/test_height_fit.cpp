@@ -36,27 +36,31 @@ TEST(HeightFit, ReproducesACubicFromOneSideInAnyUnit) {
     EXPECT_LT((scale * fit.slope - Vector2(0.2, -0.4)).norm(), 1e-11);
     EXPECT_LT((scale * scale * fit.second - Vector3(3, -0.7, 0.5)).norm(), 1e-10);
     EXPECT_LT((scale * scale * scale * fit.third - Vector4(0, 4, 0, -6)).norm(), 1e-9);
+    EXPECT_LT(scale * scale * fit.second_error, 1e-10);
     EXPECT_LT(scale * scale * scale * fit.third_error, 1e-9);
   }
 }
 
-TEST(HeightFit, TheStandardErrorIsThatOfManyNoisyHeights) {
+TEST(HeightFit, TheStandardErrorsAreThoseOfManyNoisyHeights) {
   const PlanePositions points = points_beside(0);
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, 0.01);
-  double squared = 0, expected = 0;
+  Vector2 squared = Vector2::Zero(), expected = Vector2::Zero();
   for (int trial = 0; trial < 2000; ++trial) {
     Vector heights(points.rows());
     for (int k = 0; k < points.rows(); ++k) heights(k) = cubic(points(k, 0), points(k, 1)) + noise(random);
     const HeightFit fit = fit_heights(points, heights);
-    squared += (fit.third - Vector4(0, 4, 0, -6)).cwiseAbs2().dot(Vector4(1, 3, 3, 1));
-    expected += fit.third_error * fit.third_error;
+    squared += Vector2((fit.second - Vector3(3, -0.7, 0.5)).cwiseAbs2().dot(Vector3(1, 2, 1)),
+                       (fit.third - Vector4(0, 4, 0, -6)).cwiseAbs2().dot(Vector4(1, 3, 3, 1)));
+    expected += Vector2(fit.second_error, fit.third_error).cwiseAbs2();
   }
-  EXPECT_NEAR(expected / squared, 1, 0.1);
+  EXPECT_NEAR(expected(0) / squared(0), 1, 0.1);
+  EXPECT_NEAR(expected(1) / squared(1), 1, 0.1);
 }
 
 TEST(HeightFit, WithoutAResidualTheErrorIsUnknown) {
   EXPECT_EQ(fit_cubic(points_beside(0).topRows(10), 1).third_error, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(fit_cubic(points_beside(0).topRows(6), 1).second_error, std::numeric_limits<double>::infinity());
 }
 
 TEST(HeightFit, RowsThatLeaveACubicOpenGiveAQuadratic) {
