@@ -228,7 +228,7 @@ def test_flow_joins_as_curvature_does_and_says_nothing_where_the_faces_tell_its_
 
 def noisy(x: float, y: float) -> float:
     seed = [round(1e3 * (1.0 + x)), round(1e3 * (1.0 + y))]
-    return bent(x, y) + 0.003 * float(np.random.default_rng(seed).standard_normal())
+    return bent(x, y) + 0.0001 * float(np.random.default_rng(seed).standard_normal())
 
 
 def test_flow_by_segment_is_said_to_fall_back_where_noise_hides_the_rate() -> None:
