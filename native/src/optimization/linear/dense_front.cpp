@@ -34,17 +34,16 @@ struct Product {
   const double* A;
   int stride, depth;
   double* C;
-  int stride_of_C, rows, columns;
+  int stride_c, rows, columns;
 
   void subtract(const Tile& tile) const {
     const double minus = -1.0, one = 1.0;
     const double *left = A + tile.row, *right = A + tile.column;
-    double* to = C + static_cast<long long>(tile.column) * stride_of_C + tile.row;
+    double* to = C + static_cast<long long>(tile.column) * stride_c + tile.row;
     if (tile.row == tile.column)
-      dsyrk_("L", "N", &tile.columns, &depth, &minus, left, &stride, &one, to, &stride_of_C);
+      dsyrk_("L", "N", &tile.columns, &depth, &minus, left, &stride, &one, to, &stride_c);
     else
-      dgemm_("N", "T", &tile.rows, &tile.columns, &depth, &minus, left, &stride, right, &stride, &one, to,
-             &stride_of_C);
+      dgemm_("N", "T", &tile.rows, &tile.columns, &depth, &minus, left, &stride, right, &stride, &one, to, &stride_c);
   }
 
   void subtract(bool split) const {
