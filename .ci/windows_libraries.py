@@ -33,10 +33,10 @@ install(TARGETS blas)
 
 
 class Workshop:
-    """The folder in a root where sources are built, seen from outside."""
+    """The folder of a place in a root where sources are built, seen from outside."""
 
-    def __init__(self, root: Path) -> None:
-        self.root, self.prefix = root, root / PLACE
+    def __init__(self, root: Path, place: str = PLACE) -> None:
+        self.root, self.prefix = root, root / place
         self.work = self.prefix / "work"
 
     def named(self, path: Path) -> str:

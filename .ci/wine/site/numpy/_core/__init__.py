@@ -1,0 +1,1 @@
+"""Where pybind11 looks for the C interface."""
