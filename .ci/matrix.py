@@ -59,11 +59,12 @@ def inside(root: Path, *command: str, env: dict[str, str] | None = None) -> list
             "sh", "-c", mounted, str(root), "env", "-i", *given, *command]
 
 
-def ready_root(suite: str, purpose: str = "matrix", sections: tuple[str, ...] = ("blender", "window")) -> Path:
-    """The root of a suite for a purpose; made where the cache has none for this list of packages."""
+def ready_root(suite: str, purpose: str = "matrix", sections: tuple[str, ...] = ("blender", "window"),
+               single: tuple[str, ...] = ()) -> Path:
+    """The root of a suite for a purpose; made where the cache has none for these sections and single packages."""
     root = CACHE / purpose / suite
     stamp = root.with_suffix(".packages")
-    wanted = packages(suite, sections)
+    wanted = [*packages(suite, sections), *single]
     recipe = hashlib.sha256(" ".join(wanted).encode()).hexdigest()
     if not (root / "etc/debian_version").exists():
         print(f"{suite}: debootstrap", flush=True)

@@ -1,8 +1,10 @@
 """Builds the solver for 64-bit Windows, in a Debian with the compiler for it, and runs its native tests under Wine.
 
 Then the Python module is linked for each Python that Blender for Windows embeds, and looked into: it may ask for
-Windows's own libraries and Python's only, and show nothing but its entry point. No Python loads it here. A warning of
-the compiler is a failure. The root is kept in the cache folder, with the solver's libraries in it. Needs root.
+Windows's own libraries and Python's only, and show nothing but its entry point. The module for Python 3.13 is loaded by
+a CPython for Windows that is built here too, under Wine, and the binding tests run against it. Nothing loads the module
+for 3.11, nor either in Blender for Windows. A warning of the compiler is a failure. The root is kept in the cache
+folder, with the solver's libraries in it. Needs root.
 
     .ci/windows.py [--modules FOLDER]
 
@@ -18,6 +20,9 @@ from pathlib import Path
 
 from debian import Unavailable, output
 from matrix import ROOT, inside, ready_root
+from windows_bindings import TOOLS, test_bindings
+from windows_interpreter import TAG as LOADING
+from windows_interpreter import ready_interpreter
 from windows_libraries import COMPILER, windows_libraries
 from windows_libraries import PLACE as LIBRARIES
 from windows_python import PLACE as PYTHONS
@@ -29,7 +34,8 @@ sys.path.insert(0, str(ROOT / "tests"))
 from lanes import CRASHED, Counts, junit_counts  # noqa: E402  (found through the line above)
 
 SUITE = "trixie"  # the first that has this compiler
-SOURCES = ("native", "tests/native", ".ci/package", "CMakeLists.txt", "CMakePresets.json")
+SOURCES = ("native", "tests", "blend_samples", ".ci/package", ".ci/wine", "CMakeLists.txt", "CMakePresets.json",
+           "pyproject.toml")
 BUILD = "src/build/windows"
 REPORTS = "src/build/tests"
 WINE = {"WINEDEBUG": "-all", "WINEPREFIX": "/tmp/wine"}
@@ -50,7 +56,7 @@ def built(command: list[str]) -> bool:
 
 def ready() -> Path:
     """The root with compiler, libraries, headers and this project's sources."""
-    root = ready_root(SUITE, "windows", ("windows", "build"))
+    root = ready_root(SUITE, "windows", ("windows", "build", "package"), TOOLS)
     windows_libraries(root)
     for tag in PYTHON_SUITES:
         ready_python(root, tag)
@@ -136,7 +142,11 @@ def give_modules(root: Path, folder: Path) -> Counts:
 
 
 def test(root: Path) -> Counts:
-    return run_tests(root) + inspect(root) if build(root, ["all"]) else CRASHED
+    if not build(root, ["all"]):
+        return CRASHED
+    total = run_tests(root) + inspect(root)
+    module = next((path for path in modules(root) if f"cp{LOADING}" in path.name), None)
+    return total + (test_bindings(root, ready_interpreter(root), module, WINE) if module else CRASHED)
 
 
 def main() -> int:

@@ -201,7 +201,7 @@ LANES = {
     "hostile": Lane(hostile_lane, True, (), asked=True, within=True),
     "matrix": Lane(lambda: packed_lane(".ci/matrix.py"), False, (), asked=True),
     "release": Lane(lambda: packed_lane(".ci/release.py", "--test"), False, (), asked=True),
-    "windows": Lane(lambda: rooted_lane(".ci/windows.py"), False, (), asked=True),
+    "windows": Lane(lambda: rooted_lane(".ci/windows.py"), True, (), asked=True),
     "asan": Lane(lambda: sanitizers_lane("asan"), False, (), asked=True),
     "tsan": Lane(lambda: sanitizers_lane("tsan"), False, (), asked=True),
     "fuzz": Lane(lambda: sanitizers_lane("fuzz"), False, (), asked=True),
