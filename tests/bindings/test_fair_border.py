@@ -174,3 +174,19 @@ def test_a_mask_of_another_size_is_refused() -> None:
     panel = Panel(*design("regular"))
     with pytest.raises(reflines.InvalidInput, match="fair border mask has 3 entries"):
         press(panel, fair_border=np.ones(3, bool))
+
+
+@pytest.mark.parametrize("side", [(-1.0, 1.0), (0.0, 1.0), (-0.5, 0.1)])
+@pytest.mark.parametrize("strength", [0.0, 0.3, 1.0])
+def test_the_vertices_that_the_limit_holds_back_are_counted(strength: float, side: tuple[float, float]) -> None:
+    """Those that go beyond it where there is none, whatever share of the move is made, and it is said."""
+    clean, F = design("jittered")
+    clean[:, 2] += flaw("noise", clean)
+    panel, limit = Panel(clean, F), 1e-4
+    share = np.tile(side, (len(panel.used), 1))
+    for border in (press, fair):
+        free = (border(panel, limit=np.inf)[0] - panel.V)[panel.used, 2]
+        _, told = border(panel, limit=limit, limit_share=share, strength=strength)
+        beyond = int(((free < limit * side[0]) | (free > limit * side[1])).sum())
+        assert beyond > 100 and told.limited == beyond
+        assert any(f"holds back {told.limited} vertices" in message for message in told.messages)

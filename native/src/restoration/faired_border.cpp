@@ -162,7 +162,7 @@ SmoothPanelResult press_faired_border(const Positions& V, const Triangles& F, co
         "Faces at the border would have turned by more than 45 degrees, so nothing was changed; hold the border, or "
         "give a smaller limit.");
   }
-  return judge.judge_move(move.head(V.rows()), press.report());
+  return judge.judge_move(move.head(V.rows()), press.report(), press.limited().head(V.rows()));
 }
 
 }  // namespace reflines

@@ -149,17 +149,12 @@ Vector Restoration::find_move() {
 
 bool Restoration::turns_faces(const Vector& move) const { return find_turned(surface_.surface_move(move)).any(); }
 
-SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found) {
+SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited) {
   report_.solve = found.solve;
   report_.bumps = found.bumps;
   report_.mirrored = found.mirrored;
   report_.held_faces = found.held_faces;
-  const Vector reached = options_.strength > 0 ? Vector(move / options_.strength) : move;
-  if (found.limited > 0) {
-    report_.limited = static_cast<int>(
-        (move.array() != 0 && (reached.array() >= range_.highest.array() || reached.array() <= range_.lowest.array()))
-            .count());
-  }
+  report_.limited = static_cast<int>(limited.count());
   smoother_.smooth(read_fields(start_), progress(), &creases_);
   measure_result(move);
   return judge(move);
@@ -190,13 +185,14 @@ Vector Restoration::restore() {
   const Vector& flawless = find_flawless();
   if (!use_smoothing_ && flawless == start_) {
     report_.limited = 0;
+    limited_ = Mask::Constant(range_.lowest.size(), false);
     return Vector::Zero(surface_.control_positions().rows());
   }
   const std::vector<Target> targets = plan(flawless);
   solve(targets, MoveLimit::none());
   unlimited_ = average_partners(surface_.control_move());
-  report_.limited = static_cast<int>(
-      (unlimited_.array() > range_.highest.array() || unlimited_.array() < range_.lowest.array()).count());
+  limited_ = unlimited_.array() > range_.highest.array() || unlimited_.array() < range_.lowest.array();
+  report_.limited = static_cast<int>(limited_.count());
   return options_.strength * (report_.limited == 0 ? unlimited_ : restore_within_limit(targets));
 }
 

@@ -27,10 +27,12 @@ class Restoration {
 
   Vector find_move();                                          // of the control vertices (#C), not judged yet
   const SmoothPanelReport& report() const { return report_; }  // so far: length and limit from the beginning
+  const Mask& limited() const { return limited_; }             // #C: those that wanted to go beyond the limit
   bool turns_faces(const Vector& move) const;  // a move of the control vertices, by more than 45 degrees
 
-  // Judges a move of the control vertices (#C) that was found on a larger surface, with its report.
-  SmoothPanelResult judge_move(const Vector& move, const SmoothPanelReport& found);
+  // Judges a move of the control vertices (#C) that was found on a larger surface, with its report and those of them
+  // that its limit holds back.
+  SmoothPanelResult judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited);
 
  private:
   Progress* progress() const { return options_.progress.get(); }
@@ -74,6 +76,7 @@ class Restoration {
   IndexVector partner_;                                 // #C, see MirrorEvidence; empty: no symmetry
   MoveLimit range_;                                     // #C, lengths: the limit by each vertex's share of it
   Vector unlimited_;                                    // #C, the move of the last solve
+  Mask limited_;                                        // #C, see limited()
   Vector stray_before_;                                 // SmoothPanelReport::stray of the start
 };
 
