@@ -1,10 +1,10 @@
 #include "restoration/faired_border.h"
 
-#include <cmath>
+#include <string>
 
-#include "geometry/mesh.h"
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
+#include "restoration/joined_mesh.h"
 #include "restoration/restoration.h"
 
 namespace reflines {
@@ -13,71 +13,6 @@ namespace {
 // Lengths from the region that the press takes in. Of 1, 2 and 3.5, with flaws that run across the borders of three
 // hoods, 0.37 of ripples and 0.44 of noise are left in the region with each, and 0.63 of dents.
 constexpr double kReach = 2.0;
-
-// A region (its vertices and triangles first) joined with the triangles beside it.
-struct JoinedMesh {
-  Positions V;
-  Triangles F;
-};
-
-std::vector<int> find_border_vertices(const Triangles& F, int vertex_count) {
-  const Triangles neighbors = edge_neighbors(F);
-  Mask on_border = Mask::Constant(vertex_count, false);
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) >= 0) continue;
-      on_border(F(t, (i + 1) % 3)) = on_border(F(t, (i + 2) % 3)) = true;
-    }
-  }
-  std::vector<int> result;
-  for (int v = 0; v < vertex_count; ++v) {
-    if (on_border(v)) result.push_back(v);
-  }
-  return result;
-}
-
-// Finds the vertices (#S) that lie within `reach` of some of the points. The box sorts most of the others out.
-Mask find_near(const Positions& vertices, const Positions& points, double reach) {
-  const Eigen::RowVector3d low = points.colwise().minCoeff().array() - reach,
-                           high = points.colwise().maxCoeff().array() + reach;
-  Mask near = Mask::Constant(vertices.rows(), false);
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    const Eigen::RowVector3d p = vertices.row(v);
-    if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) continue;
-    for (Eigen::Index k = 0; k < points.rows() && !near(v); ++k)
-      near(v) = (points.row(k) - p).squaredNorm() < reach * reach;
-  }
-  return near;
-}
-
-// Joins the region with the triangles around it that have a vertex within `reach` of its border. Vertices beside it
-// that are in none of them are left out, so that the mesh has no others.
-JoinedMesh join_surroundings(const Positions& V, const Triangles& F, const Surroundings& around, double reach) {
-  const auto own = static_cast<int>(V.rows());
-  const Mask near = find_near(around.V, V(find_border_vertices(F, own), Eigen::all), reach);
-  std::vector<int> number(near.size(), -1), beside;
-  std::vector<Eigen::RowVector3i> taken;
-  const auto is_near = [&](int v) { return v < own || near(v - own); };
-  const auto renumber = [&](int v) {
-    if (v < own) return v;
-    int& result = number[v - own];
-    if (result < 0) {
-      result = own + static_cast<int>(beside.size());
-      beside.push_back(v - own);
-    }
-    return result;
-  };
-  for (const auto& triangle : around.F.rowwise()) {
-    if (!is_near(triangle(0)) && !is_near(triangle(1)) && !is_near(triangle(2))) continue;
-    taken.emplace_back(renumber(triangle(0)), renumber(triangle(1)), renumber(triangle(2)));
-  }
-  JoinedMesh joined{V, F};
-  joined.V.conservativeResize(own + static_cast<Eigen::Index>(beside.size()), Eigen::NoChange);
-  joined.V.bottomRows(beside.size()) = around.V(beside, Eigen::all);
-  joined.F.conservativeResize(F.rows() + static_cast<Eigen::Index>(taken.size()), Eigen::NoChange);
-  for (size_t t = 0; t < taken.size(); ++t) joined.F.row(F.rows() + static_cast<Eigen::Index>(t)) = taken[t];
-  return joined;
-}
 
 template <typename Values>
 Values append(const Values& values, Eigen::Index count, typename Values::Scalar filling) {
