@@ -18,5 +18,5 @@ def read_mirror(ob: bpy.types.Object, local: np.ndarray) -> Mirror | None:
         reach = first.merge_threshold / 2.0 if first.use_mirror_merge else 0.0
         seam = (np.abs(local[:, axes]) <= reach).any(axis=1)
         alone = len(mirrors) == len(axes) == 1 and shown[0] == first and not any(first.use_bisect_axis)
-        return Mirror(axes[0] if alone else -1, np.where(seam, np.arange(len(local)), -1), True)
+        return Mirror(axes[0] if alone else -1, np.where(seam, np.arange(len(local)), -1), True, reach)
     return Mirror(0, mirror.find_pairs(local, 0), False) if ob.data.use_mirror_x else None

@@ -3,7 +3,8 @@ import bpy
 import numpy as np
 
 from ..model import triangulation
-from ..model.patch import Patch
+from ..model.mirror import Mirror
+from ..model.patch import Patch, compute_bounds
 from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
 from . import (border_segments, mesh_checks, read_creases, read_limit_share, read_mesh, read_mirror, read_surroundings,
@@ -16,7 +17,7 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
 
     `local` (#vertices x 3, object space) replaces the coordinates of the mesh. With `or_all` all visible faces are
     taken where no region is stored; with `shared` the mesh may belong to other objects too. `reach` is that of
-    the surroundings, see read_surroundings.
+    the surroundings, see read_surroundings, relative to the diagonal of what is solved.
     """
     mesh_checks.refuse_unusable(ob, key, shared=shared)
     if ob.mode == 'EDIT':
@@ -28,15 +29,26 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         F = F[:, ::-1]  # a mirroring transform turns triangles over, but not what Blender calls their front
     whole = local @ matrix[:3, :3].T + matrix[:3, 3]
-    around = read_surroundings.read_surroundings(ob.data, faces, index, whole, reach)
+    mirror = read_mirror.read_mirror(ob, local[index])
+    margin = reach * measure_solved_diagonal(mirror, local[index], matrix) if reach else 0.0
+    around = read_surroundings.read_surroundings(ob.data, faces, index, whole, margin)
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         around = Surroundings(around.V, around.F[:, ::-1])
     local, V = local[index], whole[index]
-    mirror = read_mirror.read_mirror(ob, local)
     return Patch(ob.name, faces, index, local, V, np.ascontiguousarray(F),
                  read_mesh.find_face_of_triangles(ob.data, faces), matrix, key, mirror,
                  read_creases.read_creases(ob, index), border_segments.read_border(ob, index), around,
                  read_limit_share.read_limit_share(ob, index))
+
+
+def measure_solved_diagonal(mirror: Mirror | None, local: np.ndarray, matrix: np.ndarray) -> float:
+    """Measures the diagonal of the bounding box, in world space, of the region whose vertices are `local` (#V x 3,
+    object space), with the image that a Mirror modifier adds.
+    """
+    if mirror is not None and mirror.image and mirror.axis >= 0:
+        local = np.concatenate([local, local * mirror.sign])
+    low, high = compute_bounds(local @ matrix[:3, :3].T)
+    return float(np.linalg.norm(high - low))
 
 
 def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:

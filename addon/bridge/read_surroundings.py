@@ -9,15 +9,14 @@ RINGS = 4  # of faces around the region: a fit at its border takes in three ring
 
 
 def read_surroundings(mesh: bpy.types.Mesh, faces: np.ndarray, index: np.ndarray, V: np.ndarray,
-                      reach: float = 0.0) -> Surroundings:
+                      margin: float = 0.0) -> Surroundings:
     """Reads the surroundings of the chosen faces, whose vertices are `index` (#V of the mesh); V (#vertices x 3) is the
     whole mesh in world space. In Edit Mode the mesh must have been updated from it. Hidden faces count, too.
 
-    With a reach, a fraction of the diagonal of the region's bounding box, all faces connected with the region count
-    that have a vertex in the box widened by it.
+    With a margin all faces connected with the region count that have a vertex in its bounding box widened by it.
     """
     corners, sizes = read_mesh.read_corners(mesh)
-    found = find_within(corners, sizes, V, index, reach) if reach else find_rings(corners, sizes, len(V), index)
+    found = find_within(corners, sizes, V, index, margin) if margin else find_rings(corners, sizes, len(V), index)
     beside = found & ~faces
     around = corners[np.repeat(beside, sizes)]
     if not beside.any() or not np.isfinite(V[around]).all():
@@ -29,10 +28,9 @@ def read_surroundings(mesh: bpy.types.Mesh, faces: np.ndarray, index: np.ndarray
     return Surroundings(V[own], number[F])
 
 
-def find_within(corners: np.ndarray, sizes: np.ndarray, V: np.ndarray, index: np.ndarray, reach: float) -> np.ndarray:
+def find_within(corners: np.ndarray, sizes: np.ndarray, V: np.ndarray, index: np.ndarray, margin: float) -> np.ndarray:
     """Finds the faces (#faces, bool) connected with the vertices `index` through the widened box of these."""
     low, high = V[index].min(axis=0), V[index].max(axis=0)
-    margin = reach * np.linalg.norm(high - low)
     with np.errstate(invalid="ignore"):
         inside = (np.abs(V - 0.5 * (low + high)) <= 0.5 * (high - low) + margin).all(axis=1)
     near = np.logical_or.reduceat(inside[corners], np.cumsum(sizes) - sizes)

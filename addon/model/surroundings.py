@@ -17,13 +17,15 @@ class Surroundings:
 NOTHING_AROUND = Surroundings(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
 
 
-def join_images(around: Surroundings, mirrored: np.ndarray, own: int, image: np.ndarray,
+def join_images(around: Surroundings, mirrored: np.ndarray, seam: np.ndarray, own: int, image: np.ndarray,
                 joined: int) -> Surroundings:
     """Joins the surroundings of a region with their mirror images: `mirrored` are the positions of those (#S x 3),
-    `own` the number of the region's vertices, `image` (#own) the vertex of the joined region at each one's image, and
-    `joined` the number of its vertices.
+    `seam` the vertices on the plane (#S, bool), which are their own images, `own` the number of the region's vertices,
+    `image` (#own) the vertex of the joined region at each one's image, and `joined` the number of its vertices.
     """
-    count = len(around.V)
     first = np.where(own <= around.F, around.F - own + joined, around.F)
-    name = np.concatenate([image, joined + count + np.arange(count)])
-    return Surroundings(np.concatenate([around.V, mirrored]), np.concatenate([first, name[around.F][:, ::-1]]))
+    numbers = np.arange(len(around.V))
+    second = np.where(seam, numbers, len(around.V) + np.cumsum(~seam) - 1)
+    name = np.concatenate([image, joined + second])
+    return Surroundings(np.concatenate([around.V, mirrored[~seam]]),
+                        np.concatenate([first, name[around.F][:, ::-1]]))

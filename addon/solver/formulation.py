@@ -212,10 +212,11 @@ class JoinedFormulation(Formulation):
 
     def read_around(self) -> Surroundings:
         around, matrix, partner = self.patch.around, self.patch.matrix, self.partner
-        flip = matrix[:3, :3] @ np.diag(self.patch.mirror.sign) @ np.linalg.inv(matrix[:3, :3])
-        mirrored = (around.V - matrix[:3, 3]) @ flip.T + matrix[:3, 3]
+        local = (around.V - matrix[:3, 3]) @ np.linalg.inv(matrix[:3, :3]).T
+        mirrored = self.patch.to_world(local * self.patch.mirror.sign)
         own = len(self.patch.V)
-        return join_images(around, mirrored, own, partner[:own], len(partner))
+        seam = mirror.find_seam(self.patch.mirror, local)
+        return join_images(around, mirrored, seam, own, partner[:own], len(partner))
 
     async def build(self, border: str, progress: "native.Progress | None", *,
                     sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
