@@ -2,6 +2,7 @@
 import bpy
 import numpy as np
 
+from ..model import triangulation
 from ..model.surroundings import NOTHING_AROUND, Surroundings
 from . import read_mesh
 
@@ -11,21 +12,29 @@ RINGS = 4  # of faces around the region: a fit at its border takes in three ring
 def read_surroundings(mesh: bpy.types.Mesh, faces: np.ndarray, index: np.ndarray, V: np.ndarray,
                       margin: float = 0.0) -> Surroundings:
     """Reads the surroundings of the chosen faces, whose vertices are `index` (#V of the mesh); V (#vertices x 3) is the
-    whole mesh in world space. In Edit Mode the mesh must have been updated from it. Hidden faces count, too.
+    whole mesh in world space. In Edit Mode the mesh must have been updated from it. Hidden faces count, too, but those
+    of find_readable only: surroundings are advice, and no reason to refuse the region.
 
     With a margin all faces connected with the region count that have a vertex in its bounding box widened by it.
     """
     corners, sizes = read_mesh.read_corners(mesh)
     found = find_within(corners, sizes, V, index, margin) if margin else find_rings(corners, sizes, len(V), index)
-    beside = found & ~faces
-    around = corners[np.repeat(beside, sizes)]
-    if not beside.any() or not np.isfinite(V[around]).all():
+    beside = found & ~faces & find_readable(corners, sizes, V)
+    if not beside.any():
         return NOTHING_AROUND
-    F = cut_fans(around, sizes[beside])
+    F = cut_faces(mesh, beside, corners[np.repeat(beside, sizes)], sizes[beside], V)
     own = np.setdiff1d(F, index)
     number = np.full(len(V), -1)
     number[index], number[own] = np.arange(len(index)), len(index) + np.arange(len(own))
     return Surroundings(V[own], number[F])
+
+
+def find_readable(corners: np.ndarray, sizes: np.ndarray, V: np.ndarray) -> np.ndarray:
+    """Finds the faces (#faces, bool) whose coordinates are finite. Where those of an n-gon are not, n-gons are none of
+    them: Blender cuts those of the whole mesh at once, and must not get such coordinates.
+    """
+    broken = np.logical_or.reduceat(~np.isfinite(V).all(axis=1)[corners], np.cumsum(sizes) - sizes)
+    return ~broken & ~((sizes > 4) & (broken & (sizes > 4)).any())
 
 
 def find_within(corners: np.ndarray, sizes: np.ndarray, V: np.ndarray, index: np.ndarray, margin: float) -> np.ndarray:
@@ -57,10 +66,11 @@ def find_rings(corners: np.ndarray, sizes: np.ndarray, vertices: int, index: np.
     return found
 
 
-def cut_fans(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """Cuts faces into triangles from their first corners: #triangles x 3."""
-    starts = np.cumsum(sizes) - sizes
-    counts = sizes - 2
-    first = np.repeat(starts, counts)
-    step = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
+def cut_faces(mesh: bpy.types.Mesh, faces: np.ndarray, around: np.ndarray, sizes: np.ndarray,
+              V: np.ndarray) -> np.ndarray:
+    """Cuts the faces (#faces, bool) with these corners and sizes into triangles as Blender does: #triangles x 3. Fans
+    would give those without area where a corner lies on a line with its neighbours.
+    """
+    if sizes.max() <= 4:
+        return triangulation.triangulate_short_faces(around, sizes, V)
+    return read_mesh.read_region_triangles(mesh, faces)

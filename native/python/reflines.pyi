@@ -220,7 +220,9 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
     automatic rules. Returns the positions (#V x 3; vertices that did not move carry the bits they came with) and a report.
 
     A border that is held keeps its flaws. Border vertices with `fair_border` move instead, as inner ones do: the press then takes
-    in the faces of `around` within two lengths of the region, which stay, and everything is judged over the region alone.
+    in the faces of `around` within two lengths of the region, which stay, and everything is judged over the region alone. Of
+    those faces the ones without area, doubled, at an edge of more than two, or not connected with the region are left out; where
+    none are beside the border it is held, and the report's messages say so.
 
     Raises InvalidInput, SolverFailure, and Cancelled where `progress` was cancelled."""
 

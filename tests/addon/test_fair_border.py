@@ -1,4 +1,5 @@
 """Smooth with a faired border in Blender: the native function's result, and what it must not touch."""
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -189,3 +190,46 @@ def test_cages_are_refused_in_a_sentence() -> None:
     with pytest.raises(RuntimeError, match="the border of a cage cannot be faired"):
         scenes.smooth(fair_border=True, solve_for='CAGE')
     assert np.array_equal(scenes.positions(ob), before)
+
+
+def spoil(kind: str, mesh: bmesh.types.BMesh) -> None:
+    """Makes a fault beside the region, three columns of vertices from its border."""
+    column = MARGIN - 3
+    low, high = (mesh.verts[j * ROW + column] for j in (CELLS // 2, CELLS // 2 + 1))
+    if kind == "corner on a line":
+        bmesh.ops.bisect_edges(mesh, edges=[mesh.edges.get((low, high))], cuts=1)
+    elif kind == "zero area":
+        for vertex in (low, high):
+            vertex.co = mesh.verts[vertex.index + 1].co
+    elif kind == "third face at an edge":
+        mesh.faces.new((low, high, mesh.verts.new((low.co.x, low.co.y, 0.3))))
+    elif kind == "doubled face":
+        mesh.faces.new([mesh.verts.new(v.co) for v in low.link_faces[0].verts])
+    elif kind == "no number":
+        low.co.z = np.nan
+
+
+FAULTS = ["corner on a line", "zero area", "third face at an edge", "doubled face", "no number"]
+
+
+@pytest.mark.parametrize("kind", FAULTS)
+def test_a_fault_beside_the_region_is_no_reason_to_refuse_it(kind: str) -> None:
+    """The border moves; what is left out beside a fault holds only what is near it."""
+    ob = scenes.panel(height=noisy, cells=CELLS)
+    scenes.look_from_above()
+    mesh = bmesh.new()
+    mesh.from_mesh(ob.data)
+    for elements in (mesh.verts, mesh.faces):
+        elements.ensure_lookup_table()
+    spoil(kind, mesh)
+    mesh.to_mesh(ob.data)
+    mesh.free()
+    scenes.edit(ob)
+    inside = {polygon.index for polygon in ob.data.polygons
+              if max(abs(polygon.center.x), abs(polygon.center.y)) < 1.0 - 2.0 * MARGIN / CELLS}
+    scenes.select_faces(ob, inside.__contains__)
+    before = scenes.positions(ob)
+    assert scenes.smooth(fair_border=True) == {'FINISHED'}
+    moved = (scenes.positions(ob) != before)[:ROW**2, 2] & np.isfinite(before[:ROW**2, 2])
+    assert moved[rim()].mean() > (0.99 if kind == "corner on a line" else 0.9)
+    assert not moved[~own_vertices()].any()

@@ -190,3 +190,56 @@ def test_the_vertices_that_the_limit_holds_back_are_counted(strength: float, sid
         beyond = int(((free < limit * side[0]) | (free > limit * side[1])).sum())
         assert beyond > 100 and told.limited == beyond
         assert any(f"holds back {told.limited} vertices" in message for message in told.messages)
+
+
+def with_faces(panel: Panel, faces: Array, vertices: Array | None = None) -> Panel:
+    """The panel with more faces beside its region, and more vertices beside it."""
+    V, F = panel.around
+    panel.around = V if vertices is None else np.vstack([V, vertices]), np.vstack([F, faces])
+    return panel
+
+
+def border_edge(panel: Panel) -> tuple[int, int]:
+    """An edge of one triangle of the region."""
+    edges = np.sort(panel.own[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, count = np.unique(edges, axis=0, return_counts=True)
+    return tuple(edges[count == 1][5])
+
+
+def spoil(kind: str, panel: Panel) -> Panel:
+    own, count = len(panel.used), len(panel.used) + len(panel.around[0])
+    a, b = border_edge(panel)
+    away = panel.around[1][(panel.around[1] >= own).all(axis=1)]
+    if kind == "zero area":
+        return with_faces(panel, [[a, a, b]])
+    if kind == "third face at the border":
+        return with_faces(panel, [[a, b, count]], [[0.3, 0.0, 0.2]])
+    if kind == "third face beside":
+        return with_faces(panel, [[*away[0, :2], count]], [[0.4, 0.0, 0.2]])
+    if kind == "doubled":
+        return with_faces(panel, away[:3])
+    if kind == "doubled and loose":
+        return with_faces(panel, np.tile(count + np.arange(3), (2, 1)), panel.V[panel.own[0]] + [0.0, 0.0, 0.05])
+    assert kind == "pole"
+    turn = np.linspace(0.0, np.pi, 2100)
+    fan = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(len(turn))]) * 0.01 + [0.0, 0.0, 0.3]
+    rim = count + 1 + np.arange(len(turn) - 1)
+    return with_faces(panel, np.column_stack([np.full(len(rim), count), rim, rim + 1]), [[0.0, 0.0, 0.3], *fan])
+
+
+FAULTS = ["zero area", "third face at the border", "third face beside", "doubled", "doubled and loose", "pole"]
+
+
+@pytest.mark.parametrize("kind", FAULTS)
+def test_faces_that_cannot_be_used_are_left_out(kind: str) -> None:
+    """As if they were not there, but for those that meet them at an edge."""
+    clean, F = design("jittered")
+    clean[:, 2] += flaw("noise", clean)
+    tidy, _ = fair(Panel(clean, F))
+    panel = spoil(kind, Panel(clean, F))
+    V, told = fair(panel)
+    if "third" not in kind and kind != "doubled":
+        assert np.array_equal(V, tidy) and not told.messages
+    border = ~panel.build("fixed").free
+    held = border & (V == panel.V)[panel.used].all(axis=1)
+    assert told.applied and held.sum() < 0.05 * border.sum()

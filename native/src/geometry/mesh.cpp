@@ -68,6 +68,7 @@ void check_finite(const Positions& V, const Triangles& F) {
                      " a coordinate that is not a finite number; delete or retype " + (many == 1 ? "it." : "them."));
 }
 
+// Returns whether a triangle has area; false where coordinates are not finite.
 bool has_area(const Positions& V, const Triangles& F, int t) {
   const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
@@ -82,9 +83,15 @@ void check_area(const Positions& V, const Triangles& F) {
                      " zero area; remove with Mesh > Clean Up > Degenerate Dissolve, or deselect.");
 }
 
-void check_poles(const Triangles& F) {
-  IndexVector spokes = IndexVector::Zero(F.maxCoeff() + 1);
+// Returns the number of triangles at each vertex.
+IndexVector count_spokes(const Triangles& F) {
+  IndexVector spokes = IndexVector::Zero(F.rows() > 0 ? F.maxCoeff() + 1 : 0);
   for (int k = 0; k < F.size(); ++k) ++spokes(F.data()[k]);
+  return spokes;
+}
+
+void check_poles(const Triangles& F) {
+  const IndexVector spokes = count_spokes(F);
   int worst = 0;
   if (spokes.maxCoeff(&worst) <= kMostSpokes) return;
   throw InvalidInput(std::to_string(spokes(worst)) + " triangles meet at vertex " + std::to_string(worst) +
@@ -141,6 +148,26 @@ void check_surface(const Positions& V, const Triangles& F) {
   check_manifold(edges);
 }
 
+Mask find_unusable(const Positions& V, const Triangles& F) {
+  Mask unusable(F.rows());
+  std::vector<int> solid;  // triangles with area: the others take no room at an edge
+  for (int t = 0; t < F.rows(); ++t) {
+    unusable(t) = !has_area(V, F, t);
+    if (!unusable(t)) solid.push_back(t);
+  }
+  const Triangles own = F(solid, Eigen::all);
+  const IndexVector spokes = count_spokes(own);
+  for (const int t : solid) unusable(t) = spokes(F.row(t)).maxCoeff() > kMostSpokes;
+  const std::vector<HalfEdge> edges = sort_half_edges(own);
+  const auto third = [&own](const HalfEdge& edge) { return own(edge.triangle, edge.corner); };
+  for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && same_edge(edges[begin], edges[end])) ++end;
+    const bool doubled = end - begin == 2 && third(edges[begin]) == third(edges[begin + 1]);
+    for (size_t k = begin; k < end && (doubled || end - begin > 2); ++k) unusable(solid[edges[k].triangle]) = true;
+  }
+  return unusable;
+}
+
 Triangles edge_neighbors(const Triangles& F) {
   Triangles neighbors = Triangles::Constant(F.rows(), 3, -1);
   const std::vector<HalfEdge> edges = sort_half_edges(F);
@@ -150,6 +177,17 @@ Triangles edge_neighbors(const Triangles& F) {
     neighbors(edges[k - 1].triangle, edges[k - 1].corner) = edges[k].triangle;
   }
   return neighbors;
+}
+
+Mask find_border_vertices(const Triangles& F, int vertex_count) {
+  const Triangles neighbors = edge_neighbors(F);
+  Mask result = Mask::Constant(vertex_count, false);
+  for (int t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (neighbors(t, i) < 0) result(F(t, (i + 1) % 3)) = result(F(t, (i + 2) % 3)) = true;
+    }
+  }
+  return result;
 }
 
 Incidence vertex_triangles(const Triangles& F, int vertex_count) {

@@ -26,9 +26,17 @@ void check_indices(const Positions& V, const Triangles& F);
 // triangles.
 void check_surface(const Positions& V, const Triangles& F);
 
+// Returns the triangles (#F) for which check_surface would throw, but for their indices: not finite or without area, at
+// an edge of three and more, doubled, or at a pole with too many; of those that meet so all count, for none is the
+// right one.
+Mask find_unusable(const Positions& V, const Triangles& F);
+
 // Returns the triangle across the edge opposite each corner (#F x 3), -1 on the border. F must have passed
 // check_surface.
 Triangles edge_neighbors(const Triangles& F);
+
+// Returns the vertices of edges with one triangle (#V).
+Mask find_border_vertices(const Triangles& F, int vertex_count);
 
 // Returns for every vertex 0 .. vertex_count - 1 the triangles that touch it, ascending.
 Incidence vertex_triangles(const Triangles& F, int vertex_count);

@@ -13,14 +13,7 @@ namespace {
 
 // Returns the border vertices as triangles without area, a vertex at each of their corners.
 Triangles list_border_points(const Triangles& F, int vertex_count) {
-  const Triangles neighbors = edge_neighbors(F);
-  Mask on_border = Mask::Constant(vertex_count, false);
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) >= 0) continue;
-      on_border(F(t, (i + 1) % 3)) = on_border(F(t, (i + 2) % 3)) = true;
-    }
-  }
+  const Mask on_border = find_border_vertices(F, vertex_count);
   Triangles points(on_border.count(), 3);
   Eigen::Index count = 0;
   for (int v = 0; v < vertex_count; ++v) {
@@ -55,6 +48,34 @@ Triangles take_near(const Surroundings& around, const Mask& near, int own) {
   return around.F(taken, Eigen::all);
 }
 
+// Returns the first `own` triangles and those of the others that are not marked (#F).
+Triangles leave_out(const Triangles& F, Eigen::Index own, const Mask& marked) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index t = 0; t < F.rows(); ++t) {
+    if (t < own || !marked(t)) kept.push_back(t);
+  }
+  return F(kept, Eigen::all);
+}
+
+// Finds the triangles (#F) that no path over edges joins with one of the first `own`.
+Mask find_apart(const Triangles& F, Eigen::Index own) {
+  const Triangles neighbors = edge_neighbors(F);
+  Mask apart = Mask::Constant(F.rows(), true);
+  apart.head(own).setConstant(false);
+  std::vector<int> open(own);
+  std::iota(open.begin(), open.end(), 0);
+  while (!open.empty()) {
+    const int t = open.back();
+    open.pop_back();
+    for (const int next : neighbors.row(t)) {
+      if (next < 0 || !apart(next)) continue;
+      apart(next) = false;
+      open.push_back(next);
+    }
+  }
+  return apart;
+}
+
 // Numbers the vertices beside the region in the order of the triangles, and leaves those out that are in none.
 JoinedMesh renumber_beside(const Positions& all, const Triangles& F, int own) {
   std::vector<int> number(all.rows(), -1), kept(own);
@@ -83,6 +104,8 @@ JoinedMesh join_surroundings(const Positions& V, const Triangles& F, const Surro
   const Triangles near = take_near(around, find_near(around.V, V, F, reach), own);
   Triangles joined(F.rows() + near.rows(), 3);
   joined << F, near;
+  joined = leave_out(joined, F.rows(), find_unusable(all, joined));
+  joined = leave_out(joined, F.rows(), find_apart(joined, F.rows()));
   return renumber_beside(all, joined, own);
 }
 

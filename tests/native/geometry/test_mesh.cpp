@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "geometry/derivatives.h"
 #include "geometry/mesh.h"
@@ -74,6 +76,31 @@ TEST(Mesh, RefusesAThirdFaceOnAnEdge) {
   Triangles F(3, 3);
   F << 0, 1, 2, 1, 0, 3, 0, 1, 4;
   EXPECT_NE(refusal(V, F).find("1 edge of the region has more than two faces"), std::string::npos);
+}
+
+TEST(Mesh, WithoutItsUnusableTrianglesIsASurface) {
+  samples::Mesh mesh = samples::grid(6, 0.2);
+  const auto tidy = static_cast<int>(mesh.F.rows());
+  const auto own = static_cast<int>(mesh.V.rows());
+  EXPECT_FALSE(find_unusable(mesh.V, mesh.F).any());
+  mesh.V.conservativeResize(own + 2, 3);
+  mesh.V.bottomRows(2) << 0.5, 0.5, 0.5, NAN, 0, 0;
+  mesh.F.conservativeResize(tidy + 4, 3);
+  mesh.F.row(tidy) = mesh.F.row(0);                                     // a copy
+  mesh.F.row(tidy + 1) << mesh.F(30, 0), mesh.F(30, 1), own;            // a third at an inner edge
+  mesh.F.row(tidy + 2) << mesh.F(50, 0), mesh.F(50, 1), own + 1;        // not finite
+  mesh.F.row(tidy + 3) << mesh.F(10, 0), mesh.F(10, 0), mesh.F(10, 1);  // without area
+  EXPECT_THROW(check_surface(mesh.V, mesh.F), InvalidInput);
+  const Mask unusable = find_unusable(mesh.V, mesh.F);
+  EXPECT_TRUE(unusable.tail(4).all());
+  EXPECT_TRUE(unusable(0) && unusable(30));
+  EXPECT_FALSE(unusable(50) || unusable(10));
+  std::vector<int> kept;
+  for (int t = 0; t < unusable.size(); ++t) {
+    if (!unusable(t)) kept.push_back(t);
+  }
+  EXPECT_GE(static_cast<int>(kept.size()), tidy - 5);  // the first has two inner edges, the 30th one
+  EXPECT_NO_THROW(check_surface(mesh.V, mesh.F(kept, Eigen::all)));
 }
 
 TEST(HeightField, ClampedHoldsTwoLayersAndFixedOne) {
