@@ -233,3 +233,15 @@ def test_a_fault_beside_the_region_is_no_reason_to_refuse_it(kind: str) -> None:
     moved = (scenes.positions(ob) != before)[:ROW**2, 2] & np.isfinite(before[:ROW**2, 2])
     assert moved[rim()].mean() > (0.99 if kind == "corner on a line" else 0.9)
     assert not moved[~own_vertices()].any()
+    held = int((rim() & ~moved).sum())
+    assert ("it was held there" in ob.reflection_lines.report.notes) == (held > 0)
+
+
+def test_a_limit_and_a_held_border_are_both_told() -> None:
+    ob = scenes.panel(height=noisy, cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    assert scenes.smooth(fair_border=True, limit=1e-5) == {'FINISHED'}
+    report = ob.reflection_lines.report
+    assert report.limited > 0 and "There are no faces beside the region" in report.notes

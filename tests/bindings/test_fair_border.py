@@ -243,3 +243,48 @@ def test_faces_that_cannot_be_used_are_left_out(kind: str) -> None:
     border = ~panel.build("fixed").free
     held = border & (V == panel.V)[panel.used].all(axis=1)
     assert told.applied and held.sum() < 0.05 * border.sum()
+    assert [m for m in told.messages if "held there" in m] == (
+        [f"At {held.sum()} vertices of the border there are no faces beside the region by which it could be faired: it "
+         "was held there."] if held.any() else [])
+
+
+def test_faces_that_are_near_but_not_joined_do_not_count() -> None:
+    clean, F = design("jittered")
+    clean[:, 2] += flaw("noise", clean)
+    panel = Panel(clean, F)
+    others, faces = panel.around
+    panel.around = others, faces[(faces >= len(panel.used)).all(axis=1)]
+    result, told = fair(panel)
+    assert np.array_equal(result, press(panel)[0])
+    assert told.messages == ["There are no faces beside the region by which its border could be faired: it was held."]
+
+
+def test_where_a_border_is_partly_without_faces_it_is_said() -> None:
+    clean, F = design("jittered")
+    clean[:, 2] += flaw("noise", clean)
+    panel = Panel(clean, F, clean[F].mean(axis=1)[:, 0] > 0.0)
+    V, told = fair(panel)
+    border = ~panel.build("fixed").free
+    held = border & (V == panel.V)[panel.used].all(axis=1)
+    outer = np.abs(panel.V[panel.used, :2]).max(axis=1) > 0.5 - 1e-9
+    assert held[outer].all() and not held.all()
+    assert told.messages[-1].startswith(f"At {held.sum()} vertices of the border there are no faces beside the region")
+
+
+def test_the_sentence_about_the_limit_comes_first_and_the_refusal_too() -> None:
+    """A caller that shows the first one by itself shows the right one."""
+    clean, F = design("regular")
+    clean[:, 2] += flaw("ripples", clean)
+    _, told = fair(Panel(clean, F), around=None, limit=1e-5)
+    assert told.messages[0].startswith("The limit of the move holds back")
+    assert told.messages[1].startswith("There are no faces beside the region")
+
+
+def test_where_no_border_vertex_is_marked_the_press_is_the_ordinary_one() -> None:
+    clean, F = design("jittered")
+    clean[:, 2] += flaw("noise", clean)
+    panel = Panel(clean, F)
+    inner = panel.build("clamped").free
+    result = press(panel, border="curvature", fair_border=inner)
+    ordinary = press(panel, border="curvature")
+    assert np.array_equal(result[0], ordinary[0]) and result[1].messages == ordinary[1].messages

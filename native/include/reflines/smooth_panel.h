@@ -26,7 +26,8 @@ struct SmoothPanelOptions {
   Surroundings around;           // or none; see ShapeOptions
   IndexVector face_of_triangle;  // #F or empty; see ShapeOptions
   // #V or empty: border vertices that move as inner ones do, to where `around` tells that the border should run,
-  // instead of being held. A border that is held keeps its flaws, and the lines beside it run into them. Not for cages.
+  // instead of being held. A border that is held keeps its flaws, and the lines beside it run into them. Where there
+  // are no faces beside it that can be used it is held all the same, and the report says so. Not for cages.
   Mask fair_border;
   Lights lights = Lights::kCrossed;
   double length = 0.0;    // size of the flaws, in units of V; 0: the diagonal / 14
@@ -53,8 +54,9 @@ struct SmoothPanelReport {
   Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
                   // result, radians / length
   Region region;  // of the shape at the start
-  bool applied = true;                // false: some light would have become worse, and nothing was moved
-  std::vector<std::string> messages;  // sentences for the user, the most important first
+  bool applied = true;  // false: some light would have become worse, and nothing was moved
+  // Sentences for the user, the most important first: why nothing was moved, or else what the limit holds back.
+  std::vector<std::string> messages;
 };
 
 struct SmoothPanelResult {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "geometry/mesh.h"
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/joined_mesh.h"
@@ -66,11 +67,20 @@ SmoothPanelResult press_held(const Positions& V, const Triangles& F, const Vecto
                              const std::vector<Vector3>& families, const ShapeOptions& shape,
                              const SmoothPanelOptions& options) {
   MeshSurface surface(V, F, view, families, shape);
-  SmoothPanelResult result = Restoration(surface, options).run();
-  result.report.messages.insert(result.report.messages.begin(),
-                                "There are no faces beside the region by which its border could be faired: it was "
-                                "held.");
-  return result;
+  return Restoration(surface, options).run();
+}
+
+// Tells that the whole border was held, after the sentence that comes first; see SmoothPanelReport::messages.
+void tell_held(SmoothPanelReport& report) {
+  const bool has_first = !report.applied || report.limited > 0;
+  report.messages.insert(report.messages.begin() + has_first,
+                         "There are no faces beside the region by which its border could be faired: it was held.");
+}
+
+void tell_partly_held(Eigen::Index count, SmoothPanelReport& report) {
+  report.messages.push_back("At " + std::to_string(count) + (count == 1 ? " vertex" : " vertices") +
+                            " of the border there are no faces beside the region by which it could be faired: it was "
+                            "held there.");
 }
 
 }  // namespace
@@ -83,10 +93,18 @@ SmoothPanelResult press_faired_border(const Positions& V, const Triangles& F, co
   own.around = {};
   MeshSurface region(V, F, view, families, own);
   Restoration judge(region, options);
+  const Mask movable = region.optimizer().free();
+  const Mask wanted = movable && options.fair_border && find_border_vertices(F, static_cast<int>(V.rows()));
+  if (!wanted.any()) return press_held(V, F, view, families, shape, options);
   const JoinedMesh joined = join_surroundings(V, F, shape.around, kReach * judge.report().length);
-  if (joined.F.rows() == F.rows()) return press_held(V, F, view, families, shape, options);
-  const ShapeOptions joined_shape = join_shape(own, region.optimizer().free(), joined, F.rows());
+  const ShapeOptions joined_shape = join_shape(own, movable, joined, F.rows());
   MeshSurface surface(joined.V, joined.F, view, families, joined_shape);
+  const Mask held = wanted && !surface.optimizer().free().head(V.rows());
+  if (held.count() == wanted.count()) {
+    SmoothPanelResult result = press_held(V, F, view, families, shape, options);
+    tell_held(result.report);
+    return result;
+  }
   const Eigen::Index beside = joined.V.rows() - V.rows();
   const SmoothPanelOptions joined_options = join_options(options, judge.report(), beside, joined_shape.partner);
   Restoration press(surface, joined_options);
@@ -97,7 +115,9 @@ SmoothPanelResult press_faired_border(const Positions& V, const Triangles& F, co
         "Faces at the border would have turned by more than 45 degrees, so nothing was changed; hold the border, or "
         "give a smaller limit.");
   }
-  return judge.judge_move(move.head(V.rows()), press.report(), press.limited().head(V.rows()));
+  SmoothPanelResult result = judge.judge_move(move.head(V.rows()), press.report(), press.limited().head(V.rows()));
+  if (held.any()) tell_partly_held(held.count(), result.report);
+  return result;
 }
 
 }  // namespace reflines

@@ -419,13 +419,12 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
 }
 
 void Restoration::tell() {
-  if (report_.largest_control_move == 0) {
-    report_.messages.push_back(
-        "No noise, ripples or dents were found: nothing was changed. Give a Length to smooth more.");
-  }
   if (report_.limited > 0) {
     report_.messages.push_back("The limit of the move holds back " + count_of(report_.limited, "vertex", "vertices") +
                                "; what is deeper is left.");
+  } else if (report_.largest_control_move == 0) {
+    report_.messages.push_back(
+        "No noise, ripples or dents were found: nothing was changed. Give a Length to smooth more.");
   }
   if (!report_.solve.converged()) {
     report_.messages.push_back(
