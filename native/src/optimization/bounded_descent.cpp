@@ -247,9 +247,7 @@ void BoundedDescent::take_step() {
 bool BoundedDescent::discard_model() {
   model_failed_ = !model_is_fresh();
   if (model_failed_) return true;
-  stop(Termination::kNoProgress,
-       format_sentence("No step lowers the energy any further: the projected gradient is %.3g where %.3g was wanted.",
-                       norm_, wanted_norm_));
+  stop(Termination::kNoProgress, describe_no_progress(norm_, wanted_norm_));
   return false;
 }
 
@@ -271,17 +269,12 @@ bool BoundedDescent::gradient_is_small() {
   const bool small = norm_ <= wanted_norm_ && moved_;
   if (!small && norm_ > rounding_) return false;
   return stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
-              format_sentence("The projected gradient is down to %.3g; %.3g was wanted.", norm_,
-                              std::max(wanted_norm_, rounding_)));
+              describe_small_gradient(norm_, std::max(wanted_norm_, rounding_)));
 }
 
 bool BoundedDescent::iterations_are_used_up() {
   if (report_.iterations < options_.max_iterations) return false;
-  return stop(Termination::kIterationLimit,
-              format_sentence(("The limit of " + std::to_string(options_.max_iterations) +
-                               " steps was reached with the projected gradient at %.3g where %.3g was wanted.")
-                                  .c_str(),
-                              norm_, wanted_norm_));
+  return stop(Termination::kIterationLimit, describe_iteration_limit(options_.max_iterations, norm_, wanted_norm_));
 }
 
 bool BoundedDescent::stop(Termination termination, const std::string& message) {

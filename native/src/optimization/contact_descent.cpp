@@ -286,10 +286,7 @@ bool ContactDescent::discard_model() {
 }
 
 bool ContactDescent::stop_without_progress() {
-  return stop(
-      Termination::kNoProgress,
-      format_sentence("No step lowers the energy any further: the projected gradient is %.3g where %.3g was wanted.",
-                      norm_, wanted_norm_));
+  return stop(Termination::kNoProgress, describe_no_progress(norm_, wanted_norm_));
 }
 
 void ContactDescent::finish(Vector& x) {
@@ -307,17 +304,12 @@ bool ContactDescent::is_cancelled() {
 bool ContactDescent::gradient_is_small() {
   if (norm_ > std::max(wanted_norm_, rounding_)) return false;
   return stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
-              format_sentence("The projected gradient is down to %.3g; %.3g was wanted.", norm_,
-                              std::max(wanted_norm_, rounding_)));
+              describe_small_gradient(norm_, std::max(wanted_norm_, rounding_)));
 }
 
 bool ContactDescent::iterations_are_used_up() {
   if (report_.iterations < options_.max_iterations) return false;
-  return stop(Termination::kIterationLimit,
-              format_sentence(("The limit of " + std::to_string(options_.max_iterations) +
-                               " steps was reached with the projected gradient at %.3g where %.3g was wanted.")
-                                  .c_str(),
-                              norm_, wanted_norm_));
+  return stop(Termination::kIterationLimit, describe_iteration_limit(options_.max_iterations, norm_, wanted_norm_));
 }
 
 bool ContactDescent::stop(Termination termination, const std::string& message) {

@@ -173,7 +173,7 @@ class LinearSolver::Cholmod final : public Backend {
     const int done = cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_);
     require_memory(done != 0, "factorizing", static_cast<Eigen::Index>(factor_->n));
     provide_pages(factor_->x, factor_->xsize * sizeof(double));
-    triangular_solve_.emplace(view_factor());
+    triangular_solve_.emplace(view_factor(), multifrontal_->tree());
   }
 
   bool factorize(const SparseMatrix& matrix, const double* values) override {

@@ -30,6 +30,8 @@ class MultifrontalCholesky {
   // throws std::bad_alloc where memory runs out.
   bool factorize(const double* values, double* factor);
 
+  const EliminationSubtrees& tree() const { return tree_; }
+
  private:
   int find_row(int s, int i) const;
   void find_targets(const SparseMatrix& pattern, const int* order);

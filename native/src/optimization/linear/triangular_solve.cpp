@@ -14,8 +14,8 @@ struct TriangularSolve::Supernode {
   auto rows_below() const { return block.bottomRows(below); }
 };
 
-TriangularSolve::TriangularSolve(const SupernodalFactor& factor)
-    : factor_(factor), tree_(factor), place_above_(factor.size, -1), work_(tree_.subtrees.size()) {
+TriangularSolve::TriangularSolve(const SupernodalFactor& factor, const EliminationSubtrees& tree)
+    : factor_(factor), tree_(tree), place_above_(factor.size, -1), work_(tree_.subtrees.size()) {
   int above = 0, below = 0;
   for (const int s : tree_.above) {
     for (int j = factor.first_column[s]; j < factor.first_column[s + 1]; ++j) place_above_[j] = above++;

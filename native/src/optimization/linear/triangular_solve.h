@@ -14,8 +14,8 @@ namespace reflines {
 // two cores, for 10,000, 100,000 and 1,000,000 unknowns: 0.8 and 0.5, 22 and 16, 300 and 207.
 class TriangularSolve {
  public:
-  // Takes a factor whose structure stays; its values may change between solves.
-  explicit TriangularSolve(const SupernodalFactor& factor);
+  // Takes a factor whose structure stays, and its tree; the values may change between solves.
+  TriangularSolve(const SupernodalFactor& factor, const EliminationSubtrees& tree);
 
   void solve_lower(Vector& x);  // x (n) <- L^-1 x, in the order of elimination
   void solve_upper(Vector& x);  // x (n) <- L^-T x
