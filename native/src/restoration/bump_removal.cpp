@@ -5,9 +5,6 @@
 #include <vector>
 
 #include "geometry/derivatives.h"
-#include "geometry/stencil.h"
-#include "restoration/bump_search.h"
-#include "restoration/crease_preserving_smoother.h"
 
 namespace reflines {
 namespace {
@@ -17,6 +14,8 @@ namespace {
 // greatest is a feature.
 constexpr double kSmallestRadius = 0.25, kLargestRadius = 0.63;
 constexpr double kLeastHeight = 7e-4, kGreatestHeight = 0.028;
+
+constexpr int kRounds = 3;
 
 // Length, relative to that of the flaws, up to which the Hessians are smoothed before bumps are looked for: of 0.6 and
 // 0.9 the first finds more dents, and less of the mesh is taken for bumps than without. Creases of ten median jumps are
@@ -31,15 +30,6 @@ PlanePositions centroids(const HeightField& field) {
   return result;
 }
 
-HessianSamples read_hessians(const HeightField& field, double length, Progress* progress) {
-  TriangleDerivatives u;
-  apply_stencils(make_stencils(field, StencilKind::kConsistent), field.z, u);
-  TriangleFields hessian = u.rightCols<3>();
-  hessian.col(1) *= std::numbers::sqrt2;
-  const CreasePreservingSmoother smoother(field.xy, field.F, field.area, length, kPresmoother);
-  return {centroids(field), field.area, smoother.smooth(hessian, progress)};
-}
-
 PlanePositions free_vertices(const HeightField& field) {
   PlanePositions result(field.vertex_count(), 2);
   Eigen::Index count = 0;
@@ -51,19 +41,45 @@ PlanePositions free_vertices(const HeightField& field) {
 
 }  // namespace
 
-BumpRemoval remove_bumps(const HeightField& field, double length, Progress* progress) {
-  const BumpSearchOptions options{kSmallestRadius * length, kLargestRadius * length, kLeastHeight * length,
-                                  kGreatestHeight * length};
-  const std::vector<Bump> bumps =
-      find_bumps(read_hessians(field, kPresmoothed * length, progress), free_vertices(field), options, progress);
-  BumpRemoval result{Vector::Zero(field.vertex_count()), static_cast<int>(bumps.size())};
-  for (int v = 0; v < field.vertex_count(); ++v) {
+BumpRemoval::BumpRemoval(const HeightField& field, double length)
+    : xy_(field.xy),
+      seeds_(free_vertices(field)),
+      z_(field.z),
+      length_(length),
+      stencils_(make_stencils(field, StencilKind::kConsistent)),
+      smoother_(field.xy, field.F, field.area, kPresmoothed * length, kPresmoother),
+      centers_(centroids(field)),
+      area_(field.area) {}
+
+TriangleFields BumpRemoval::read_hessians(const Vector& z, Progress* progress) const {
+  TriangleDerivatives u;
+  apply_stencils(stencils_, z, u);
+  TriangleFields hessian = u.rightCols<3>();
+  hessian.col(1) *= std::numbers::sqrt2;
+  return smoother_.smooth(hessian, progress);
+}
+
+void BumpRemoval::remove(const std::vector<Bump>& bumps, Vector& move) const {
+  for (Eigen::Index v = 0; v < move.size(); ++v) {
     for (const Bump& bump : bumps) {
-      const double distance = (field.xy.row(v).transpose() - bump.center).squaredNorm();
-      result.move(v) -= bump.height * std::exp(-distance / (bump.radius * bump.radius));
+      const double distance = (xy_.row(v).transpose() - bump.center).squaredNorm();
+      move(v) -= bump.height * std::exp(-distance / (bump.radius * bump.radius));
     }
   }
-  return result;
+}
+
+int BumpRemoval::remove_all(Vector& move, Progress* progress) const {
+  const BumpSearchOptions options{kSmallestRadius * length_, kLargestRadius * length_, kLeastHeight * length_,
+                                  kGreatestHeight * length_};
+  int count = 0;
+  std::vector<Bump> removed;
+  for (int round = 0; round < kRounds && (round == 0 || !removed.empty()); ++round) {
+    const HessianSamples samples{centers_, area_, read_hessians(z_ + move, progress)};
+    removed = find_bumps(samples, seeds_, removed, options, progress);
+    remove(removed, move);
+    count += static_cast<int>(removed.size());
+  }
+  return count;
 }
 
 }  // namespace reflines

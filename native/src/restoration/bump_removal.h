@@ -1,19 +1,39 @@
 // Takes round dents and bumps out of a height field.
 #pragma once
 
+#include <vector>
+
 #include "geometry/height_field.h"
+#include "geometry/stencil.h"
 #include "reflines/progress.h"
 #include "reflines/types.h"
+#include "restoration/bump_search.h"
+#include "restoration/crease_preserving_smoother.h"
 
 namespace reflines {
 
-struct BumpRemoval {
-  Vector move;    // #V of the field, along the view, that takes the bumps away; of held vertices, too
-  int count = 0;  // of the bumps
-};
+class BumpRemoval {
+ public:
+  // Keeps copies of what it needs. Bumps are looked for up to the size of `length`.
+  BumpRemoval(const HeightField& field, double length);
 
-// Looks for bumps (see bump_search.h) up to the size of `length` in the Hessians of the heights, smoothed so far that
-// the noise of the mesh does not hide them. `progress` may be null; throws Cancelled.
-BumpRemoval remove_bumps(const HeightField& field, double length, Progress* progress);
+  // Takes bumps (see bump_search.h) out of the field's heights, raised by `move` (#V): out of all, then where these
+  // were, since of dents that overlap the second is seen when the first is gone. They are looked for in the Hessians,
+  // smoothed so far that the noise of the mesh does not hide them. Adds to the move, that of held vertices, too, and
+  // returns the number of bumps. `progress` may be null; throws Cancelled.
+  int remove_all(Vector& move, Progress* progress) const;
+
+ private:
+  TriangleFields read_hessians(const Vector& z, Progress* progress) const;
+  void remove(const std::vector<Bump>& bumps, Vector& move) const;
+
+  PlanePositions xy_, seeds_;  // #V x 2; the free vertices
+  Vector z_;                   // #V
+  double length_;
+  Stencils stencils_;
+  CreasePreservingSmoother smoother_;
+  PlanePositions centers_;  // #T x 2
+  Vector area_;             // #T
+};
 
 }  // namespace reflines

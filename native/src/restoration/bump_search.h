@@ -33,8 +33,9 @@ struct BumpSearchOptions {
 // explain it, and the bump's share is at least 0.4. On 12 designed panels no place of 200 a panel reaches 0.36 by
 // itself (ridges, fillets and scoops are no bumps: their Hessian goes on beyond the disk), planted dents reach 0.4 to
 // 0.9 where a disk of their size is free of strong features. `seeds` (#S x 2): where a bump may be centred. Of bumps
-// that overlap the best is taken. Deterministic; throws Cancelled.
+// that overlap the best is taken. Where `removed` has bumps that an earlier search found, only disks that these overlap
+// are looked at: the surface of the others is as it was. Deterministic; throws Cancelled.
 std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions& seeds,
-                             const BumpSearchOptions& options, Progress* progress);
+                             const std::vector<Bump>& removed, const BumpSearchOptions& options, Progress* progress);
 
 }  // namespace reflines

@@ -1,7 +1,6 @@
 // Means over disks in the image plane, with weights 1 - (distance / radius)^2 (the Epanechnikov kernel).
 #pragma once
 
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -11,20 +10,26 @@ namespace reflines {
 
 class DiskMean {
  public:
-  // Points p (#P x 2) and how much each counts (#P, >= 0); keeps no reference to them.
-  DiskMean(PlanePositions points, Vector weight, double radius);
+  // Points (#P x 2) and how much each counts (#P, >= 0); keeps no reference to them.
+  DiskMean(const PlanePositions& points, const Vector& weight, double radius);
 
   // Returns the mean of `values` (#P) around each point (#P); the value itself where nothing around it counts.
   Vector of(const Vector& values) const;
 
  private:
-  std::pair<int, int> cell_of(Eigen::Index p) const;
-  double mean_at(Eigen::Index p, const Vector& values) const;
+  using Cell = std::pair<int, int>;
+  struct Range {
+    Eigen::Index begin, size;
+  };
 
-  PlanePositions points_;
-  Vector weight_;
+  void sort_by_cell(const PlanePositions& points);
+  std::vector<Range> near(const Cell& cell) const;
+
   double radius_;
-  std::map<std::pair<int, int>, std::vector<int>> cells_;
+  std::vector<int> order_;           // the points, cell by cell
+  Eigen::ArrayXd x_, y_, weight_;    // #P, in that order, so that the points of a disk lie in a few runs of memory
+  std::vector<Cell> cells_;          // ascending
+  std::vector<Eigen::Index> begin_;  // #cells + 1: where the points of each begin
 };
 
 }  // namespace reflines

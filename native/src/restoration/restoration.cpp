@@ -30,7 +30,6 @@ constexpr double kAutomaticLimit = 1.0 / 20.0;
 // 0.38, 0.36 left of ripples and 0.47, 0.41, 0.39 of noise; the harm to the worst of 26 panels is 0.86, 1.01, 1.08
 // degrees.
 constexpr SmootherOptions kLineSmoother = {.crease_jump = 4.0, .rounds = 6};
-constexpr int kBumpRounds = 3;  // where dents overlap, the second is seen when the first is gone
 
 // Share of the limit: moves from here on are less than asked for, so that they reach it without an edge; those of 2 -
 // kSaturating and more are the limit itself.
@@ -201,7 +200,7 @@ const Vector& Restoration::find_flawless() {
   if (flawless_) return *flawless_;
   report_.mirrored = 0;
   partner_.resize(0);
-  flawless_ = remove_all_bumps(options_.symmetric && use_symmetry_ ? use_symmetry(start_) : start_);
+  flawless_ = remove_bumps(options_.symmetric && use_symmetry_ ? use_symmetry(start_) : start_);
   return *flawless_;
 }
 
@@ -239,19 +238,16 @@ Vector Restoration::use_symmetry(const Vector& z) {
   return z + evidence.correction;
 }
 
-Vector Restoration::remove_all_bumps(Vector z) {
+// Returns heights z (#V) without bumps.
+Vector Restoration::remove_bumps(const Vector& z) {
   report_.bumps = 0;
+  if (!use_bumps_) return z;
   const Boundary boundary{
       std::vector<Border>(z.size(), Border::kFree), !surface_.optimizer().free(), {.rule = CreaseRule::kNone}};
-  for (int round = 0; round < kBumpRounds && use_bumps_; ++round) {
-    const HeightField field =
-        make_height_field(lift(surface_.positions(), z - start_), surface_.triangles(), frame_, boundary);
-    const BumpRemoval removal = remove_bumps(field, report_.length, progress());
-    if (removal.count == 0) break;
-    z += removal.move;
-    report_.bumps += removal.count;
-  }
-  return z;
+  const HeightField field = make_height_field(surface_.positions(), surface_.triangles(), frame_, boundary);
+  Vector move = z - start_;
+  report_.bumps = BumpRemoval(field, report_.length).remove_all(move, progress());
+  return start_ + move;
 }
 
 // Builds the targets: the lines of heights z, smoothed where that is no change of the design.

@@ -44,7 +44,7 @@ class Restoration {
   double range_towards(Eigen::Index control, double move) const;
   Vector scale_to_limit() const;
   Vector use_symmetry(const Vector& z);
-  Vector remove_all_bumps(Vector z);
+  Vector remove_bumps(const Vector& z);
   std::vector<Target> plan(const Vector& z);
   bool is_held_symmetrically() const;
   Vector average_partners(const Vector& move) const;

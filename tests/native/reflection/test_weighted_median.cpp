@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "reflection/weighted_median.h"
 
@@ -29,6 +32,24 @@ TEST(WeightedMedian, HasTheLeastSumOfDistances) {
     double least = sum_distances(values(0));
     for (const double m : values) least = std::min(least, sum_distances(m));
     EXPECT_EQ(sum_distances(weighted_median(values, weight)), least) << count << " values";
+  }
+}
+
+// Values of many sizes and both signs, more than are sorted at once.
+TEST(WeightedMedian, IsWhereTheSumOfSortedWeightsReachesHalf) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> exponent(0.0, 8.0);
+  for (const int count : {17, 400, 5000}) {
+    std::vector<std::pair<double, double>> entries(count);
+    for (auto& [value, weight] : entries)
+      value = std::copysign(std::exp(exponent(random)), exponent(random)), weight = 1 + random() % 4;
+    Vector values(count), weight(count);
+    for (int k = 0; k < count; ++k) values(k) = entries[k].first, weight(k) = entries[k].second;
+    std::sort(entries.begin(), entries.end());
+    double below = 0;
+    std::size_t k = 0;
+    while (below + entries[k].second < 0.5 * weight.sum()) below += entries[k++].second;
+    EXPECT_EQ(weighted_median(values, weight), entries[k].first) << count;
   }
 }
 
