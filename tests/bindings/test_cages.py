@@ -71,6 +71,28 @@ def test_a_clamped_border_keeps_its_limit_position_and_normal(region: str | None
     assert np.array_equal(solver.cage_positions[~solver.cage_free], V[~solver.cage_free])
 
 
+def test_the_curvature_across_a_clamped_border_stays_where_the_surface_goes_on() -> None:
+    """A regular surface has continuous curvatures. Those of the change begin with 0 at the border, and second differences
+    there halve with the spacing; a clamped mesh has a jump there, and they stay as large."""
+    clean, offsets, corners = hood()
+    cage = V, *_ = dented(hood(), VIEW, LINE)
+    inner = (np.abs(clean[corners.reshape(-1, 4)][:, :, :2]) < 0.45).all(axis=(1, 2))
+    solver = optimizer(cage, region=inner)
+    assert solver.solve(reflines.uniform(solver, density=1.2)).largest_move > 1e-3
+    bends = []
+    for level in (2, 3, 4):
+        surface = reflines.Subdivision(offsets, corners, vertices=len(V), level=level)
+        place = surface.positions(clean * [1, 1, 0])
+        row = np.flatnonzero((np.abs(place[:, 1]) < 1e-9) & (place[:, 0] > -1e-9))
+        row = row[np.argsort(place[row, 0])]
+        change = ((surface.positions(solver.cage_positions) - surface.positions(V)) @ VIEW)[row]
+        border = np.argmin(np.abs(place[row, 0] - 5 * 0.0875))
+        assert (change[border:] == 0).all()
+        bends.append(np.diff(change, 2)[:border] / np.diff(place[row[:2], 0]) ** 2)
+    assert [abs(bend[-1]) / abs(bends[0][-1]) for bend in bends] == pytest.approx([1, 1 / 2, 1 / 4], rel=1e-6)
+    assert 10 * abs(bends[-1][-1]) < np.abs(bends[-1]).max()
+
+
 def test_each_segment_of_the_border_has_its_own_condition() -> None:
     """The front is free, the sides are fixed, the rear is clamped."""
     V, offsets, corners = cage = dented(hood(), VIEW, LINE)
