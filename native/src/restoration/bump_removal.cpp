@@ -56,7 +56,7 @@ TriangleFields BumpRemoval::read_hessians(const Vector& z, Progress* progress) c
   apply_stencils(stencils_, z, u);
   TriangleFields hessian = u.rightCols<3>();
   hessian.col(1) *= std::numbers::sqrt2;
-  return smoother_.smooth(hessian, progress);
+  return smoother_.smooth_with(smoother_.find_creases(hessian, progress), hessian);
 }
 
 void BumpRemoval::remove(const std::vector<Bump>& bumps, Vector& move) const {

@@ -186,23 +186,18 @@ TriangleFields CreasePreservingSmoother::mean_over_triangles(const TriangleField
   return result;
 }
 
-TriangleFields CreasePreservingSmoother::smooth(const TriangleFields& g, Progress* progress, Vector* creases) const {
+Vector CreasePreservingSmoother::find_creases(const TriangleFields& g, Progress* progress, const Vector& start) const {
   const TriangleFields rhs = right_hand_side(g);
-  const bool warm = creases && creases->size() > 0;
-  Vector trust = warm ? *creases : Vector::Ones(static_cast<Eigen::Index>(edges_.size()));
+  const bool warm = start.size() > 0;
+  Vector trust = warm ? start : Vector::Ones(static_cast<Eigen::Index>(edges_.size()));
   const int rounds = warm ? kWarmRounds : options_.rounds;
-  TriangleFields U;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 1; round < rounds; ++round) {
     if (progress) progress->enter(static_cast<double>(round) / rounds, "smoothing the lines");
-    if (round > 0) {
-      const Vector jump = measure_jumps(U);
-      const double scale = options_.crease_jump * weighted_median(jump, edge_size_) + 1e-300;
-      trust = ((1.0 + (jump.array() / scale).square()).square().inverse() + kLeastTrust).matrix();
-    }
-    U = system_->solve(trust, rhs);
+    const Vector jump = measure_jumps(system_->solve(trust, rhs));
+    const double scale = options_.crease_jump * weighted_median(jump, edge_size_) + 1e-300;
+    trust = ((1.0 + (jump.array() / scale).square()).square().inverse() + kLeastTrust).matrix();
   }
-  if (creases) *creases = trust;
-  return mean_over_triangles(U, g);
+  return trust;
 }
 
 TriangleFields CreasePreservingSmoother::smooth_with(const Vector& creases, const TriangleFields& g) const {

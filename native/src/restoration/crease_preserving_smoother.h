@@ -37,12 +37,11 @@ class CreasePreservingSmoother {
   CreasePreservingSmoother(const CreasePreservingSmoother&) = delete;
   ~CreasePreservingSmoother();
 
-  // Smooths g (#F x m). Returns means (#F x m) of U over triangles, g itself where the area is 0. The last weights w_e
-  // (#inner edges) are put into `creases` where it is not null; weights that it has, those of a field that is nearly g,
-  // are where the iteration starts. `progress` may be null; throws Cancelled.
-  TriangleFields smooth(const TriangleFields& g, Progress* progress, Vector* creases = nullptr) const;
+  // Finds the weights w_e (#inner edges) for g (#F x m). `start`, weights of a field that is nearly g, is where the
+  // iteration begins; it may be empty. `progress` may be null; throws Cancelled.
+  Vector find_creases(const TriangleFields& g, Progress* progress, const Vector& start = {}) const;
 
-  // Smooths g in one step, with weights that an earlier smoothing found.
+  // Smooths g (#F x m) with these weights. Returns means (#F x m) of U over triangles, g itself where the area is 0.
   TriangleFields smooth_with(const Vector& creases, const TriangleFields& g) const;
 
  private:

@@ -123,7 +123,7 @@ double Restoration::range_towards(Eigen::Index control, double move) const {
 }
 
 Vector Restoration::find_move() {
-  smoother_.smooth(read_fields(start_), progress(), &creases_);
+  creases_ = smoother_.find_creases(read_fields(start_), progress(), creases_);
   Vector move = attempt();
   if (measure_gain(typical_before_, typical_after_) < kLeastGain &&
       measure_gain(report_.unevenness_before, report_.unevenness_after) < kLeastSquareGain &&
@@ -154,7 +154,7 @@ SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelR
   report_.mirrored = found.mirrored;
   report_.held_faces = found.held_faces;
   report_.limited = static_cast<int>(limited.count());
-  smoother_.smooth(read_fields(start_), progress(), &creases_);
+  creases_ = smoother_.find_creases(read_fields(start_), progress(), creases_);
   measure_result(move);
   return judge(move);
 }
@@ -255,8 +255,8 @@ std::vector<Target> Restoration::plan(const Vector& z) {
   const ShapeOptimizer& optimizer = surface_.optimizer();
   const TriangleFields fields = read_fields(z);
   if (!use_smoothing_) return make_targets(fields);
-  Vector creases = creases_;
-  const TriangleFields change = smoother_.smooth(fields, progress(), &creases) - fields;
+  const Vector creases = smoother_.find_creases(fields, progress(), creases_);
+  const TriangleFields change = smoother_.smooth_with(creases, fields) - fields;
   const Vector weight = flaw_weight(change, optimizer.centers(), optimizer.area(), report_.length);
   return make_targets(fields + weight.asDiagonal() * change);
 }
@@ -376,9 +376,7 @@ std::vector<double> Restoration::measure_unevenness(const Vector& z, const Vecto
 // result only. By those of the start, a dent of 2 % of the length counted as design, and its healing was refused.
 void Restoration::measure_result(const Vector& move) {
   const Vector z = start_ + surface_.surface_move(move);
-  Vector creases = creases_;
-  smoother_.smooth(read_fields(z), progress(), &creases);
-  creases = creases.cwiseMax(creases_);
+  const Vector creases = smoother_.find_creases(read_fields(z), progress(), creases_).cwiseMax(creases_);
   report_.unevenness_before = measure_unevenness(start_, creases, stray_before_, typical_before_);
   report_.unevenness_after = measure_unevenness(z, creases, report_.stray, typical_after_);
 }
