@@ -2,6 +2,7 @@
 // families of parallel light lines. It is expensive to build and cheap to solve again.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <string>
@@ -168,6 +169,7 @@ class ShapeOptimizer {
   void tell_limit(Report& report) const;
 
   Region region_;
+  Eigen::AlignedBox3d box_;  // around the region's faces
   std::unique_ptr<RegionPieces> pieces_;
   IndexVector partner_;  // see ShapeOptions
   SurfaceKind kind_;

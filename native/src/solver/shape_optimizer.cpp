@@ -69,6 +69,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   check_quadrature_weight(options.quadrature_weight, F.rows());
   check_face_of_triangle(face_of_triangle_, F.rows());
   check_symmetry(options, V.rows());
+  box_ = find_bounding_box(V, F);
   enter(0.2, "dividing into height fields");
   const Boundary boundary = boundary_of(options, V.rows());
   HeightField field = make_height_field(V, F, frame(), boundary);
@@ -265,7 +266,7 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
     }
     if (report.termination == Termination::kCancelled) restore();
     measure(targets, report);
-    check_reach(pieces_->start(), pieces_->triangles(), report.largest_move);
+    check_reach(box_, report.largest_move);
     tell_limit(report);
   } catch (...) {
     restore();

@@ -44,14 +44,15 @@ void check_surroundings(const Surroundings& around, Eigen::Index vertices) {
                      " vertices around the region have a coordinate that is not a finite number.");
 }
 
-void check_reach(const Positions& V, const Triangles& F, double largest_move) {
-  Eigen::RowVector3d low = V.row(F(0, 0)), high = low;
-  for (const int v : F.reshaped()) {
-    low = low.cwiseMin(V.row(v));
-    high = high.cwiseMax(V.row(v));
-  }
-  const double diagonal = (high - low).norm();
-  const double farthest = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff() + largest_move;
+Eigen::AlignedBox3d find_bounding_box(const Positions& V, const Triangles& F) {
+  Eigen::AlignedBox3d result;
+  for (const int v : F.reshaped()) result.extend(V.row(v).transpose());
+  return result;
+}
+
+void check_reach(const Eigen::AlignedBox3d& region, double largest_move) {
+  const double diagonal = region.diagonal().norm();
+  const double farthest = region.min().cwiseAbs().cwiseMax(region.max().cwiseAbs()).maxCoeff() + largest_move;
   if (largest_move <= kFarthest * diagonal && farthest < std::numeric_limits<float>::max()) return;
   char move[64];
   std::snprintf(move, sizeof move, "%.3g", largest_move / diagonal);

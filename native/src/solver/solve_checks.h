@@ -1,6 +1,8 @@
 // Checks of the input and the outcome of a solve.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "reflines/surroundings.h"
 #include "reflines/types.h"
 
@@ -17,9 +19,11 @@ void check_face_of_triangle(const IndexVector& face, Eigen::Index triangles);
 // not finite.
 void check_surroundings(const Surroundings& around, Eigen::Index vertices);
 
-// Throws SolverFailure where a solve moved a vertex of the region V (#V x 3), F (#F x 3) along the view by more than
-// ten of its diagonals, or beyond the range of float32, in which Blender stores positions. NaN counts as too far.
-// Vertices in no face may be anywhere.
-void check_reach(const Positions& V, const Triangles& F, double largest_move);
+// Returns the box around the faces of a region V (#V x 3), F (#F x 3). Vertices in no face may be anywhere.
+Eigen::AlignedBox3d find_bounding_box(const Positions& V, const Triangles& F);
+
+// Throws SolverFailure where a solve moved a vertex of a region in this box along the view by more than ten of its
+// diagonals, or beyond the range of float32, in which Blender stores positions. NaN counts as too far.
+void check_reach(const Eigen::AlignedBox3d& region, double largest_move);
 
 }  // namespace reflines
