@@ -29,6 +29,7 @@ LEFT_OUT = {
     "test_thread_count": "likewise, and takes a quarter of an hour",
     "test_careless": "presses on whole car bodies: half an hour of what test_smooth_panel does",
     "test_smooth_panel::test_real_panels_are_restored": "likewise",
+    "test_fair_border::test_flaws_across_the_border_go_from_the_region": "likewise, on larger meshes",
 }
 LONGEST = 2400  # seconds of a file
 SLOWER = 20  # times
