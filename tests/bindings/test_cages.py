@@ -72,8 +72,8 @@ def test_a_clamped_border_keeps_its_limit_position_and_normal(region: str | None
 
 
 def test_the_curvature_across_a_clamped_border_stays_where_the_surface_goes_on() -> None:
-    """A regular surface has continuous curvatures. Those of the change begin with 0 at the border, and second differences
-    there halve with the spacing; a clamped mesh has a jump there, and they stay as large."""
+    """A regular surface has continuous curvatures. Those of the change begin with 0 at the border, and second
+    differences there halve with the spacing; a clamped mesh has a jump there, and they stay as large."""
     clean, offsets, corners = hood()
     cage = V, *_ = dented(hood(), VIEW, LINE)
     inner = (np.abs(clean[corners.reshape(-1, 4)][:, :, :2]) < 0.45).all(axis=(1, 2))
