@@ -48,24 +48,34 @@ struct Product {
 
   void subtract(bool split) const {
     const std::vector<Tile> tiles = cut_into_tiles(rows, columns, split);
-#pragma omp parallel for schedule(dynamic) if (split)
+    if (!split) {
+      for (const Tile& tile : tiles) subtract(tile);
+      return;
+    }
+#pragma omp parallel for schedule(dynamic)
     for (int t = 0; t < static_cast<int>(tiles.size()); ++t) subtract(tiles[t]);
   }
 };
 
+// Solves for `count` rows of the columns from `first` on, whose diagonal block is factored.
+void solve_rows(const DenseFront& front, int first, int width, int row, int count) {
+  const int stride = front.height();
+  const double one = 1.0;
+  dtrsm_("R", "L", "T", "N", &count, &width, &one, front.at(first, first), &stride, front.at(row, first), &stride);
+}
+
 // Factors `width` columns, to which nothing is left to add, and the rows below them.
 bool factorize_panel(const DenseFront& front, int first, int width, bool split) {
-  const int stride = front.height(), rows = stride - first - width, tile = split ? kTile : std::max(rows, 1);
+  const int height = front.height(), below = first + width;
   int info = 0;
-  dpotrf_("L", &width, front.at(first, first), &stride, &info);
+  dpotrf_("L", &width, front.at(first, first), &height, &info);
   if (info != 0) return false;
-#pragma omp parallel for schedule(dynamic) if (split)
-  for (int row = 0; row < rows; row += tile) {
-    const int count = std::min(tile, rows - row);
-    const double one = 1.0;
-    dtrsm_("R", "L", "T", "N", &count, &width, &one, front.at(first, first), &stride,
-           front.at(first + width + row, first), &stride);
+  if (!split) {
+    if (below < height) solve_rows(front, first, width, below, height - below);
+    return true;
   }
+#pragma omp parallel for schedule(dynamic)
+  for (int row = below; row < height; row += kTile) solve_rows(front, first, width, row, std::min(kTile, height - row));
   return true;
 }
 

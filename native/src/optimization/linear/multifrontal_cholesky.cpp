@@ -96,14 +96,19 @@ void MultifrontalCholesky::add_update(int child, const DenseFront& front, const 
     place[i] = k;
   }
   const double* update = updates_[child].get();
-#pragma omp parallel for schedule(dynamic, 16) if (split)
-  for (int j = 0; j < count; ++j) {
+  const auto add_column = [&](int j) {
     const double* from = update + static_cast<std::size_t>(j) * count;
     const int column = place[j] - front.columns;  // of the update matrix
     double* to = column < 0 ? front.at(0, place[j])
                             : front.update + static_cast<std::ptrdiff_t>(column) * front.below - front.columns;
     for (int i = j; i < count; ++i) to[place[i]] += from[i];
+  };
+  if (!split) {
+    for (int j = 0; j < count; ++j) add_column(j);
+    return;
   }
+#pragma omp parallel for schedule(dynamic, 16)
+  for (int j = 0; j < count; ++j) add_column(j);
 }
 
 }  // namespace reflines
