@@ -1,8 +1,11 @@
 """Builds the libraries of the solver for 64-bit Windows, static, from the sources of which Linux's are built.
 
 The build runs in the Debian that has the compiler, and its results stay there, below PLACE. The BLAS is Eigen's, not
-OpenBLAS: that takes longer to build than all else, and Eigen's has no threads that start while a module is loaded. It
-does not choose its code by the processor. The solver's tests need GoogleTest, which is built too.
+OpenBLAS: that takes 5 minutes of one core to build, with patches, and Eigen's has no threads that start while a module
+is loaded. It does not choose its code by the processor. In seconds of one core under Wine, with Eigen's and with
+OpenBLAS's kernels for Haswell: whole solves of 10,000, 100,000 and 300,000 unknowns 0.05 and 0.05, 0.98 and 0.79, 3.9
+and 2.8, factorizations of the last two 0.69 and 0.39, 1.95 and 1.13. On Linux the whole solve of 100,000 takes 0.63.
+The solver's tests need GoogleTest, which is built too.
 
 Windows promises 16 bytes of alignment on the stack, and this compiler keeps no more: what it keeps there of AVX is
 moved by instructions that take any address.
