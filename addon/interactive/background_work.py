@@ -15,7 +15,9 @@ import bpy
 from .. import native
 from ..native_call import Calling
 
-LONGEST_WAIT = 0.012  # seconds that Blender waits for native calls; longer ones are taken at a later tick
+# Seconds that Blender waits for native calls; longer ones are taken at a later tick. Where it draws slowly, a tick is a
+# frame away, and a step has several calls: waiting a share of the last frame costs less than that.
+LEAST_WAIT, MOST_WAIT, FRAME_SHARE = 0.012, 0.05, 0.25
 LOOK_INTERVAL = 0.02  # seconds between two looks at work that is to end
 
 Request = TypeVar("Request")
@@ -33,6 +35,8 @@ class BackgroundWork(Generic[Request, Outcome]):
         self._running: Calling[Outcome] | None = None
         self._task: native.Task | None = None  # the call that the running coroutine awaits
         self._failed = self._stopped = self._ended = False
+        self._looked_at = time.monotonic()
+        self._wait = LEAST_WAIT
         _works.append(self)
 
     def submit(self, request: Request) -> None:
@@ -45,6 +49,9 @@ class BackgroundWork(Generic[Request, Outcome]):
     def take(self) -> Outcome | None:
         """Returns the latest outcome once, None where there is none, and goes on with work whose native call has ended.
         """
+        now = time.monotonic()
+        self._wait = min(max(FRAME_SHARE * (now - self._looked_at), LEAST_WAIT), MOST_WAIT)
+        self._looked_at = now
         self._advance()
         outcome, self._outcome = self._outcome, None
         return outcome
@@ -90,7 +97,7 @@ class BackgroundWork(Generic[Request, Outcome]):
         """Goes on until nothing is left to do, or a native call takes long."""
         if self._task is not None and not self._task.done:
             return
-        end = time.monotonic() + LONGEST_WAIT
+        end = time.monotonic() + self._wait
         while not self.is_idle():
             self._resume()
             if self._task is not None and not self._task.wait(max(end - time.monotonic(), 0.0)):
