@@ -115,7 +115,7 @@ def catches_a_race(env: dict[str, str]) -> bool:
 def tsan() -> Counts:
     archer = subprocess.run(["clang", "-print-file-name=libarcher.so"], text=True, stdout=subprocess.PIPE).stdout
     env = os.environ | {"TSAN_OPTIONS": f"ignore_noninstrumented_modules=1:suppressions={suppressions('races', RACES)}",
-                        "OMP_NUM_THREADS": "4", "OMP_TOOL_LIBRARIES": archer.strip()}  # which OpenMP may not find by itself
+                        "OMP_NUM_THREADS": "4", "OMP_TOOL_LIBRARIES": archer.strip()}  # not always found
     if not catches_a_race(env):
         print("the racy program was not caught")
         return CRASHED
