@@ -37,7 +37,6 @@ SUITES = ("bookworm", "trixie", "sid")  # Blender 3.4, 4.3, 5.2
 NEWEST_GLIBC = 28  # 2.28, which Blender's own builds need
 PLATFORMS = {".so": f"manylinux_2_{NEWEST_GLIBC}_x86_64", ".pyd": "win_amd64"}  # of wheels
 BLENDER_PLATFORMS = {".so": "linux-x64", ".pyd": "windows-x64"}
-CHOLMOD = ("cholmod", "metis", "amd", "camd", "ccolamd", "colamd", "suitesparseconfig")  # in the order of linking
 NO_ARCHIVE = 75  # the exit code that says so, "try again later"
 ALLOWED = {"libm.so.6", "libc.so.6", "libgomp.so.1", "ld-linux-x86-64.so.2"}
 
@@ -68,15 +67,8 @@ def headers_of_python_3_10() -> list[str]:
 
 
 def configure(pythons: list[str], prefix: Path) -> None:
-    lib = prefix / "lib"
-    cholmod = ";".join(str(lib / f"lib{name}.a") for name in CHOLMOD)
-    values = {"CMAKE_BUILD_TYPE": "Release", "REFLINES_PYTHON": "OFF", "REFLINES_TESTS": "OFF", "CHOLMOD": cholmod,
-              "REFLINES_PACKAGE_PYTHONS": ";".join(pythons), "UMFPACK": lib / "libumfpack.a",
-              "OPENBLAS": lib / "libopenblas.a", "OSD_CPU": lib / "libosdCPU.a",
-              "SUITESPARSE_INCLUDE": prefix / "include/suitesparse",
-              "CMAKE_CXX_FLAGS": f"-isystem {prefix / 'include'} -ffunction-sections -fdata-sections"}
-    given = [f"-D{name}={value}" for name, value in values.items()]
-    output("cmake", "-S", ROOT, "-B", BUILD / "cmake", "-G", "Ninja", *given)
+    given = {"CMAKE_PREFIX_PATH": prefix, "REFLINES_PACKAGE_PYTHONS": ";".join(pythons)}
+    output("cmake", "--preset", "package-linux", *(f"-D{name}={value}" for name, value in given.items()), cwd=ROOT)
 
 
 def modules(pythons: list[str]) -> list[Path]:

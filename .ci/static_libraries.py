@@ -1,85 +1,58 @@
-"""Builds the libraries that go into the package, from Debian's sources: static, position independent, hidden.
+"""Builds the libraries that go into the package: those of native/superbuild, from Debian's sources, and OpenBLAS.
 
 Debian's own archives will not do: those of SuiteSparse are not position independent, METIS and OpenSubdiv have none.
 OpenBLAS's archive is fit and is taken as it is, with kernels for every x86-64 processor. The solver asks BLAS for one
 thread (same input, same bits), but the serial archive will not do: it locks nothing, and of 180 solves in threads that
 overlapped 7 came out wrong and one failed. Two and a half minutes on two idle cores; kept in the cache folder, and
-built anew when this file has changed.
+built anew when the superbuild or this file has changed.
 """
 import hashlib
-import os
 import shutil
 import subprocess
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from debian import BUILT_WITH, CACHE, Suite
 
+SUPERBUILD = Path(__file__).resolve().parent.parent / "native/superbuild"
 PREFIX = CACHE / "static"
-FLAGS = "-O3 -fPIC -fvisibility=hidden -w"
-SUITESPARSE = ("SuiteSparse_config", "AMD", "CAMD", "COLAMD", "CCOLAMD", "CHOLMOD", "UMFPACK")
-OPENSUBDIV_OFF = ("EXAMPLES", "TUTORIALS", "REGRESSION", "DOC", "OMP", "TBB", "CUDA", "OPENCL", "CLEW", "OPENGL",
-                  "METAL", "DX", "TESTS", "GLTESTS", "PTEX")
+PACKAGES = ("metis", "suitesparse", "opensubdiv")  # of sources
 
 
 def run(*command: str | Path) -> None:
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    """Runs a command in silence; raises with the end of what it said where it fails."""
+    result = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if result.returncode != 0:
+        raise RuntimeError(f"{' '.join(map(str, command))[:500]} ...: {result.stdout[-3000:]}")
 
 
-def cmake(source: Path, target: str, *options: str) -> Path:
-    build = source.with_name(source.name + "-build")
-    run("cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_C_FLAGS={FLAGS}",
-        "-DCMAKE_C_COMPILER_LAUNCHER=ccache", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache", f"-DCMAKE_CXX_FLAGS={FLAGS}",
-        "-DCMAKE_POLICY_VERSION_MINIMUM=3.5", *options)
-    run("cmake", "--build", build, "--target", target)
-    return build
+def make_libraries(prefix: Path, made_by: Iterable[Path], packages: Iterable[str],
+                   build: Callable[[Suite, Path], None]) -> Path:
+    """The prefix with lib/ and include/; builds it from sources of packages where it has none of this recipe."""
+    stamp, files = prefix / "done", [*sorted(SUPERBUILD.iterdir()), Path(__file__), *made_by]
+    recipe = hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
+    if stamp.exists() and stamp.read_text() == recipe:
+        return prefix
+    shutil.rmtree(prefix, ignore_errors=True)
+    suite, work = Suite(BUILT_WITH), prefix / "work"
+    suite.update()
+    for package in packages:
+        suite.source(package, work)
+    build(suite, work)
+    shutil.rmtree(work)
+    stamp.write_text(recipe)
+    return prefix
 
 
-def opensubdiv(suite: Suite, work: Path, prefix: Path) -> None:
-    source = suite.source("opensubdiv", work)
-    options = [f"-DNO_{part}=ON" for part in OPENSUBDIV_OFF]
-    build = cmake(source, "osd_static_cpu", "-DBUILD_SHARED_LIBS=OFF", *options)
-    shutil.copy(next(build.rglob("libosdCPU.a")), prefix / "lib")
-    no_headers = shutil.ignore_patterns("*.cpp", "*.glsl")
-    shutil.copytree(source / "opensubdiv", prefix / "include/opensubdiv", ignore=no_headers)
-
-
-def metis(suite: Suite, work: Path, prefix: Path) -> Path:
-    source = suite.source("metis", work)
-    build = cmake(source, "metis", f"-DGKLIB_PATH={source / 'GKlib'}")
-    shutil.copy(next(build.rglob("libmetis.a")), prefix / "lib")
-    return source / "include"
-
-
-def suitesparse(suite: Suite, work: Path, prefix: Path, metis_include: Path) -> None:
-    source = suite.source("suitesparse", work)
-    options = [f"JOBS={os.cpu_count()}", "CC=ccache cc", f"CFLAGS={FLAGS}", "AUTOCC=no", "CUDA=no", "BLAS=-lopenblas",
-               "LAPACK=", "MY_METIS_LIB=-lmetis", f"MY_METIS_INC={metis_include}"]
-    for part in SUITESPARSE:
-        run("make", "-s", "-C", source / part, "static", *options)
-        shutil.copy(next((source / part).rglob("lib*.a")), prefix / "lib")
-        for header in (source / part).glob("**/*.h"):
-            if header.parent.name in ("Include", "SuiteSparse_config"):
-                shutil.copy(header, prefix / "include/suitesparse")
-
-
-def openblas(suite: Suite, work: Path, prefix: Path) -> None:
+def build(suite: Suite, work: Path) -> None:
+    run("cmake", "-S", SUPERBUILD, "-B", work / "superbuild", "-G", "Ninja", f"-DREFLINES_SOURCES={work}",
+        f"-DCMAKE_INSTALL_PREFIX={PREFIX}")
+    run("cmake", "--build", work / "superbuild", "--target", "install")
     suite.unpack(["libopenblas-pthread-dev"], work / "openblas")
-    shutil.copy(next((work / "openblas").rglob("libopenblasp-r*.a")), prefix / "lib/libopenblas.a")
+    shutil.copy(next((work / "openblas").rglob("libopenblasp-r*.a")), PREFIX / "lib/libopenblas.a")
+    for header in (work / "openblas").rglob("*.h"):
+        shutil.copy(header, PREFIX / "include")
 
 
 def static_libraries() -> Path:
-    """The prefix with lib/ and include/; builds it where the cache has none."""
-    stamp, recipe = PREFIX / "done", hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
-    if stamp.exists() and stamp.read_text() == recipe:
-        return PREFIX
-    shutil.rmtree(PREFIX, ignore_errors=True)
-    for folder in ("lib", "include/suitesparse", "work"):
-        (PREFIX / folder).mkdir(parents=True)
-    suite, work = Suite(BUILT_WITH), PREFIX / "work"
-    suite.update()
-    opensubdiv(suite, work, PREFIX)
-    suitesparse(suite, work, PREFIX, metis(suite, work, PREFIX))
-    openblas(suite, work, PREFIX)
-    shutil.rmtree(work)
-    stamp.write_text(recipe)
-    return PREFIX
+    return make_libraries(PREFIX, [], PACKAGES, build)

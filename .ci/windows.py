@@ -39,7 +39,6 @@ SOURCES = ("native", "tests", "blend_samples", ".ci/package", ".ci/wine", "CMake
 BUILD = "src/build/windows"
 REPORTS = "src/build/tests"
 WINE = {"WINEDEBUG": "-all", "WINEPREFIX": "/tmp/wine"}
-CHOLMOD = ("cholmod", "metis", "amd", "camd", "ccolamd", "colamd", "suitesparseconfig")  # in the order of linking
 OWN_LIBRARIES = re.compile(r"KERNEL32\.dll|api-ms-win-crt-[a-z]+-l1-1-0\.dll")
 LARGEST = 40e6  # bytes of a module
 
@@ -70,15 +69,9 @@ def ready() -> Path:
 
 def build(root: Path, targets: Sequence[str]) -> bool:
     """Builds targets; whether without a warning."""
-    lib = f"/{LIBRARIES}/lib"
     pythons = [f"{tag}|/{PYTHONS}/{tag}/include" for tag in PYTHON_SUITES]
-    values = {"CHOLMOD": ";".join(f"{lib}/lib{name}.a" for name in CHOLMOD), "UMFPACK": f"{lib}/libumfpack.a",
-              "OPENBLAS": f"{lib}/libblas.a", "REFLINES_SERIAL_BLAS": "ON", "OSD_CPU": f"{lib}/libosdCPU.a",
-              "SUITESPARSE_INCLUDE": f"/{LIBRARIES}/include/suitesparse", "CMAKE_PREFIX_PATH": f"/{LIBRARIES}",
-              "CMAKE_CXX_FLAGS": f"-Wa,-muse-unaligned-vector-move -isystem /{LIBRARIES}/include",
-              "REFLINES_PACKAGE_PYTHONS": ";".join(pythons)}
-    given = [f"-D{name}={value}" for name, value in values.items()]
-    configure = ["cmake", "-S", "/src", "--fresh", "--preset", "windows", *given]
+    given = [f"-DCMAKE_PREFIX_PATH=/{LIBRARIES}", f"-DREFLINES_PACKAGE_PYTHONS={';'.join(pythons)}"]
+    configure = ["cmake", "-S", "/src", "--fresh", "--preset", "package-windows", *given]
     make = ["cmake", "--build", f"/{BUILD}", "--target", *targets]
     return built(inside(root, *configure)) and built(inside(root, *make))
 

@@ -1,6 +1,7 @@
 # The solver's libraries that bring no CMake package of their own, as two imported targets. The build includes this file,
-# and so does the installed package. Each path can be set from outside: CHOLMOD, UMFPACK, OPENBLAS, SUITESPARSE_INCLUDE,
-# OPENBLAS_INCLUDE and OSD_CPU.
+# and so does the installed package. A prefix that native/superbuild has filled brings both. Elsewhere each path can be set
+# from outside: CHOLMOD, UMFPACK, OPENBLAS, SUITESPARSE_INCLUDE, OPENBLAS_INCLUDE and OSD_CPU.
+find_package(reflines-libraries QUIET)
 if(NOT TARGET reflines::suitesparse)
   find_library(CHOLMOD cholmod REQUIRED)
   find_library(UMFPACK umfpack REQUIRED)

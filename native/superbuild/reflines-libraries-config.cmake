@@ -1,0 +1,21 @@
+# Gives the libraries of this prefix as the targets that reflines-dependencies.cmake looks for elsewhere.
+cmake_path(SET prefix NORMALIZE ${CMAKE_CURRENT_LIST_DIR}/../../..)
+set(archives umfpack cholmod metis amd camd ccolamd colamd suitesparseconfig)  # in the order of linking
+if(WIN32)
+  list(APPEND archives blas)
+elseif(NOT APPLE)
+  list(APPEND archives openblas)
+endif()
+list(TRANSFORM archives REPLACE "(.+)" "${prefix}lib/lib\\1.a")
+if(APPLE)
+  list(APPEND archives "-framework Accelerate")
+endif()
+
+if(NOT TARGET reflines::suitesparse)
+  add_library(reflines::suitesparse INTERFACE IMPORTED GLOBAL)
+  target_include_directories(reflines::suitesparse INTERFACE ${prefix}include/suitesparse ${prefix}include)
+  target_link_libraries(reflines::suitesparse INTERFACE ${archives})
+  add_library(reflines::opensubdiv INTERFACE IMPORTED GLOBAL)
+  target_include_directories(reflines::opensubdiv INTERFACE ${prefix}include)
+  target_link_libraries(reflines::opensubdiv INTERFACE ${prefix}lib/libosdCPU.a)
+endif()
