@@ -1,14 +1,9 @@
 #include "optimization/held_factor.h"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace reflines {
 namespace {
-
-// The columns computed at once: those of 100,000 unknowns take 0.2 s, after which a cancellation is looked for.
-constexpr int kBlock = 16;
 
 void clear(const Sides& held, Vector& x) {
   for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -20,12 +15,11 @@ void clear(const Sides& held, Vector& x) {
 
 void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progress* progress, const Vector& added) {
   forget();
-  inverse_.resize(0, 0);
   factored_ = held;
-  matrix_ = H;
+  SparseMatrix matrix = H;
   for (int column = 0; column < H.cols(); ++column) {
     const bool column_held = held[column] != Side::kBetween;
-    for (SparseMatrix::InnerIterator entry(matrix_, column); entry; ++entry) {
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
       if (entry.row() == column) {
         if (added.size() > 0) entry.valueRef() += added(column);
       } else if (column_held || held[entry.row()] != Side::kBetween) {
@@ -33,99 +27,104 @@ void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progr
       }
     }
   }
-  solver_.factorize(matrix_, progress);
+  solver_.factorize(matrix, progress);
   is_current_ = added.size() == 0;
 }
 
 void HeldFactor::forget() {
   is_current_ = false;
-  contacts_.clear();
-  known_.clear();
-  half_.clear();
-  lower_.resize(0);
+  differences_ = {};
+  contact_column_.clear();
+  released_column_.clear();
+  border_.clear();
 }
 
-// Returns the contacts, or nothing where they cannot be held by this factor.
-std::optional<std::vector<int>> HeldFactor::find_contacts(const Sides& held) const {
-  std::vector<int> contacts;
-  if (!is_current_) return {};
+HeldFactor::Differences HeldFactor::find_differences(const Sides& held) const {
+  Differences result;
   for (size_t k = 0; k < held.size(); ++k) {
     const bool left_out = factored_[k] != Side::kBetween;
     if (left_out == (held[k] != Side::kBetween)) continue;
-    if (left_out) return {};
-    contacts.push_back(static_cast<int>(k));
+    (left_out ? result.released : result.contacts).push_back(static_cast<int>(k));
   }
-  return contacts;
+  return result;
 }
 
 bool HeldFactor::leaves_out(const Sides& held) const {
-  const std::optional<std::vector<int>> contacts = find_contacts(held);
-  return contacts && contacts->empty() && contacts_.empty();
+  if (!is_current_ || !differences_.contacts.empty() || !differences_.released.empty()) return false;
+  const Differences differences = find_differences(held);
+  return differences.contacts.empty() && differences.released.empty();
 }
 
-std::optional<int> HeldFactor::hold(const Sides& held, const Progress* progress) {
-  std::optional<std::vector<int>> contacts = find_contacts(held);
-  if (!contacts) return {};
-  std::vector<int> column, wanted;
-  for (const int k : *contacts) {
-    const auto place = std::find(known_.begin(), known_.end(), k);
-    column.push_back(static_cast<int>(place - known_.begin() + (place == known_.end() ? wanted.size() : 0)));
-    if (place == known_.end()) wanted.push_back(k);
+std::optional<int> HeldFactor::hold(const SparseMatrix& H, const Sides& held, const Progress* progress) {
+  if (!is_current_) return {};
+  Differences differences = find_differences(held);
+  // A shifted matrix is not H, to which released unknowns are coupled.
+  if (solver_.diagonal_shift() > 0.0 && !differences.released.empty()) return {};
+  std::vector<int> wanted;
+  for (const std::vector<int>* unknowns : {&differences.contacts, &differences.released}) {
+    for (const int k : *unknowns) {
+      if (border_.find(k) < 0) wanted.push_back(k);
+    }
   }
-  if (static_cast<int>(wanted.size()) > kMostNewContacts) return {};
-  const int solves = add_known(wanted, progress);
-  contacts_ = std::move(*contacts);
-  schur_.compute(inverse_(column, column));
-  column_ = std::move(column);
+  if (static_cast<int>(wanted.size()) > kMostNewColumns) return {};
+  wanted = solver_.sort_by_elimination(std::move(wanted));
+  const int solves = wanted.empty() ? 0 : border_.add(wanted, make_columns(H, wanted), progress);
+  differences_ = std::move(differences);
+  factorize_schur_complement(H);
   return solves;
 }
 
-// Adds the rows and columns of the inverse of these unknowns; returns the number of solves that took.
-int HeldFactor::add_known(const std::vector<int>& unknowns, const Progress* progress) {
-  if (solver_.has_halves()) return add_halves(unknowns, progress), 0;
-  add_columns(unknowns, progress);
-  return static_cast<int>(unknowns.size());
+// Returns the columns of the border: the unit vector of a contact, and a released unknown's column of H without the
+// rows that the factor leaves out.
+SparseMatrix HeldFactor::make_columns(const SparseMatrix& H, const std::vector<int>& unknowns) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<int> column(factored_.size(), -1);
+  bool releases = false;
+  for (size_t j = 0; j < unknowns.size(); ++j) {
+    const bool left_out = factored_[unknowns[j]] != Side::kBetween;
+    releases = releases || left_out;
+    if (left_out)
+      column[unknowns[j]] = static_cast<int>(j);
+    else
+      entries.emplace_back(unknowns[j], static_cast<int>(j), 1.0);
+  }
+  const auto add = [&](int row, int k, double value) {
+    if (column[k] >= 0 && factored_[row] == Side::kBetween) entries.emplace_back(row, column[k], value);
+  };
+  for (int k = 0; releases && k < H.outerSize(); ++k) {
+    for (SparseMatrix::InnerIterator entry(H, k); entry; ++entry) {
+      add(static_cast<int>(entry.row()), k, entry.value());
+      add(k, static_cast<int>(entry.row()), entry.value());
+    }
+  }
+  SparseMatrix columns(H.rows(), static_cast<Eigen::Index>(unknowns.size()));
+  columns.setFromTriplets(entries.begin(), entries.end());
+  return columns;
 }
 
-// Computes the rows and columns as products of halves: A^-1 = (L^-1 P)^T L^-1 P.
-void HeldFactor::add_halves(const std::vector<int>& unknowns, const Progress* progress) {
-  const auto before = static_cast<Eigen::Index>(known_.size());
+Eigen::MatrixXd HeldFactor::select_block(const SparseMatrix& H, const std::vector<int>& unknowns) const {
   const auto count = static_cast<Eigen::Index>(unknowns.size());
-  std::vector<SparseVector> halves = half_;
-  for (Eigen::Index first = 0; first < count; first += kBlock) {
-    throw_if_cancelled(progress);
-    const auto begin = unknowns.begin() + first;
-    std::vector<SparseVector> some =
-        solver_.solve_lower_units({begin, begin + std::min<Eigen::Index>(kBlock, count - first)});
-    std::move(some.begin(), some.end(), std::back_inserter(halves));
+  Eigen::MatrixXd block(count, count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    for (Eigen::Index i = j; i < count; ++i) block(i, j) = block(j, i) = H.coeff(unknowns[i], unknowns[j]);
   }
-  inverse_.conservativeResize(before + count, before + count);
-  for (Eigen::Index j = before; j < before + count; ++j) {
-    for (Eigen::Index i = 0; i <= j; ++i) inverse_(i, j) = inverse_(j, i) = halves[i].dot(halves[j]);
-  }
-  half_ = std::move(halves);
-  known_.insert(known_.end(), unknowns.begin(), unknowns.end());
+  return block;
 }
 
-// Computes the columns of these unknowns, and keeps their entries at the known ones.
-void HeldFactor::add_columns(const std::vector<int>& unknowns, const Progress* progress) {
-  const auto count = static_cast<int>(unknowns.size());
-  const auto before = static_cast<Eigen::Index>(known_.size());
-  std::vector<int> known = known_;
-  known.insert(known.end(), unknowns.begin(), unknowns.end());
-  Eigen::MatrixXd columns(known.size(), count);
-  for (int first = 0; first < count; first += kBlock) {
-    throw_if_cancelled(progress);
-    const int size = std::min(kBlock, count - first);
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(factored_.size()), size);
-    for (int j = 0; j < size; ++j) block(unknowns[first + j], j) = 1.0;
-    solver_.solve(block);
-    columns.middleCols(first, size) = block(known, Eigen::all);
-  }
-  inverse_.conservativeResize(columns.rows(), columns.rows());
-  inverse_.rightCols(count) = columns;
-  inverse_.bottomLeftCorner(count, before) = columns.topRows(before).transpose();
-  known_ = std::move(known);
+void HeldFactor::factorize_schur_complement(const SparseMatrix& H) {
+  const auto places = [this](const std::vector<int>& unknowns) {
+    std::vector<int> result;
+    for (const int k : unknowns) result.push_back(border_.find(k));
+    return result;
+  };
+  contact_column_ = places(differences_.contacts);
+  released_column_ = places(differences_.released);
+  const Eigen::MatrixXd& products = border_.products();
+  of_contacts_.compute(products(contact_column_, contact_column_));
+  if (released_column_.empty()) return;
+  coupling_ = products(contact_column_, released_column_);
+  of_released_.compute(select_block(H, differences_.released) - products(released_column_, released_column_) +
+                       coupling_.transpose() * of_contacts_.solve(coupling_));
 }
 
 Vector HeldFactor::select_left_out(const Vector& x) const {
@@ -133,47 +132,37 @@ Vector HeldFactor::select_left_out(const Vector& x) const {
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     if (factored_[k] != Side::kBetween) result(k) = x(k);
   }
+  for (const int k : differences_.released) result(k) = 0.0;
   return result;
 }
 
 int HeldFactor::solve(Vector& x, const Vector& at_contacts) {
+  const Vector of_released = x(differences_.released);
   clear(factored_, x);
-  const int solves = solver_.has_halves() ? solve_by_halves(x, at_contacts) : solve_whole(x, at_contacts);
-  for (const int k : contacts_) x(k) = at_contacts.size() > 0 ? at_contacts(k) : 0.0;
+  int solves = 0;
+  const Vector z = find_border(border_.reach(x, solves), of_released, at_contacts);
+  x = border_.finish(z, solves);
   clear(factored_, x);
+  for (const int k : differences_.contacts) x(k) = at_contacts.size() > 0 ? at_contacts(k) : 0.0;
+  x(differences_.released) = z(released_column_);
   return solves;
 }
 
-// Returns the forces that move the contacts from where they would be to where they are held.
-Vector HeldFactor::find_forces(Vector reached, const Vector& at_contacts) const {
-  if (at_contacts.size() > 0) reached -= at_contacts(contacts_);
-  return schur_.solve(reached);
-}
-
-int HeldFactor::solve_by_halves(Vector& x, const Vector& at_contacts) {
-  if (lower_.size() == 0 || x != right_) {
-    right_ = lower_ = x;
-    solver_.solve_lower(lower_);
+// Returns the border's unknowns: forces of contacts, moves of released unknowns, and 0 for those that are neither now.
+Vector HeldFactor::find_border(const Vector& reached, const Vector& of_released, const Vector& at_contacts) const {
+  Vector z = Vector::Zero(reached.size());
+  Vector beyond = reached(contact_column_);
+  if (at_contacts.size() > 0) beyond -= at_contacts(differences_.contacts);
+  if (!released_column_.empty()) {
+    const Vector right = of_released - reached(released_column_) + coupling_.transpose() * of_contacts_.solve(beyond);
+    const Vector moves = of_released_.solve(right);
+    z(released_column_) = moves;
+    beyond -= coupling_ * moves;
   }
-  x = lower_;
-  if (!contacts_.empty()) {
-    Vector reached(contacts_.size());
-    for (Eigen::Index j = 0; j < reached.size(); ++j) reached(j) = half_[column_[j]].dot(x);
-    const Vector force = find_forces(std::move(reached), at_contacts);
-    for (Eigen::Index j = 0; j < force.size(); ++j) half_[column_[j]].add_to(x, -force(j));
-  }
-  solver_.solve_upper(x);
-  return 1;
-}
-
-int HeldFactor::solve_whole(Vector& x, const Vector& at_contacts) {
-  Vector right = x;
-  solver_.solve(x);
-  if (contacts_.empty()) return 1;
-  right(contacts_) -= find_forces(x(contacts_), at_contacts);
-  x = std::move(right);
-  solver_.solve(x);
-  return 2;
+  if (contact_column_.empty()) return z;
+  const Vector forces = of_contacts_.solve(beyond);
+  z(contact_column_) = forces;
+  return z;
 }
 
 }  // namespace reflines

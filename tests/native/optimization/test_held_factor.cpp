@@ -1,4 +1,5 @@
-// Unknowns held by the Schur complement of their forces and by a factor without them give the same solutions.
+// Unknowns held and released by the Schur complement of a bordered system, and by a factor made for them, give the same
+// solutions.
 #include <gtest/gtest.h>
 
 #include "least_squares.h"
@@ -47,7 +48,7 @@ TEST_P(HeldFactorTest, ContactsAreHeldAsByAFactorWithoutThem) {
   HeldFactor factor(solver);
   factor.factorize(H, hold({7}), nullptr);
   for (const Sides& held : {hold({7}), hold({7, 50}), hold({3, 7, 50, 51, 120}), hold({7, 120}), hold({7})}) {
-    ASSERT_TRUE(factor.hold(held, nullptr));
+    ASSERT_TRUE(factor.hold(H, held, nullptr));
     const Vector x = solve(factor), expected = solve_anew(held);
     EXPECT_LT((x - expected).norm(), 1e-9 * expected.norm());
     for (int k = 0; k < kSize; ++k) {
@@ -61,7 +62,7 @@ TEST_P(HeldFactorTest, ContactsAreHeldWhereTheyAreAskedFor) {
   HeldFactor factor(solver);
   const Sides held = hold({7, 50, 51, 120});
   factor.factorize(H, hold({7}), nullptr);
-  ASSERT_TRUE(factor.hold(held, nullptr));
+  ASSERT_TRUE(factor.hold(H, held, nullptr));
   for (const double value : {0.5, -2.0}) {  // the second meets the same right-hand side
     Vector at = Vector::Constant(kSize, value);
     Vector x = Vector::LinSpaced(kSize, -1.0, 2.0);
@@ -81,13 +82,27 @@ TEST_P(HeldFactorTest, ContactsAreHeldWhereTheyAreAskedFor) {
   }
 }
 
+TEST_P(HeldFactorTest, ReleasedUnknownsMoveAsByAFactorWithThem) {
+  HeldFactor factor(solver);
+  factor.factorize(H, hold({7, 50, 51, 120}), nullptr);
+  for (const Sides& held : {hold({7, 50, 51}), hold({51}), hold({3, 7, 49, 120}), hold({7, 50, 51, 120}), hold({52})}) {
+    ASSERT_TRUE(factor.hold(H, held, nullptr));
+    const Vector x = solve(factor), expected = solve_anew(held);
+    EXPECT_LT((x - expected).norm(), 1e-9 * expected.norm());
+    for (int k = 0; k < kSize; ++k) EXPECT_EQ(x(k) == 0.0, held[k] != Side::kBetween);
+  }
+  EXPECT_FALSE(factor.leaves_out(hold({7, 50, 51, 120})));
+  ASSERT_TRUE(factor.hold(H, hold({7, 50, 51, 120}), nullptr));
+  EXPECT_TRUE(factor.leaves_out(hold({7, 50, 51, 120})));
+}
+
 TEST_P(HeldFactorTest, ContactsCostNoSolveWithHalvesAndElseOneTheFirstTime) {
   HeldFactor factor(solver);
   factor.factorize(H, hold({}), nullptr);
   const int one = solver.has_halves() ? 0 : 1;
-  EXPECT_EQ(factor.hold(hold({10, 20}), nullptr), 2 * one);
-  EXPECT_EQ(factor.hold(hold({20, 30}), nullptr), one);
-  EXPECT_EQ(factor.hold(hold({10, 20, 30}), nullptr), 0);
+  EXPECT_EQ(factor.hold(H, hold({10, 20}), nullptr), 2 * one);
+  EXPECT_EQ(factor.hold(H, hold({20, 30}), nullptr), one);
+  EXPECT_EQ(factor.hold(H, hold({10, 20, 30}), nullptr), 0);
   Vector x = Vector::Ones(kSize);
   EXPECT_EQ(factor.solve(x), 1 + one);
 }
@@ -95,28 +110,27 @@ TEST_P(HeldFactorTest, ContactsCostNoSolveWithHalvesAndElseOneTheFirstTime) {
 TEST_P(HeldFactorTest, ACancelledContactLeavesTheOthers) {
   HeldFactor factor(solver);
   factor.factorize(H, hold({}), nullptr);
-  ASSERT_TRUE(factor.hold(hold({10}), nullptr));
+  ASSERT_TRUE(factor.hold(H, hold({10}), nullptr));
   const Vector before = solve(factor);
   Progress progress;
   progress.cancel();
-  EXPECT_THROW(factor.hold(hold({10, 20, 30}), &progress), Cancelled);
+  EXPECT_THROW(factor.hold(H, hold({10, 20, 30}), &progress), Cancelled);
   EXPECT_EQ(solve(factor), before);
-  EXPECT_EQ(factor.hold(hold({10, 20}), nullptr), solver.has_halves() ? 0 : 1);
+  EXPECT_EQ(factor.hold(H, hold({10, 20}), nullptr), solver.has_halves() ? 0 : 1);
 }
 
 TEST_P(HeldFactorTest, AsksForAnotherFactorWhereThisOneCannotHold) {
   HeldFactor factor(solver);
-  EXPECT_FALSE(factor.hold(hold({}), nullptr));  // there is none
+  EXPECT_FALSE(factor.hold(H, hold({}), nullptr));  // there is none
   factor.factorize(H, hold({7}), nullptr);
-  EXPECT_FALSE(factor.hold(hold({}), nullptr));  // one that it leaves out is released
   Sides many = hold({7});
-  std::fill_n(many.begin() + 8, HeldFactor::kMostNewContacts + 1, Side::kLow);
-  EXPECT_FALSE(factor.hold(many, nullptr));
-  EXPECT_TRUE(factor.hold(hold({7, 8}), nullptr));
+  std::fill_n(many.begin() + 8, HeldFactor::kMostNewColumns + 1, Side::kLow);
+  EXPECT_FALSE(factor.hold(H, many, nullptr));
+  EXPECT_TRUE(factor.hold(H, hold({7, 8}), nullptr));
   factor.forget();
-  EXPECT_FALSE(factor.hold(hold({7, 8}), nullptr));
+  EXPECT_FALSE(factor.hold(H, hold({7, 8}), nullptr));
   factor.factorize(H, hold({7}), nullptr, Vector::Ones(kSize));
-  EXPECT_FALSE(factor.hold(hold({7, 8}), nullptr));  // it is not that of H alone
+  EXPECT_FALSE(factor.hold(H, hold({7, 8}), nullptr));  // it is not that of H alone
 }
 
 }  // namespace

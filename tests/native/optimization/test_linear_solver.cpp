@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "optimization/linear/linear_solver.h"
@@ -201,20 +202,55 @@ TEST(LinearSolverHalves, MakeTheSolveAndTheInverse) {
   solver.solve_lower(halves);
   solver.solve_upper(halves);
   EXPECT_LT((halves - whole).norm(), 1e-14 * whole.norm());
+}
 
-  const std::vector<int> unknowns = {0, 7, 8, 800, n - 1};
-  const std::vector<SparseVector> rows = solver.solve_lower_units(unknowns);
-  for (size_t j = 0; j < unknowns.size(); ++j) {
-    Vector column = Vector::Unit(n, unknowns[j]), lower = column;
-    solver.solve(column);
-    solver.solve_lower(lower);
-    Vector dense = Vector::Zero(n);
-    rows[j].add_to(dense, 1.0);
-    EXPECT_LT((dense - lower).norm(), 1e-14 * lower.norm());
-    EXPECT_LT(rows[j].index.size(), n / 3);  // a path, not the tree
-    for (size_t i = 0; i < unknowns.size(); ++i)
-      EXPECT_NEAR(rows[i].dot(rows[j]), column(unknowns[i]), 1e-14 * column.maxCoeff());
+// The referees are solves of the whole system.
+TEST(LinearSolverHalves, SolveForSparseColumnsAlongPathsOfTheTree) {
+  const int side = 40, n = side * side;
+  const SparseMatrix matrix = grid_laplacian(side);
+  LinearSolver solver(LinearSolverKind::kCholmod);
+  solver.analyze(matrix);
+  solver.factorize(matrix);
+  SparseMatrix B(n, 7);
+  const int rows[] = {0, 7, 8, 800, n - 1};
+  for (int j = 0; j < 5; ++j) B.insert(rows[j], j) = 1.0;
+  for (const int row : {300, 301, 340}) B.insert(row, 5) = 0.1 * row;
+  B.insert(20, 6) = -2.0;
+  Eigen::MatrixXd inverse = B;
+  solver.solve(inverse);
+
+  const std::vector<SparseColumns> blocks = solver.solve_lower(B);
+  std::vector<Vector> halves;
+  for (const SparseColumns& block : blocks) {
+    EXPECT_LT(block.row.size(), n / 2);  // paths, not the tree
+    for (Eigen::Index j = 0; j < block.value.cols(); ++j) {
+      halves.push_back(Vector::Zero(n));
+      block.subtract_product(-Vector::Unit(block.value.cols(), j), halves.back());
+    }
   }
+  ASSERT_EQ(halves.size(), 7);
+  for (int j = 0; j < 7; ++j) {
+    Vector lower = B.col(j);
+    solver.solve_lower(lower);
+    EXPECT_LT((halves[j] - lower).norm(), 1e-14 * lower.norm());
+  }
+  Eigen::Index first = 0;
+  for (const SparseColumns& block : blocks) {
+    const Eigen::MatrixXd products = blocks[0].transposed_times(block);
+    const Eigen::MatrixXd expected = (B.transpose() * inverse).block(0, first, products.rows(), products.cols());
+    EXPECT_LT((products - expected).norm(), 1e-13 * inverse.norm());
+    first += products.cols();
+  }
+}
+
+TEST(LinearSolverHalves, SortUnknownsByElimination) {
+  const SparseMatrix matrix = grid_laplacian(3);
+  LinearSolver solver(LinearSolverKind::kCholmod);
+  solver.analyze(matrix, {8, 1, 6, 3, 0, 5, 2, 7, 4});
+  solver.factorize(matrix);
+  const std::vector<int> sorted = solver.sort_by_elimination({4, 0, 1, 8});
+  EXPECT_EQ(std::set<int>(sorted.begin(), sorted.end()), (std::set<int>{0, 1, 4, 8}));
+  EXPECT_EQ(sorted.back(), 4);  // the root stays last, whatever the order within the tree
 }
 
 }  // namespace

@@ -53,6 +53,10 @@ constexpr Eigen::Index kNestedDissection = 300000;
 // of the matrix are not worth their time.
 constexpr Eigen::Index kWorthAbandoning = 20000;
 
+// The number of columns of a sparse right-hand side that are solved together. With 1, 4, 8 and 16 solves within a limit
+// that touch at 50 to 80 of 10,000 unknowns take 88, 82, 92 and 110 ms.
+constexpr int kColumnsAtOnce = 4;
+
 // Limits OpenBLAS to one thread: it splits its sums by the number of its threads, so that factors made with one and two
 // threads differ in their last bits (measured at 10k and 100k unknowns). The fronts of a surface mesh are small: a
 // second thread gained nothing in the factorization and doubled the time of a solve. The limit is set once and never
@@ -115,7 +119,8 @@ class LinearSolver::Backend {
   virtual void solve(Eigen::MatrixXd& X) = 0;
   virtual void solve_lower(Vector&) {}
   virtual void solve_upper(Vector&) {}
-  virtual std::vector<SparseVector> solve_lower_units(const std::vector<int>&) { return {}; }
+  virtual std::vector<SparseColumns> solve_lower(const SparseMatrix&) { return {}; }
+  virtual std::vector<int> sort_by_elimination(std::vector<int> unknowns) const { return unknowns; }
 
   // Factors with the first shift that succeeds and returns that.
   double factorize_shifted(const SparseMatrix& matrix) {
@@ -221,22 +226,41 @@ class LinearSolver::Cholmod final : public Backend {
     std::copy_n(static_cast<const double*>(solution_->x), X.size(), X.data());
   }
 
-  std::vector<SparseVector> solve_lower_units(const std::vector<int>& unknowns) override {
+  std::vector<SparseColumns> solve_lower(const SparseMatrix& B) override {
     const EliminationPaths paths(view_factor());
-    std::vector<int> place(factor_->n);
-    const auto* order = static_cast<const int*>(factor_->Perm);
-    for (int j = 0; j < static_cast<int>(place.size()); ++j) place[order[j]] = j;
-    std::vector<SparseVector> result(unknowns.size());
-#pragma omp parallel if (unknowns.size() > 1)
+    const std::vector<int> place = places();
+    std::vector<SparseColumns> result((B.cols() + kColumnsAtOnce - 1) / kColumnsAtOnce);
+#pragma omp parallel if (result.size() > 1)
     {
-      Vector work = Vector::Zero(static_cast<Eigen::Index>(place.size()));
+      std::vector<int> scratch(place.size());
 #pragma omp for schedule(dynamic)
-      for (int k = 0; k < static_cast<int>(unknowns.size()); ++k) result[k] = paths.solve(place[unknowns[k]], work);
+      for (int k = 0; k < static_cast<int>(result.size()); ++k) {
+        const int first = k * kColumnsAtOnce, count = std::min(kColumnsAtOnce, static_cast<int>(B.cols()) - first);
+        std::vector<EliminationPaths::Entry> entries;
+        for (int j = 0; j < count; ++j) {
+          for (SparseMatrix::InnerIterator entry(B, first + j); entry; ++entry)
+            entries.push_back({place[entry.row()], j, entry.value()});
+        }
+        result[k] = paths.solve(entries, count, scratch);
+      }
     }
     return result;
   }
 
+  std::vector<int> sort_by_elimination(std::vector<int> unknowns) const override {
+    const std::vector<int> place = places();
+    std::sort(unknowns.begin(), unknowns.end(), [&](int a, int b) { return place[a] < place[b]; });
+    return unknowns;
+  }
+
  private:
+  std::vector<int> places() const {  // of the unknowns in the factor
+    std::vector<int> place(factor_->n);
+    const auto* order = static_cast<const int*>(factor_->Perm);
+    for (int j = 0; j < static_cast<int>(place.size()); ++j) place[order[j]] = j;
+    return place;
+  }
+
   SupernodalFactor view_factor() const {
     return {static_cast<int>(factor_->n),
             static_cast<int>(factor_->nsuper),
@@ -460,8 +484,10 @@ void LinearSolver::solve_lower(Vector& x) { backend_->solve_lower(x); }
 
 void LinearSolver::solve_upper(Vector& x) { backend_->solve_upper(x); }
 
-std::vector<SparseVector> LinearSolver::solve_lower_units(const std::vector<int>& unknowns) {
-  return backend_->solve_lower_units(unknowns);
+std::vector<SparseColumns> LinearSolver::solve_lower(const SparseMatrix& B) { return backend_->solve_lower(B); }
+
+std::vector<int> LinearSolver::sort_by_elimination(std::vector<int> unknowns) const {
+  return backend_->sort_by_elimination(std::move(unknowns));
 }
 
 void LinearSolver::solve(Eigen::MatrixXd& X) {

@@ -1,0 +1,47 @@
+// The sparse columns by which a factored matrix is bordered.
+#pragma once
+
+#include <vector>
+
+#include "optimization/linear/linear_solver.h"
+#include "reflines/progress.h"
+#include "reflines/types.h"
+
+namespace reflines {
+
+// Columns B (n x m) beside a factored matrix A, and their products B^T A^-1 B, from which the Schur complement of a
+// bordered system is made. Each column belongs to an unknown. Where the solver has halves, A^-1 = (L^-1 P)^T L^-1 P,
+// and the products need no solve; else they take one for each column.
+class BorderColumns {
+ public:
+  explicit BorderColumns(LinearSolver& solver) : solver_(solver) {}
+
+  void clear();
+  int count() const { return static_cast<int>(unknowns_.size()); }
+  int find(int unknown) const;  // the unknown's column, or -1
+
+  // Adds columns (n x #unknowns); returns the number of solves that took. Throws Cancelled, and adds none then.
+  int add(const std::vector<int>& unknowns, const SparseMatrix& columns, const Progress* progress);
+
+  const Eigen::MatrixXd& products() const { return products_; }  // B^T A^-1 B, m x m
+
+  // Solves A x = right - B z in two steps: `reach` returns B^T A^-1 right (m), from which a caller finds z, and
+  // `finish` returns x. Both return or add the solves that they took.
+  Vector reach(const Vector& right, int& solves);
+  Vector finish(const Vector& z, int& solves);
+
+ private:
+  int add_halves(const SparseMatrix& columns, const Progress* progress);
+  void multiply_last_half(Eigen::Index right);
+  int add_whole(const SparseMatrix& columns, const Progress* progress);
+  Vector multiply_transposed(const Vector& x) const;
+
+  LinearSolver& solver_;
+  std::vector<int> unknowns_;
+  std::vector<SparseMatrix> columns_;  // B, as added
+  std::vector<SparseColumns> halves_;  // L^-1 P B, by blocks, where the solver has halves
+  Eigen::MatrixXd products_;
+  Vector right_, solved_;  // the last right-hand side, and L^-1 P or A^-1 times it
+};
+
+}  // namespace reflines
