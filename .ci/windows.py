@@ -1,10 +1,10 @@
 """Builds the solver for 64-bit Windows, in a Debian with the compiler for it, and runs its native tests under Wine.
 
 Then the Python module is linked for each Python that Blender for Windows embeds, and looked into: it may ask for
-Windows's own libraries and Python's only, and show nothing but its entry point. The module for Python 3.13 is loaded by
-a CPython for Windows that is built here too, under Wine, and the binding tests run against it. Nothing loads the module
-for 3.11, nor either in Blender for Windows. A warning of the compiler is a failure. The root is kept in the cache
-folder, with the solver's libraries in it. Needs root.
+Windows's own libraries and Python's only, and show nothing but its entry point. Each is loaded under Wine by a CPython
+for Windows of its version, which is built here too, and the binding tests run against it. Nothing loads them in Blender
+for Windows. A warning of the compiler is a failure. The root is kept in the cache folder, with the solver's libraries
+in it. Needs root.
 
     .ci/windows.py [--modules FOLDER]
 
@@ -21,7 +21,6 @@ from pathlib import Path
 from debian import Unavailable, output
 from matrix import ROOT, inside, ready_root
 from windows_bindings import TOOLS, test_bindings
-from windows_interpreter import TAG as LOADING
 from windows_interpreter import ready_interpreter
 from windows_libraries import COMPILER, windows_libraries
 from windows_libraries import PLACE as LIBRARIES
@@ -138,8 +137,10 @@ def test(root: Path) -> Counts:
     if not build(root, ["all"]):
         return CRASHED
     total = run_tests(root) + inspect(root)
-    module = next((path for path in modules(root) if f"cp{LOADING}" in path.name), None)
-    return total + (test_bindings(root, ready_interpreter(root), module, WINE) if module else CRASHED)
+    for module in modules(root):
+        tag = re.search(r"\.cp(\d+)-", module.name)[1]
+        total += test_bindings(root, ready_interpreter(root, tag), module, WINE)
+    return total
 
 
 def main() -> int:

@@ -1,4 +1,4 @@
-"""Loads the module in a Python of Windows under Wine, compares its solves with Linux's, and runs the binding tests.
+"""Loads a module in a Python of Windows under Wine, compares its solves with Linux's, and runs the binding tests.
 
 The tests run in the root's own Python, with its numpy and pytest; .ci/wine/client stands for the module there and hands
 every call through a pipe to .ci/wine/server.py in the Python of Windows, which has no numpy but a stand-in.
@@ -20,7 +20,7 @@ TOOLS = ("python3-numpy", "python3-pytest", "python3-scipy")  # of the tests, in
 TESTS = "src/tests/bindings"
 CLIENT = "/src/.ci/wine/client"
 REPORT = "src/build/tests/bindings.xml"
-LIMIT = 3600  # seconds; the tests take 10 minutes
+LIMIT = 3600  # seconds, for each module; the tests take 10 minutes
 # Of the largest move of each of 70 solves. Measured: 3.0e-9 at most, where OpenBLAS's kernels for two processors of
 # Linux differ by 3.3e-9; both in a solve whose minimum is flat, and by 1e-10 and less in 64 of them.
 DIFFERENCE = 1e-8
@@ -95,5 +95,5 @@ def test_bindings(root: Path, program: Path, module: Path, wine: dict[str, str])
     total = loaded(root, env)
     if total.failed == 0:
         total += compare(root, env) + run_tests(root, env)
-    print(f"bindings under Wine: {total}", flush=True)
+    print(f"bindings of {module.name} under Wine: {total}", flush=True)
     return total

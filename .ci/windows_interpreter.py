@@ -1,9 +1,10 @@
-"""Builds CPython for 64-bit Windows from Debian's source, with the compiler for it, to load the module in under Wine.
+"""Builds CPython for 64-bit Windows from Debian's source, with the compiler for it, to load a module in under Wine.
 
 It is the interpreter alone: its DLL with the modules that are built in, its program, and its library as files. Other
-modules of C, such as sockets, are not built. Sources and defines are those of CPython's project for Visual Studio. In
-place of numpy, which is not built for it, a stand-in lies beside it: arrays with the C interface that pybind11 calls
-(.ci/wine/site). All lies in the root, below PLACE.
+modules of C, such as sockets, are not built. Sources and defines are those of CPython's project for Visual Studio. The
+modules that are frozen into the DLL are compiled by the same suite's Python for Linux: only the same version makes the
+same bytecode. In place of numpy, which is not built for it, a stand-in lies beside it: arrays with the C interface that
+pybind11 calls (.ci/wine/site). All lies in the root, below PLACE, a folder for each version.
 """
 import hashlib
 import re
@@ -13,14 +14,14 @@ from pathlib import Path
 
 from debian import Suite
 from windows_libraries import TOOLCHAIN, Workshop
-from windows_python import SUITES
+from windows_python import SUITES, version
 
 ROOT = Path(__file__).resolve().parent.parent
-TAG = "313"  # the Python of the root itself, which compiles the modules that are frozen into the DLL
 PLACE = "interpreter"
 SITE = ROOT / ".ci/wine/site"
 # GCC 14 takes for errors what Microsoft's compiler takes: pointers to other types, and functions without a declaration.
-FLAGS = "-O1 -DNDEBUG -w -fpermissive -include process.h -include winsock2.h"
+# MS_WIN64, without which pointers have 4 bytes, 3.11's headers set for Microsoft's compiler only.
+FLAGS = "-O1 -DNDEBUG -DMS_WIN64= -w -fpermissive -include process.h -include winsock2.h"
 LEFT_OUT = ("mmapmodule.c", "zlibmodule.c")  # handles exceptions as only Microsoft's compiler does; needs zlib
 EDITS = {  # a file, and what is not as this compiler wants it
     "PC/config.c": (r".*mmap.*\n", ""),
@@ -36,17 +37,22 @@ foreach(row ${frozen})
   list(GET row 0 name)
   list(GET row 1 file)
   set(header ${CMAKE_BINARY_DIR}/Python/frozen_modules/${name}.h)
-  add_custom_command(OUTPUT ${header} COMMAND python3 ${CMAKE_SOURCE_DIR}/Programs/_freeze_module.py
+  add_custom_command(OUTPUT ${header} COMMAND @PYTHON@ ${CMAKE_SOURCE_DIR}/Programs/_freeze_module.py
     ${name} ${CMAKE_SOURCE_DIR}/${file} ${header})
   list(APPEND headers ${header})
+  list(APPEND named ${header}:${name})
 endforeach()
-configure_file(PC/pyconfig.h.in ${CMAKE_BINARY_DIR}/pyconfig.h COPYONLY)
+set(deepfreeze ${CMAKE_SOURCE_DIR}/Python/deepfreeze/deepfreeze.c)  # the frozen modules as objects: a source of 3.11
+add_custom_command(OUTPUT ${deepfreeze} DEPENDS ${headers}
+  COMMAND @PYTHON@ ${CMAKE_SOURCE_DIR}/Tools/scripts/deepfreeze.py ${named} -o ${deepfreeze})
+file(GLOB settings PC/pyconfig.h*)
+configure_file(${settings} ${CMAKE_BINARY_DIR}/pyconfig.h COPYONLY)
 include_directories(${CMAKE_BINARY_DIR} Include PC)
 add_link_options(-static)  # no DLL of the compiler
 add_library(python@TAG@ SHARED ${sources} ${headers})
 target_include_directories(python@TAG@ PRIVATE ${CMAKE_BINARY_DIR}/Python Include/internal Include/internal/mimalloc
   Python Modules/_hacl/include Modules/_hacl/internal)
-target_compile_definitions(python@TAG@ PRIVATE Py_BUILD_CORE Py_BUILD_CORE_BUILTIN MS_DLL_ID=\"3.13\"
+target_compile_definitions(python@TAG@ PRIVATE Py_BUILD_CORE Py_BUILD_CORE_BUILTIN MS_DLL_ID=\"@VERSION@\"
   PY3_DLLNAME=L\"python3\" PYD_PLATFORM_TAG=\"win_amd64\" PREFIX=NULL EXEC_PREFIX=NULL VERSION=NULL VPATH=\"..\\\\..\"
   PYDEBUGEXT=\"\" PLATLIBDIR=\"DLLs\")
 target_link_libraries(python@TAG@ PRIVATE version ws2_32 pathcch bcrypt)
@@ -74,8 +80,8 @@ def frozen(project: str) -> Iterator[str]:
         yield f"{name}|{file}".replace("\\", "/")
 
 
-def prepare(source: Path) -> None:
-    """Gives CPython's source a build for this compiler."""
+def prepare(source: Path, tag: str, host: str) -> None:
+    """Gives CPython's source a build for this compiler; `host` is the program of its version that runs in the root."""
     for name, (pattern, replacement) in EDITS.items():
         text, count = re.subn(pattern, replacement, (source / name).read_text())
         assert count > 0, f"{name} has no {pattern}"
@@ -83,13 +89,14 @@ def prepare(source: Path) -> None:
     core, freezer = ((source / f"PCbuild/{name}.vcxproj").read_text() for name in ("pythoncore", "_freeze_module"))
     (source / "sources.txt").write_text("\n".join(sources(core)))
     (source / "frozen.txt").write_text("\n".join(frozen(freezer)))
-    (source / "CMakeLists.txt").write_text(CMAKE.replace("@TAG@", TAG))
+    lists = CMAKE.replace("@TAG@", tag).replace("@VERSION@", version(tag)).replace("@PYTHON@", host)
+    (source / "CMakeLists.txt").write_text(lists)
     shutil.copytree(SITE, source / "site")
 
 
-def install(source: Path, build: Path, prefix: Path) -> None:
+def install(source: Path, build: Path, prefix: Path, tag: str) -> None:
     """Puts program, DLL, library and stand-in where the program looks for them."""
-    for name in ("python.exe", f"python{TAG}.dll"):
+    for name in ("python.exe", f"python{tag}.dll"):
         shutil.copy(build / name, prefix)
     shutil.copytree(source / "Lib", prefix / "Lib", ignore=shutil.ignore_patterns("test", "idlelib", "tkinter"))
     shutil.copytree(SITE, prefix / "Lib/site-packages", dirs_exist_ok=True, ignore=shutil.ignore_patterns("*.c"))
@@ -97,24 +104,31 @@ def install(source: Path, build: Path, prefix: Path) -> None:
 
 
 def recipe() -> str:
-    """Changes with whatever this Python is made by."""
+    """Changes with whatever these Pythons are made by."""
     files = sorted(path for path in SITE.rglob("*") if path.is_file())
     return hashlib.sha256(b"".join(path.read_bytes() for path in [Path(__file__), TOOLCHAIN, *files])).hexdigest()
 
 
-def ready_interpreter(root: Path) -> Path:
+def build_interpreter(shop: Workshop, tag: str) -> None:
+    """Builds it with all that it stands on, in the folder of its version."""
+    package, suite = f"python{version(tag)}", Suite(SUITES[tag])
+    suite.update()
+    host = shop.work / "host"
+    suite.unpack([f"{package}-minimal", f"lib{package}-minimal", f"lib{package}-stdlib"], host)
+    source = shop.source(suite, package)
+    prepare(source, tag, shop.named(host / "usr/bin" / package))
+    install(source, shop.cmake(source, "all", "-DCMAKE_C_FLAGS_RELEASE=", flags=FLAGS), shop.prefix, tag)
+
+
+def ready_interpreter(root: Path, tag: str) -> Path:
     """The program in the root; built where there is none of this recipe. The root must have its libraries already."""
-    shop = Workshop(root, PLACE)
+    shop = Workshop(root, f"{PLACE}/{tag}")
     program, stamp = shop.prefix / "python.exe", shop.prefix / "done"
     if stamp.exists() and stamp.read_text() == recipe():
         return program
     shutil.rmtree(shop.prefix, ignore_errors=True)
     shop.work.mkdir(parents=True)
-    suite = Suite(SUITES[TAG])
-    suite.update()
-    source = shop.source(suite, f"python{TAG[0]}.{TAG[1:]}")
-    prepare(source)
-    install(source, shop.cmake(source, "all", "-DCMAKE_C_FLAGS_RELEASE=", flags=FLAGS), shop.prefix)
+    build_interpreter(shop, tag)
     shutil.rmtree(shop.work)
     stamp.write_text(recipe())
     return program

@@ -18,6 +18,10 @@ SUITES = {"311": "bookworm", "313": "trixie"}
 DECLARED = re.compile(r"PyAPI_(FUNC|DATA)\([^)]*\)\s*\*?\s*(_?Py\w+)")
 
 
+def version(tag: str) -> str:
+    return f"{tag[0]}.{tag[1:]}"
+
+
 def exports(tag: str, headers: Path) -> str:
     """The text from which dlltool makes the library."""
     text = "".join(header.read_text() for header in sorted(headers.rglob("*.h")))
@@ -31,7 +35,7 @@ def copy_headers(suite: Suite, tag: str, include: Path) -> None:
     work = CACHE / "windows" / f"python{tag}"
     shutil.rmtree(work, ignore_errors=True)
     suite.update()
-    source = suite.source(f"python{tag[0]}.{tag[1:]}", work)
+    source = suite.source(f"python{version(tag)}", work)
     suite.unpack(["pybind11-dev"], work / "pybind11")
     shutil.copytree(source / "Include", include)
     shutil.copy(next((source / "PC").glob("pyconfig.h*")), include / "pyconfig.h")

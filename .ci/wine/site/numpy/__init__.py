@@ -2,12 +2,13 @@
 
 Arrays are made here and converted by the module under test; nothing computes with them.
 """
+import sys
 from collections.abc import Iterator
 
 from ._core.multiarray import array, ndarray, set_conversion
 
 __all__ = ["array", "ndarray"]
-__version__ = "2.2.4"  # whose layouts multiarray.c has
+__version__ = "1.26.4" if sys.version_info < (3, 12) else "2.2.4"  # whose layouts multiarray.c has
 LETTERS = {bool: "?", int: "q", float: "d"}
 
 

@@ -1,1 +1,1 @@
-"""Where pybind11 looks for the C interface."""
+"""Where pybind11 looks for the C interface of numpy 2."""
