@@ -71,6 +71,16 @@ class Suite:
         output("dpkg-source", "--no-check", "--skip-patches", "-x", description, into / package)
         return into / package
 
+    def unpack_pybind11(self, into: Path) -> Path:
+        """Unpacks pybind11's headers for the suite's Python; returns the folder with them.
+
+        Those of bookworm, 2.10, would read numpy 2's arrays as numpy 1's; trixie's serve both.
+        """
+        suite = Suite("trixie") if self.name == "bookworm" else self
+        suite.update()
+        suite.unpack(["pybind11-dev"], into)
+        return into / "usr/include"
+
     def python(self) -> str:
         """The version of the suite's Python: "3.13"."""
         depends = output("apt-cache", *self.options(), "depends", "python3-dev")

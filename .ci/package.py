@@ -45,14 +45,16 @@ def headers(suite: Suite) -> str:
     """"TAG|folder|folder...": the tag of the suite's Python, and where its headers and pybind11's are."""
     folder = CACHE / "python" / suite.name
     stamp = folder / "version"
-    if not stamp.exists():
+    if not (folder / "pybind11").exists():
+        shutil.rmtree(folder, ignore_errors=True)
         suite.update()
         version = suite.python()
-        suite.unpack([f"libpython{version}-dev", "pybind11-dev"], folder)
+        suite.unpack([f"libpython{version}-dev"], folder)
+        suite.unpack_pybind11(folder / "pybind11")
         stamp.write_text(version)
     version = stamp.read_text()
     include = folder / "usr/include"
-    own = [include / f"python{version}", include, include / "x86_64-linux-gnu"]
+    own = [include / f"python{version}", folder / "pybind11/usr/include", include, include / "x86_64-linux-gnu"]
     return "|".join([version.replace(".", ""), *map(str, own)])
 
 
@@ -63,7 +65,7 @@ def headers_of_python_3_10() -> list[str]:
     except (OSError, Unavailable):
         print("no python3.10 on this machine: Blender 3.4 to 4.0 from blender.org are left out")
         return []
-    return ["|".join(["310", folder, str(CACHE / "python" / SUITES[0] / "usr/include")])]
+    return ["|".join(["310", folder, str(CACHE / "python" / SUITES[0] / "pybind11/usr/include")])]
 
 
 def configure(pythons: list[str], prefix: Path) -> None:

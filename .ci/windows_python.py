@@ -15,6 +15,7 @@ from windows_libraries import COMPILER
 
 PLACE = "python"  # of all this in the root
 SUITES = {"311": "bookworm", "313": "trixie"}
+RECIPE = (Path(__file__), Path(__file__).with_name("debian.py"))
 DECLARED = re.compile(r"PyAPI_(FUNC|DATA)\([^)]*\)\s*\*?\s*(_?Py\w+)")
 
 
@@ -31,22 +32,21 @@ def exports(tag: str, headers: Path) -> str:
 
 
 def copy_headers(suite: Suite, tag: str, include: Path) -> None:
-    """Copies the headers of a suite's Python, that of Windows's settings among them, and of pybind11 for it."""
+    """Copies the headers of a suite's Python, that of Windows's settings among them, and of pybind11."""
     work = CACHE / "windows" / f"python{tag}"
     shutil.rmtree(work, ignore_errors=True)
     suite.update()
     source = suite.source(f"python{version(tag)}", work)
-    suite.unpack(["pybind11-dev"], work / "pybind11")
     shutil.copytree(source / "Include", include)
     shutil.copy(next((source / "PC").glob("pyconfig.h*")), include / "pyconfig.h")
-    shutil.copytree(work / "pybind11/usr/include/pybind11", include / "pybind11")
+    shutil.copytree(suite.unpack_pybind11(work / "pybind11") / "pybind11", include / "pybind11")
     shutil.rmtree(work)
 
 
 def ready_python(root: Path, tag: str) -> Path:
     """The folder of a Python in the root, with include/ and libs/; made where there is none of this recipe."""
     place = root / PLACE / tag
-    stamp, recipe = place / "done", hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
+    stamp, recipe = place / "done", hashlib.sha256(b"".join(path.read_bytes() for path in RECIPE)).hexdigest()
     if stamp.exists() and stamp.read_text() == recipe:
         return place
     shutil.rmtree(place, ignore_errors=True)

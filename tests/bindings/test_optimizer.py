@@ -29,7 +29,7 @@ def test_cancel_from_another_thread_leaves_every_bit():
     while not progress.stage:
         time.sleep(0.001)  # the solver does not hold the GIL: this loop runs beside it
     progress.cancel()
-    worker.join(30)
+    worker.join(120)
     assert progress.cancelled and reports[0].termination == "cancelled"
     assert np.array_equal(solver.positions, positions)
     assert solver.solve(target).converged  # and the optimizer is as good as new
@@ -272,7 +272,7 @@ def test_what_another_thread_is_at_work_on_is_refused_at_once(ask):
         ask(solver)
     assert solver.xy.shape == (101**2, 2) and solver.free.any()
     progress.cancel()
-    worker.join(30)
+    worker.join(120)
     assert solver.solve(target, max_iterations=2).energy_after == expected
 
 

@@ -7,10 +7,9 @@
 namespace reflines {
 namespace {
 
-// The columns computed at once, after which a cancellation is looked for: those of 100,000 unknowns take XX s.
-constexpr int kBlock = 64;
-// The same for whole columns: 16 take 0.2 s.
-constexpr int kWholeBlock = 16;
+// The columns computed at once, after which a cancellation is looked for: halves of 100,000 unknowns take 0.04 s, and
+// whole columns 0.2 s.
+constexpr int kBlock = 64, kWholeBlock = 16;
 
 }  // namespace
 

@@ -26,8 +26,8 @@ struct QuadraticModel {
 // Others are found by the primal-dual active set method, a semismooth Newton method (Hintermueller, Ito and Kunisch,
 // SIAM J. Optim. 13, 2003): solve with the held unknowns at their bounds, hold those that violate a bound, release
 // those with a multiplier of the wrong sign. Its first rounds change thousands of unknowns and take a factorization
-// each, the later ones change few and take the factor before them, bordered. Where the set of many changes slowly, as on
-// a smooth surface that leaves its bound row by row, InteriorPoint estimates it anew.
+// each, the later ones change few and take the factor before them, bordered. Where the set of many changes slowly, as
+// on a smooth surface that leaves its bound row by row, InteriorPoint estimates it anew.
 class BoundedQuadratic {
  public:
   // Takes the factor to use; `counts` collects factorizations and solves. `progress` may be null.
@@ -46,8 +46,13 @@ class BoundedQuadratic {
   void hold(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
   bool settle(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, Vector& d);
   bool cancelled() const { return progress_ != nullptr && progress_->cancelled(); }
-  Vector solve_held(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
-  bool keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Vector& d, Vector& best);
+  struct Trial {
+    Vector d, gradient;  // of the model at d
+  };
+  Trial minimize_held(const QuadraticModel& model, const Bounds& bounds, double wanted, const Sides& held,
+                      Vector& best);
+  Trial solve_held(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
+  double keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Vector& d, Vector& best);
   bool guess_from_inside(const QuadraticModel& model, const Bounds& bounds, double reach, Sides& held);
 
   HeldFactor& factor_;

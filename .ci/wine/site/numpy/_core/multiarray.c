@@ -1,8 +1,8 @@
 /* Arrays with the part of numpy's C interface that pybind11 calls, for a Python of Windows that has no numpy.
 
    An array holds numbers or truth values at an address, with any strides; it can be made of bytes and read as a buffer.
-   The layouts of both objects and the places in the table are those that the pybind11 of each Python's suite writes down
-   in pybind11/numpy.h: of numpy 1 for 3.11, which knows no other, and of numpy 2 for 3.13. */
+   The layouts of both objects and the places in the table are those that pybind11 writes down in pybind11/numpy.h: of
+   numpy 1 for 3.11, as Blender 4.1 to 5.0 have it, and of numpy 2 for 3.13. */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
 #include <stdbool.h>
@@ -12,10 +12,10 @@
 enum { C_ORDER = 1, F_ORDER = 2, ALIGNED = 0x100, WRITEABLE = 0x400, TYPES = 13, DIMENSIONS = 8, TABLE = 300 };
 
 #if PY_VERSION_HEX < 0x030C0000
-enum { VERSION = 0x11, COPY_INTO = 82 }; /* numpy 1.26 */
+enum { VERSION = 0x11 }; /* numpy 1.26 */
 typedef int KindSize;
 #else
-enum { VERSION = 0x12, COPY_INTO = 50 }; /* numpy 2.0 */
+enum { VERSION = 0x12 }; /* numpy 2.0 */
 typedef Py_ssize_t KindSize;
 #endif
 
@@ -303,7 +303,7 @@ static void** table(void) {
   static void* entries[TABLE];
   for (int k = 0; k < TABLE; ++k) entries[k] = (void*)missing;
   entries[2] = &array_type, entries[3] = &kind_type, entries[39] = &void_type;
-  entries[45] = (void*)kind_of_number, entries[COPY_INTO] = (void*)copy_into, entries[69] = (void*)from_any;
+  entries[45] = (void*)kind_of_number, entries[50] = (void*)copy_into, entries[69] = (void*)from_any;
   entries[85] = (void*)new_copy, entries[94] = (void*)new_of_kind, entries[136] = (void*)squeeze;
   entries[182] = (void*)same_kind, entries[211] = (void*)version, entries[282] = (void*)set_base;
   return entries;
