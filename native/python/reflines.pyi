@@ -224,6 +224,9 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
     those faces the ones without area, doubled, at an edge of more than two, or not connected with the region are left out; where
     none are beside the border it is held, and the report's messages say so.
 
+    With the borders "curvature" and "flow" the region is pressed with "clamped", too. That result is returned, and the report's
+    messages say so, where lines would have ended less even than with it in some light, or nothing could have been changed.
+
     Raises InvalidInput, SolverFailure, and Cancelled where `progress` was cancelled."""
 
 def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,

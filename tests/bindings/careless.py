@@ -70,6 +70,7 @@ class Outcome:
     turned: int = 0             # triangles by more than 45 degrees
     before: tuple[float, ...] = ()  # unevenness of the lights, degrees
     after: tuple[float, ...] = ()
+    shift: tuple[float, ...] = ()   # of the lines in the result, degrees
 
     @property
     def is_harmless(self) -> bool:
@@ -103,24 +104,47 @@ def find_seen(V: Array, F: Array, view: Array) -> Array:
     return (unit_normals(V, F) @ view > 0.0) & (depth > nearest[key] - SEEN * size)
 
 
-def select(selection: Selection) -> tuple[Array, Array]:
-    """Returns the vertices and triangles of a selection; skips the test where the mesh is not at hand."""
-    V, F = read_mesh(selection.mesh)
+def choose(selection: Selection, V: Array, F: Array) -> Array:
+    """Returns the triangles of a selection: #F, bool."""
     low, size = V.min(axis=0), np.ptp(V, axis=0)
     share = (V[F].mean(axis=1) - low) / size
     inside = ((share >= selection.low) & (share <= selection.high)).all(axis=1)
-    chosen = F[inside & find_seen(V, F, np.array(selection.view, float))]
-    used, own = np.unique(chosen, return_inverse=True)
+    return inside & find_seen(V, F, np.array(selection.view, float))
+
+
+def select(selection: Selection) -> tuple[Array, Array]:
+    """Returns the vertices and triangles of a selection; skips the test where the mesh is not at hand."""
+    V, F = read_mesh(selection.mesh)
+    used, own = np.unique(F[choose(selection, V, F)], return_inverse=True)
     return V[used], own.reshape(-1, 3)
 
 
-def press(selection: Selection) -> Outcome:
-    """Presses Smooth on a selection, with all defaults."""
+def read_around(selection: Selection) -> tuple[Array, Array]:
+    """Returns the faces within four rings of a selection, as `around` of reflines.smooth_panel."""
+    V, F = read_mesh(selection.mesh)
+    chosen = choose(selection, V, F)
+    used = np.unique(F[chosen])
+    reached, found = np.zeros(len(V), bool), np.zeros(len(F), bool)
+    reached[used] = True
+    for _ in range(4):
+        found |= reached[F].any(axis=1)
+        reached[F[found]] = True
+    beside = F[found & ~chosen]
+    others = np.setdiff1d(beside, used)
+    number = np.empty(len(V), dtype=int)
+    number[used], number[others] = np.arange(len(used)), len(used) + np.arange(len(others))
+    return V[others], number[beside]
+
+
+def press(selection: Selection, **options: object) -> Outcome:
+    """Presses Smooth on a selection, with all defaults but these options."""
     V, F = select(selection)
     try:
-        positions, told = reflines.smooth_panel(V, F, view_direction=selection.view, line_direction=selection.light)
+        positions, told = reflines.smooth_panel(V, F, view_direction=selection.view, line_direction=selection.light,
+                                                **options)
     except (reflines.InvalidInput, reflines.SolverFailure) as error:
         return Outcome(selection.name, len(F), str(error))
     cosine = (unit_normals(V, F) * unit_normals(positions, F)).sum(axis=1)
     return Outcome(selection.name, len(F), "", float(np.linalg.norm(positions - V, axis=1).max()), told.limit,
-                   int((cosine < TURNED).sum()), tuple(told.unevenness_before), tuple(told.unevenness_after))
+                   int((cosine < TURNED).sum()), tuple(told.unevenness_before), tuple(told.unevenness_after),
+                   tuple(score.shift for score in told.score_after))

@@ -132,6 +132,8 @@ class ShapeOptimizer {
   Report solve(const std::vector<Target>& targets, const MinimizerOptions& options = {}, Progress* progress = nullptr,
                const MoveLimit& limit = MoveLimit::none());
 
+  bool continues_curvature() const { return !border_.empty(); }  // that of ShapeOptions::around, somewhere
+
   // Returns for each vertex (#V) -1 or 1 where the last solve's limit holds it at its lowest or highest move, else 0.
   IndexVector at_limit() const;
 

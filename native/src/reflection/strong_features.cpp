@@ -53,9 +53,16 @@ double strong_bend(const PlaneVectors& gradient, double diagonal) {
   return std::max(kStrong * sorted[sorted.size() / 2], kLeast / diagonal);
 }
 
+double find_strong_size(const PlaneVectors& gradient, const Vector& area, double diagonal) {
+  return std::max(kStrong * weighted_median(gradient.rowwise().norm(), area), kLeast / diagonal);
+}
+
 Vector measure_response(const PlaneVectors& gradient, const Vector& area, double diagonal) {
+  return measure_response(gradient, find_strong_size(gradient, area, diagonal));
+}
+
+Vector measure_response(const PlaneVectors& gradient, double strong) {
   const Vector size = gradient.rowwise().norm();
-  const double strong = std::max(kStrong * weighted_median(size, area), kLeast / diagonal);
   const Vector x = (size.array() / strong - kOrdinary).cwiseMax(0.0).cwiseMin(1.0);
   return 1.0 - x.array().square() * (3.0 - 2.0 * x.array());
 }

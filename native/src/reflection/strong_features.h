@@ -19,6 +19,12 @@ Mask strong_features(const HeightField& field, const PlaneVectors& gradient, dou
 // the change that was wanted elsewhere; with this weight 0.13 % and 0.82.
 Vector measure_response(const PlaneVectors& gradient, const Vector& area, double diagonal);
 
+// Measures it by the size of a strong bend that find_strong_size returns for another field.
+Vector measure_response(const PlaneVectors& gradient, double strong);
+
+// Returns 8 times the median |grad theta| by area of a field (#T x 2), or 10 / diagonal where that is more.
+double find_strong_size(const PlaneVectors& gradient, const Vector& area, double diagonal);
+
 // Returns the least |grad theta| of a feature in a field (#T x 2) over a piece with this diagonal.
 double strong_bend(const PlaneVectors& gradient, double diagonal);
 

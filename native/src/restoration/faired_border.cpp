@@ -5,6 +5,7 @@
 #include "geometry/mesh.h"
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
+#include "restoration/held_border.h"
 #include "restoration/joined_mesh.h"
 #include "restoration/restoration.h"
 
@@ -63,13 +64,6 @@ SmoothPanelOptions join_options(const SmoothPanelOptions& options, const SmoothP
   return result;
 }
 
-SmoothPanelResult press_held(const Positions& V, const Triangles& F, const Vector3& view,
-                             const std::vector<Vector3>& families, const ShapeOptions& shape,
-                             const SmoothPanelOptions& options) {
-  MeshSurface surface(V, F, view, families, shape);
-  return Restoration(surface, options).run();
-}
-
 // Tells that the whole border was held, after the sentence that comes first; see SmoothPanelReport::messages.
 void tell_held(SmoothPanelReport& report) {
   const bool has_first = !report.applied || report.limited > 0;
@@ -95,13 +89,13 @@ SmoothPanelResult press_faired_border(const Positions& V, const Triangles& F, co
   Restoration judge(region, options);
   const Mask movable = region.optimizer().free();
   const Mask wanted = movable && options.fair_border && find_border_vertices(F, static_cast<int>(V.rows()));
-  if (!wanted.any()) return press_held(V, F, view, families, shape, options);
+  if (!wanted.any()) return press_held_border(V, F, view, families, shape, options);
   const JoinedMesh joined = join_surroundings(V, F, shape.around, kReach * judge.report().length);
   const ShapeOptions joined_shape = join_shape(own, movable, joined, F.rows());
   MeshSurface surface(joined.V, joined.F, view, families, joined_shape);
   const Mask held = wanted && !surface.optimizer().free().head(V.rows());
   if (held.count() == wanted.count()) {
-    SmoothPanelResult result = press_held(V, F, view, families, shape, options);
+    SmoothPanelResult result = press_held_border(V, F, view, families, shape, options);
     tell_held(result.report);
     return result;
   }

@@ -10,6 +10,7 @@
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/faired_border.h"
+#include "restoration/held_border.h"
 #include "restoration/restoration.h"
 #include "restoration/used_vertices.h"
 #include "solver/limited_move.h"
@@ -82,8 +83,7 @@ SmoothPanelResult press_mesh(const Positions& V, const Triangles& F, const Vecto
                              const std::vector<Vector3>& families, const ShapeOptions& shape,
                              const SmoothPanelOptions& options) {
   if (options.fair_border.any()) return press_faired_border(V, F, view, families, shape, options);
-  MeshSurface surface(V, F, view, families, shape);
-  return Restoration(surface, options).run();
+  return press_held_border(V, F, view, families, shape, options);
 }
 
 // Presses the vertices that are in faces; the others keep their bits.

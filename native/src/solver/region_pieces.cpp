@@ -134,12 +134,21 @@ Mask RegionPieces::features(int family, double length) {
   return result;
 }
 
-Vector RegionPieces::response(int family, const Mask& features) const {
+PlaneVectors RegionPieces::start_field(int family) const {
   PlaneVectors start = PlaneVectors::Zero(triangle_count(), 2);
   for (const auto& piece : pieces_) start(piece->triangles(), Eigen::all) = piece->smoother().start_gradient(family);
+  return start;
+}
+
+double RegionPieces::strong_size(const PlaneVectors& field) const {
   const PlanePositions center = centers();  // not the vertices: those of no triangle may lie anywhere
   const double diagonal = (center.colwise().maxCoeff() - center.colwise().minCoeff()).norm();
-  return features.select(0.0, measure_response(start, area(), diagonal).array());
+  return find_strong_size(field, area(), diagonal);
+}
+
+Vector RegionPieces::response(int family, const Mask& features) const {
+  const PlaneVectors start = start_field(family);
+  return features.select(0.0, measure_response(start, strong_size(start)).array());
 }
 
 RegionField RegionPieces::region_field(int family, double feature_length) {

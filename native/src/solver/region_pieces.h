@@ -49,6 +49,9 @@ class RegionPieces {
   RegionField region_field(int family, double feature_length);
   RegionField vertex_field(int family) const;  // see ShapeOptimizer
 
+  PlaneVectors start_field(int family) const;           // #F x 2, at the start
+  double strong_size(const PlaneVectors& field) const;  // of one of the region's fields: see find_strong_size
+
   // Reads the lines of a piecewise surface with other heights (#V); weight 0 (#V) marks unknown heights. Rows of
   // triangles that depend on an unknown height keep their lines and have weight 0.
   void read_lines(const Vector& heights, const Vector& weight, Target& target, Vector& theta) const;

@@ -81,7 +81,6 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   families.emplace_back(frame(), frame().z(), frame().x());  // across the first family: see PieceProblem
   region_ = describe_region(field, face_of_triangle_, boundary.hold_creases);
   feature_length_ = kFeatureLength * field.diagonal();
-  continue_border(field, boundary, options.around, families);
   for (Piece& piece : split_pieces(field, partner_)) {
     enter(0.6, "making stencils");
     if (piece.free_count == 0) region_.unused_pieces += piece.field.piece_count;
@@ -91,6 +90,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
     problem->watch(progress_.get());
     pieces_->add(std::move(problem));
   }
+  continue_border(field, boundary, options.around, families);
   if (region_.free == 0) {
     const int faces = count_faces(Mask::Constant(triangle_count(), true));
     throw InvalidInput(explain_no_free_vertex(region_, faces, count_doubled_vertices(V)));
@@ -107,17 +107,27 @@ void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& b
   BorderCurvature curvature;
   if (around.exist()) {
     check_surroundings(around, pieces_->vertex_count());
-    curvature = continue_curvature(pieces_->start(), field, boundary.border, around, frame(), boundary.creases,
-                                   triangle_count(), families);
+    std::vector<StartLines> start;
+    for (const int family : {0, family_count_}) {
+      const PlaneVectors gradient = pieces_->start_field(family);
+      start.push_back({gradient, pieces_->strong_size(gradient)});
+    }
+    curvature = continue_curvature(pieces_->start(), field, boundary.border, around, frame(), boundary.creases, start,
+                                   families);
   }
   border_ = std::move(curvature.targets);
-  if (border_.empty()) {
+  if (border_.empty() && curvature.strong == 0) {
     region_.messages.emplace_back(
         "No faces beside the region tell the curvature of its border, which is only clamped.");
   } else if (curvature.unknown > 0) {
     region_.messages.push_back("At " + std::to_string(curvature.unknown) +
                                " vertices of the border the faces beside it do not tell its curvature, since they are "
                                "too few, bend at a crease or have noise: it is only clamped there.");
+  }
+  if (curvature.strong > 0) {
+    region_.messages.push_back("At " + std::to_string(curvature.strong) +
+                               " vertices of the border the surface bends strongly on one of its sides, as at a hem: "
+                               "it is only clamped there.");
   }
   if (curvature.constant > 0) {
     region_.messages.push_back(

@@ -1,0 +1,91 @@
+"""A press whose border continues the curvature of the surroundings does no more harm than one with a clamped border."""
+import numpy as np
+import pytest
+import reflines
+from test_curvature_border import CELLS, HALF, LINES, VIEW, Panel, flawed
+from test_reachable_targets import mesh
+
+Array = np.ndarray
+CONTINUED = ["curvature", "flow"]
+DIAGONALS = ["random", "jittered"]
+LESS_EVEN, SEEN = 1.01, 0.05  # share and degrees, both, by which a light may end less even
+SAID = "The border is only clamped: with its curvature continued"
+
+
+def shape(kind: str, V: Array) -> Array:
+    result = flawed("dent" if kind == "dent" else "ripples", V)
+    x, y = V[:, 0], V[:, 1]
+    if kind == "hem":  # within reach of the border at x = 0.3125
+        result[:, 2] -= np.maximum(x - 0.24, 0.0)
+    elif kind == "hem across":  # it runs into the border
+        result[:, 2] -= np.maximum(x + 0.3 * y - 0.2, 0.0)
+    elif kind == "fillet":
+        result[:, 2] -= 0.018 * np.log1p(np.exp((x - 0.24) / 0.012))
+    elif kind == "bulge":  # position and tangent of the region are those around, but not its curvature
+        share = np.clip(1.0 - (V[:, :2] / (HALF - 1.0 / CELLS)) ** 2, 0.0, None).prod(axis=1)
+        result[:, 2] = V[:, 2] + 0.003 * share**2
+    return result
+
+
+def press(panel: Panel, border: str) -> tuple[Array, reflines.SmoothPanelReport]:
+    return reflines.smooth_panel(panel.V[panel.used], panel.own, border=border, around=panel.around,
+                                 view_direction=VIEW, line_direction=LINES[0])
+
+
+def is_said(report: reflines.SmoothPanelReport) -> bool:
+    return any(message.startswith(SAID) for message in report.messages)
+
+
+def make_panel(kind: str, diagonals: str) -> Panel:
+    V, F = mesh(diagonals, CELLS)
+    return Panel(shape(kind, V), F)
+
+
+@pytest.mark.parametrize("diagonals", DIAGONALS)
+@pytest.mark.parametrize("kind", ["hem", "hem across", "fillet"])
+@pytest.mark.parametrize("border", CONTINUED)
+def test_a_strong_bend_of_the_region_is_not_bent_to_the_surroundings(border: str, kind: str, diagonals: str) -> None:
+    """A hem moved to the limit, ten times as far as with a clamped border."""
+    panel = make_panel(kind, diagonals)
+    moves = {each: np.abs(press(panel, each)[0] - panel.V[panel.used]).max() for each in ("clamped", border)}
+    print(f"{kind}, {diagonals}: {moves}")
+    assert moves["clamped"] > 0.0
+    assert moves[border] < 3.0 * moves["clamped"]
+
+
+@pytest.mark.parametrize("diagonals", DIAGONALS)
+@pytest.mark.parametrize("kind", ["ripples", "dent", "hem", "hem across", "fillet", "bulge"])
+@pytest.mark.parametrize("border", CONTINUED)
+def test_no_light_ends_less_even_or_it_is_clamped_to_the_bit(border: str, kind: str, diagonals: str) -> None:
+    panel = make_panel(kind, diagonals)
+    clamped, (positions, told) = press(panel, "clamped"), press(panel, border)
+    if is_said(told):
+        assert np.array_equal(positions, clamped[0])
+    for late, early in zip(told.score_after, clamped[1].score_after, strict=True):
+        assert late.shift <= max(LESS_EVEN * early.shift, early.shift + SEEN)
+    for late, early in zip(told.unevenness_after, clamped[1].unevenness_after, strict=True):
+        assert late <= max(LESS_EVEN * early, early + SEEN)
+
+
+@pytest.mark.parametrize("diagonals", DIAGONALS)
+@pytest.mark.parametrize("border", CONTINUED)
+def test_what_would_be_refused_is_clamped_and_said_and_what_is_good_is_kept(border: str, diagonals: str) -> None:
+    assert is_said(press(make_panel("bulge", diagonals), border)[1])
+    panel = make_panel("ripples", diagonals)
+    positions, told = press(panel, border)
+    assert not is_said(told) and not np.array_equal(positions, press(panel, "clamped")[0])
+
+
+@pytest.mark.parametrize("slope", [0.2, 1.0, 3.0])
+@pytest.mark.parametrize("border", CONTINUED)
+def test_a_crease_ends_the_curvature_where_none_are_held_too(border: str, slope: float) -> None:
+    """Behind the border the panel bends down like a flange; a press of Smooth holds no creases."""
+    V, F = mesh("jittered", CELLS)
+    V[:, 2] -= slope * np.maximum(np.abs(V[:, :2]).max(axis=1) - HALF, 0.0)
+    panel = Panel(flawed("dent", V), F)
+    results = []
+    for each in ("clamped", border):
+        solver = panel.build(each, crease_rule="none")
+        solver.solve([reflines.smooth(solver, length=0.4, family=family) for family in (0, 1)])
+        results.append(solver.positions)
+    assert np.array_equal(*results)
