@@ -30,6 +30,9 @@ class ControlledSurface {
   // control vertices.
   virtual bool can_limit() const = 0;
 
+  // Returns true where each vertex of the surface is a control vertex.
+  virtual bool controls_every_vertex() const = 0;
+
   // Returns the moves of the surface (#V) from those of its control vertices (#C). No vertex moves further than they.
   virtual Vector surface_move(const Vector& control_move) const = 0;
 
@@ -54,6 +57,7 @@ class MeshSurface : public ControlledSurface {
   Mask control_free() const override { return optimizer_->free(); }
   Vector control_move() const override;
   bool can_limit() const override;
+  bool controls_every_vertex() const override { return true; }
   Vector surface_move(const Vector& control_move) const override { return control_move; }
   Vector gather_faces(const Vector& values) const override { return values; }
   void hold(const Mask& vertices) override;
@@ -82,6 +86,7 @@ class CageControlledSurface : public ControlledSurface {
   Mask control_free() const override { return optimizer_->cage_free(); }
   Vector control_move() const override;
   bool can_limit() const override { return false; }
+  bool controls_every_vertex() const override { return false; }
   Vector surface_move(const Vector& control_move) const override { return optimizer_->influence() * control_move; }
   Vector gather_faces(const Vector& values) const override;
   void hold(const Mask& vertices) override;

@@ -44,13 +44,14 @@ class CreasePreservingSmoother::System {
       : owner_(owner), solver_(LinearSolverKind::kCholmod) {
     solver_.analyze(owner.pattern_, dissection_order(owner.pattern_, xy));
   }
-  // Factors anew where the weights are other ones than in the last call.
-  TriangleFields solve(const Vector& trust, const TriangleFields& rhs) {
-    if (trust_.size() != trust.size() || trust_ != trust) {
+  // Factors anew where weights or stiffness are other ones than in the last call.
+  TriangleFields solve(const Vector& trust, double stiffness, const TriangleFields& rhs) {
+    if (trust_.size() != trust.size() || trust_ != trust || stiffness_ != stiffness) {
       trust_.resize(0);
-      owner_.assemble(trust, A_);
+      owner_.assemble(trust, stiffness, A_);
       solver_.factorize(A_);
       trust_ = trust;
+      stiffness_ = stiffness;
     }
     TriangleFields U = rhs;
     for (Eigen::Index k = 0; k < rhs.cols(); ++k) {
@@ -66,6 +67,7 @@ class CreasePreservingSmoother::System {
   LinearSolver solver_;
   SparseMatrix A_;
   Vector trust_;  // of the factor; empty before the first
+  double stiffness_ = 0.0;
 };
 
 CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, const Triangles& F, const Vector& area,
@@ -138,7 +140,7 @@ void CreasePreservingSmoother::build_pattern(int vertex_count) {
   }
 }
 
-void CreasePreservingSmoother::assemble(const Vector& trust, SparseMatrix& A) const {
+void CreasePreservingSmoother::assemble(const Vector& trust, double stiffness, SparseMatrix& A) const {
   A = pattern_;
   double* value = A.valuePtr();
   for (int v = 0; v < A.cols(); ++v) value[A.outerIndexPtr()[v]] += corner_(v);
@@ -146,7 +148,7 @@ void CreasePreservingSmoother::assemble(const Vector& trust, SparseMatrix& A) co
     for (int k = 0; k < kTriangleProducts; ++k) value[triangle_entries_[kTriangleProducts * t + k]] += area_(t) / 9.0;
   }
   for (size_t e = 0; e < edges_.size(); ++e) {
-    const double weight = stiffness_ * edges_[e].weight * trust(static_cast<Eigen::Index>(e));
+    const double weight = stiffness * edges_[e].weight * trust(static_cast<Eigen::Index>(e));
     const int* entry = edge_entries_.data() + kEdgeProducts * e;
     for (int i = 0, k = 0; i < 4; ++i) {
       for (int j = 0; j <= i; ++j, ++k) value[entry[k]] += weight * edges_[e].jump[i] * edges_[e].jump[j];
@@ -193,15 +195,16 @@ Vector CreasePreservingSmoother::find_creases(const TriangleFields& g, Progress*
   const int rounds = warm ? kWarmRounds : options_.rounds;
   for (int round = 1; round < rounds; ++round) {
     if (progress) progress->enter(static_cast<double>(round) / rounds, "smoothing the lines");
-    const Vector jump = measure_jumps(system_->solve(trust, rhs));
+    const Vector jump = measure_jumps(system_->solve(trust, stiffness_, rhs));
     const double scale = options_.crease_jump * weighted_median(jump, edge_size_) + 1e-300;
     trust = ((1.0 + (jump.array() / scale).square()).square().inverse() + kLeastTrust).matrix();
   }
   return trust;
 }
 
-TriangleFields CreasePreservingSmoother::smooth_with(const Vector& creases, const TriangleFields& g) const {
-  return mean_over_triangles(system_->solve(creases, right_hand_side(g)), g);
+TriangleFields CreasePreservingSmoother::smooth_with(const Vector& creases, const TriangleFields& g,
+                                                     double stretch) const {
+  return mean_over_triangles(system_->solve(creases, stiffness_ * std::pow(stretch, 4), right_hand_side(g)), g);
 }
 
 }  // namespace reflines

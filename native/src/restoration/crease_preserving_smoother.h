@@ -41,8 +41,9 @@ class CreasePreservingSmoother {
   // iteration begins; it may be empty. `progress` may be null; throws Cancelled.
   Vector find_creases(const TriangleFields& g, Progress* progress, const Vector& start = {}) const;
 
-  // Smooths g (#F x m) with these weights. Returns means (#F x m) of U over triangles, g itself where the area is 0.
-  TriangleFields smooth_with(const Vector& creases, const TriangleFields& g) const;
+  // Smooths g (#F x m) with these weights, up to `stretch` times the length. Returns means (#F x m) of U over
+  // triangles, g itself where the area is 0.
+  TriangleFields smooth_with(const Vector& creases, const TriangleFields& g, double stretch = 1.0) const;
 
  private:
   // An inner edge: its four vertices, how the normal derivative of a P1 field jumps across it, its weight in the
@@ -54,7 +55,7 @@ class CreasePreservingSmoother {
   };
   void add_edges(const PlanePositions& xy, const Triangles& F, const Vector& area);
   void build_pattern(int vertex_count);
-  void assemble(const Vector& trust, SparseMatrix& A) const;
+  void assemble(const Vector& trust, double stiffness, SparseMatrix& A) const;
   class System;
   TriangleFields mean_over_triangles(const TriangleFields& U, const TriangleFields& g) const;
   Vector measure_jumps(const TriangleFields& U) const;

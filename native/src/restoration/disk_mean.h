@@ -14,7 +14,10 @@ class DiskMean {
   DiskMean(const PlanePositions& points, const Vector& weight, double radius);
 
   // Returns the mean of `values` (#P) around each point (#P); the value itself where nothing around it counts.
-  Vector of(const Vector& values) const;
+  Vector of(const Vector& values) const { return of_columns(values); }
+
+  // Returns the means of each column of `values` (#P x n); the kernel is evaluated once for all of them.
+  Eigen::MatrixXd of_columns(const Eigen::MatrixXd& values) const;
 
  private:
   using Cell = std::pair<int, int>;

@@ -46,6 +46,7 @@ class Restoration {
   Vector use_symmetry(const Vector& z);
   Vector remove_bumps(const Vector& z);
   std::vector<Target> plan(const Vector& z);
+  std::vector<TriangleFields> smooth_further(const Vector& creases, const TriangleFields& fields) const;
   bool is_held_symmetrically() const;
   Vector average_partners(const Vector& move) const;
   TriangleFields read_fields(const Vector& z);

@@ -1,0 +1,41 @@
+#include "restoration/length_choice.h"
+
+#include <cmath>
+
+#include "restoration/disk_mean.h"
+
+namespace reflines {
+namespace {
+
+// A longer length is taken where the differences fall by more than this from one to the next. Of 1, 1.3, 1.5 and 2, on
+// four panels: harm 0.169 / 0.189, 0.169 / 0.185, 0.168 / 0.184, 0.168 / 0.184 degrees (without longer lengths 0.167 /
+// 0.183), noise left 0.36, 0.36, 0.36, 0.38 (0.40), and on a bonnet with ripples 0.18, 0.18, 0.19, 0.20 (0.24). With 1
+// a coarse scoop of 300 vertices is harmed by 1.2 degrees instead of 0.4.
+constexpr double kLeastFall = 1.5;
+
+// Radius, relative to the shortest length, over which differences are averaged. Of 0.25, 0.5, 1 and 2 the smaller ones
+// harm more and take more noise out, all within 0.01; radii that grow with the length are no better.
+constexpr double kAveraged = 0.7;
+
+// The power of squared differences by which lengths share a place. Of 1, 2, 4 and 8 the first harms most, 0.30 instead
+// of 0.28 degrees on a scoop; the others leave the same.
+constexpr double kSharpness = 4.0;
+
+// Returns a share up to a common factor: 1 for the least difference, also where all are 0.
+double compare(double least, double own) { return own > 0 ? std::pow(least / own, kSharpness) : 1.0; }
+
+}  // namespace
+
+Eigen::MatrixXd share_lengths(const std::vector<TriangleFields>& changes, const PlanePositions& centers,
+                              const Vector& area, double length) {
+  Eigen::MatrixXd result(area.size(), static_cast<Eigen::Index>(changes.size()) - 1);
+  double factor = 1.0;
+  for (Eigen::Index k = 0; k < result.cols(); ++k, factor *= kLeastFall * kLeastFall)
+    result.col(k) = factor * (changes[k + 1] - changes[k]).rowwise().squaredNorm();
+  result = DiskMean(centers, area, kAveraged * length).of_columns(result);
+  const Vector least = result.rowwise().minCoeff();
+  for (Eigen::Index k = 0; k < result.cols(); ++k) result.col(k) = least.binaryExpr(result.col(k), &compare);
+  return result.array().colwise() / result.rowwise().sum().array();
+}
+
+}  // namespace reflines
