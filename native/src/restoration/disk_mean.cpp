@@ -6,18 +6,32 @@
 #include "restoration/grid_cell.h"
 
 namespace reflines {
+namespace {
+
+// Points are merged in squares, so many along each side of a cell. With 4, 8 and 16 means of a smooth function are
+// wrong by 0.015, 0.003 and 0.0007 of its spread, those of noise by 0.011, 0.008 and 0.003; a press of 100,000 vertices
+// takes 6.9, 6.9 and 7.8 s, and 8.3 without.
+constexpr int kSquares = 8;
+
+// The number of points in a cell, in the mean, above which they are merged: twice that of its squares.
+constexpr Eigen::Index kDense = 2 * kSquares * kSquares;
+
+}  // namespace
 
 DiskMean::DiskMean(const PlanePositions& points, const Vector& weight, double radius)
-    : radius_(radius), order_(points.rows()) {
-  sort_by_cell(points);
-  x_ = points.col(0)(order_);
-  y_ = points.col(1)(order_);
-  weight_ = weight(order_);
+    : radius_(radius), points_(points), point_weight_(weight), order_(points.rows()) {
+  sort_by_cell();
+  choose_sources();
+  const Eigen::ArrayXXd centroids = merge(points_);
+  x_ = centroids.col(0);
+  y_ = centroids.col(1);
+  weight_.resize(x_.size());
+  for (Eigen::Index s = 0; s < x_.size(); ++s) weight_(s) = point_weight_(points_of(s)).sum();
 }
 
-void DiskMean::sort_by_cell(const PlanePositions& points) {
-  std::vector<Cell> cell(points.rows());
-  for (Eigen::Index p = 0; p < points.rows(); ++p) cell[p] = find_grid_cell(points.row(p), radius_);
+void DiskMean::sort_by_cell() {
+  std::vector<Cell> cell(points_.rows());
+  for (Eigen::Index p = 0; p < points_.rows(); ++p) cell[p] = find_grid_cell(points_.row(p), radius_);
   std::iota(order_.begin(), order_.end(), 0);
   std::stable_sort(order_.begin(), order_.end(), [&](int one, int other) { return cell[one] < cell[other]; });
   for (std::size_t k = 0; k < order_.size(); ++k) {
@@ -28,42 +42,92 @@ void DiskMean::sort_by_cell(const PlanePositions& points) {
   begin_.push_back(static_cast<Eigen::Index>(order_.size()));
 }
 
-// Returns the points in all cells that a disk around a point of this cell may reach, a range for each column of cells.
+// Makes each point a source, or, where they are dense, those in each square of a cell together.
+void DiskMean::choose_sources() {
+  const bool dense = points_.rows() > kDense * static_cast<Eigen::Index>(cells_.size());
+  std::vector<int> square(points_.rows());
+  std::iota(square.begin(), square.end(), 0);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const auto first = order_.begin() + begin_[c], last = order_.begin() + begin_[c + 1];
+    if (dense) {
+      std::for_each(first, last, [&](int p) { square[p] = find_square(p, cells_[c]); });
+      std::stable_sort(first, last, [&](int one, int other) { return square[one] < square[other]; });
+    }
+    source_begin_.push_back(static_cast<Eigen::Index>(merged_.size()));
+    for (auto p = first; p != last; ++p) {
+      if (p == first || square[*p] != square[*(p - 1)]) merged_.push_back(p - order_.begin());
+    }
+  }
+  source_begin_.push_back(static_cast<Eigen::Index>(merged_.size()));
+  merged_.push_back(static_cast<Eigen::Index>(order_.size()));
+}
+
+// Returns in which square of its cell a point lies.
+int DiskMean::find_square(int point, const Cell& cell) const {
+  const auto place = [&](double x, int of_cell) {
+    return static_cast<int>(kSquares * std::clamp(x / radius_ - of_cell, 0.0, 1.0));
+  };
+  return (kSquares + 1) * place(points_(point, 0), cell.first) + place(points_(point, 1), cell.second);
+}
+
+// Returns the points that are merged to a source.
+Eigen::Map<const Eigen::VectorXi> DiskMean::points_of(Eigen::Index source) const {
+  return {order_.data() + merged_[source], merged_[source + 1] - merged_[source]};
+}
+
+// Returns means of `values` (#P x n) over the points of each source (#S x n).
+Eigen::ArrayXXd DiskMean::merge(const Eigen::MatrixXd& values) const {
+  Eigen::ArrayXXd result(static_cast<Eigen::Index>(merged_.size()) - 1, values.cols());
+  for (Eigen::Index s = 0; s < result.rows(); ++s) {
+    const auto points = points_of(s);
+    const Vector share = point_weight_(points);
+    const double weights = share.sum();
+    if (points.size() == 1 || !(weights > 0)) {
+      result.row(s) = values.row(points[0]);
+    } else {
+      result.row(s) = (share / weights).transpose() * values(points, Eigen::all);
+    }
+  }
+  return result;
+}
+
+// Returns the sources in all cells that a disk around a point of this cell may reach, a range for each column of cells.
 std::vector<DiskMean::Range> DiskMean::near(const Cell& cell) const {
   std::vector<Range> result;
   for (int column = cell.first - 1; column <= cell.first + 1; ++column) {
     const auto first = std::lower_bound(cells_.begin(), cells_.end(), Cell(column, cell.second - 1));
     const auto last = std::upper_bound(first, cells_.end(), Cell(column, cell.second + 1));
-    const Eigen::Index begin = begin_[first - cells_.begin()];
-    if (first != last) result.push_back({begin, begin_[last - cells_.begin()] - begin});
+    const Eigen::Index begin = source_begin_[first - cells_.begin()];
+    if (first != last) result.push_back({begin, source_begin_[last - cells_.begin()] - begin});
   }
   return result;
 }
 
-// Sums whole ranges without asking which points are in the disk, so that the loops are vectorized: means of 100,000
+// Sums whole ranges without asking which sources are in the disk, so that the loops are vectorized: means of 100,000
 // vertices over some 1,000 neighbours take 122 ms, where a test for each pair takes 710. Cells half as large: 97.
 Eigen::MatrixXd DiskMean::of_columns(const Eigen::MatrixXd& values) const {
   Eigen::MatrixXd result(values.rows(), values.cols());
-  const Eigen::ArrayXXd sorted = values(order_, Eigen::all);
+  const Eigen::ArrayXXd merged = merge(values);
 #pragma omp parallel for schedule(dynamic, 4)
   for (int c = 0; c < static_cast<int>(cells_.size()); ++c) {
     const std::vector<Range> ranges = near(cells_[c]);
     Eigen::ArrayXd kernel;
-    for (Eigen::Index p = begin_[c]; p < begin_[c + 1]; ++p) {
+    for (Eigen::Index k = begin_[c]; k < begin_[c + 1]; ++k) {
+      const int p = order_[k];
       double weights = 0;
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(values.cols());
       for (const auto& [begin, size] : ranges) {
-        kernel = weight_.segment(begin, size) *
-                 (1 - ((x_.segment(begin, size) - x_(p)).square() + (y_.segment(begin, size) - y_(p)).square()) /
-                          (radius_ * radius_))
-                     .max(0.0);
+        kernel = weight_.segment(begin, size) * (1 - ((x_.segment(begin, size) - points_(p, 0)).square() +
+                                                      (y_.segment(begin, size) - points_(p, 1)).square()) /
+                                                         (radius_ * radius_))
+                                                    .max(0.0);
         weights += kernel.sum();
-        for (Eigen::Index k = 0; k < sum.size(); ++k) sum(k) += (kernel * sorted.col(k).segment(begin, size)).sum();
+        for (Eigen::Index n = 0; n < sum.size(); ++n) sum(n) += (kernel * merged.col(n).segment(begin, size)).sum();
       }
       if (weights > 0) {
-        result.row(order_[p]) = sum / weights;
+        result.row(p) = sum / weights;
       } else {
-        result.row(order_[p]) = sorted.row(p);
+        result.row(p) = values.row(p);
       }
     }
   }

@@ -10,7 +10,8 @@ namespace reflines {
 
 class DiskMean {
  public:
-  // Points (#P x 2) and how much each counts (#P, >= 0); keeps no reference to them.
+  // Takes points (#P x 2) and how much each counts (#P, >= 0). Where they are dense, those within an eighth of the
+  // radius are merged into their centroid.
   DiskMean(const PlanePositions& points, const Vector& weight, double radius);
 
   // Returns the mean of `values` (#P) around each point (#P); the value itself where nothing around it counts.
@@ -25,14 +26,25 @@ class DiskMean {
     Eigen::Index begin, size;
   };
 
-  void sort_by_cell(const PlanePositions& points);
+  void sort_by_cell();
+  void choose_sources();
+  int find_square(int point, const Cell& cell) const;
+  Eigen::Map<const Eigen::VectorXi> points_of(Eigen::Index source) const;
+  Eigen::ArrayXXd merge(const Eigen::MatrixXd& values) const;
   std::vector<Range> near(const Cell& cell) const;
 
   double radius_;
+  PlanePositions points_;
+  Vector point_weight_;              // #P
   std::vector<int> order_;           // the points, cell by cell
-  Eigen::ArrayXd x_, y_, weight_;    // #P, in that order, so that the points of a disk lie in a few runs of memory
   std::vector<Cell> cells_;          // ascending
-  std::vector<Eigen::Index> begin_;  // #cells + 1: where the points of each begin
+  std::vector<Eigen::Index> begin_;  // #cells + 1: where in `order_` the points of each begin
+
+  // The sources: points, or centroids of those that were merged. They are in that order too, so that those of a disk
+  // lie in a few runs of memory.
+  Eigen::ArrayXd x_, y_, weight_;           // #S
+  std::vector<Eigen::Index> merged_;        // #S + 1: where in `order_` the points of each begin
+  std::vector<Eigen::Index> source_begin_;  // #cells + 1: where the sources of each begin
 };
 
 }  // namespace reflines

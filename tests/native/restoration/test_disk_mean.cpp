@@ -33,5 +33,31 @@ TEST(DiskMean, IsThatOverAllPoints) {
   }
 }
 
+// Dense points are merged: means of a smooth function and of noise stay those over all points, but for 0.003 and 0.008
+// of the spread of their values.
+TEST(DiskMean, StaysThatOfDensePointsWhereTheyAreMerged) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(0.0, 3.0);
+  std::normal_distribution<double> normal;
+  constexpr int kCount = 9000;
+  PlanePositions points(kCount, 2);
+  Eigen::MatrixXd values(kCount, 2);
+  Vector weight(kCount);
+  for (int p = 0; p < kCount; ++p) {
+    points.row(p) << place(random), place(random);
+    weight(p) = 1.0 + p % 3;
+    values.row(p) << std::sin(2 * points(p, 0) + points(p, 1)), normal(random);
+  }
+  const Eigen::MatrixXd mean = DiskMean(points, weight, 1.0).of_columns(values);
+  double worst[2] = {0.0, 0.0};
+  for (int p = 0; p < kCount; p += 7) {
+    for (int k = 0; k < 2; ++k)
+      worst[k] = std::max(worst[k], std::abs(mean(p, k) - mean_of_all(points, weight, 1.0, values.col(k), p)));
+  }
+  EXPECT_LT(worst[0], 0.005);
+  EXPECT_LT(worst[1], 0.012);
+  EXPECT_GT(worst[1], 1e-9) << "nothing was merged";
+}
+
 }  // namespace
 }  // namespace reflines
