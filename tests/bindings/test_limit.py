@@ -302,5 +302,19 @@ def solved_by(threads):
     return hashlib.sha256(run.stdout).hexdigest()
 
 
+def test_a_drag_whose_steps_cost_more_than_a_new_matrix_gets_one():
+    """With the first solve's matrix each update took four steps: 40 in all."""
+    positions, triangles = ripples(40, amplitude=0.03)
+    positions[:, 2] += np.random.default_rng(1).normal(0, 1e-3, len(positions))
+    solver = made(positions, triangles)
+    targets = [reflines.smooth(solver, length=SMOOTH, strength=s) for s in (0.8, 0.82)]
+    limit = 0.5 * made(positions, triangles).solve(targets[0]).largest_move
+    solver.solve(targets[0], limit=limit)
+    reports = [solver.solve(targets[(k + 1) % 2], limit=limit, gradient_tolerance=1e-2) for k in range(10)]
+    assert all(report.converged and report.limited > 0 for report in reports)
+    assert sum(report.factorizations for report in reports) == 1
+    assert sum(report.iterations for report in reports) <= 30
+
+
 def test_one_and_two_threads_give_the_same_bits():
     assert solved_by(1) == solved_by(2)

@@ -42,6 +42,7 @@ class BoundedDescent {
   // These are the steps of the loop. Those that return bool return false where the run is to stop or the step could not
   // be made.
   bool model_is_outdated() const;
+  bool new_model_pays() const;
   bool renew_model();
   void measure_rounding();
   bool choose_destination();
