@@ -74,7 +74,8 @@ struct SmoothPanelResult {
 //     where its rims make a light's lines less even, all moves are scaled down to it instead.
 // A result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far the
 // lines stray from their smoothed selves within one length, in degrees, root mean square over the region; the creases
-// are those that start and result have in common. Where it rises in a light by more than 1 %, nothing is applied.
+// are those that start and result have in common. Where it rises in a light by more than 1 %, nothing is applied; where
+// by less, the share of the moves with which it does not rise, if that is more than half.
 // Throws InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options = {});

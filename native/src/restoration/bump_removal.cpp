@@ -18,10 +18,11 @@ constexpr double kLeastHeight = 7e-4, kGreatestHeight = 0.028;
 constexpr int kRounds = 3;
 
 // Length, relative to that of the flaws, up to which the Hessians are smoothed before bumps are looked for: of 0.6 and
-// 0.9 the first finds more dents, and less of the mesh is taken for bumps than without. Creases of ten median jumps are
-// kept, so that fillets are not smeared over the dents beside them.
+// 0.9 the first finds more dents, and less of the mesh is taken for bumps than without. Creases of 15 median jumps are
+// kept, so that fillets are not smeared over the dents beside them: of 10, 15 and 20, 0.25, 0.23, 0.23 of dents are
+// left on four panels, and on these with 600 vertices 0.11, 0.11, 0.16 degrees of harm.
 constexpr double kPresmoothed = 0.6;
-constexpr SmootherOptions kPresmoother = {.crease_jump = 10.0, .rounds = 4};
+constexpr SmootherOptions kPresmoother = {.crease_jump = 15.0, .rounds = 4};
 
 PlanePositions centroids(const HeightField& field) {
   PlanePositions result(field.triangle_count(), 2);

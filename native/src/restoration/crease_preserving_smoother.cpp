@@ -16,7 +16,7 @@ constexpr double kLeastTrust = 1e-6;
 constexpr int kWarmRounds = 3;          // from weights of a field that is nearly the same
 constexpr double kCornerWeight = 1e-4;  // see LineSmoother: undetermined corners of triangles that hang on one vertex
 
-constexpr int kTriangleProducts = 6, kEdgeProducts = 10;  // of the lower triangles of 3 x 3 and 4 x 4 matrices
+constexpr int kTriangleProducts = 6;  // of the lower triangle of a 3 x 3 matrix
 
 // Gradients of the barycentric coordinates of a triangle, a row a corner.
 Eigen::Matrix<double, 3, 2> barycentric_gradients(const PlanePositions& xy, const Triangles& F, int t) {
@@ -80,7 +80,8 @@ CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, con
   add_edges(xy, F, area);
   edge_size_.resize(static_cast<Eigen::Index>(edges_.size()));
   for (size_t e = 0; e < edges_.size(); ++e)
-    edge_size_(static_cast<Eigen::Index>(e)) = std::sqrt(edges_[e].weight) * edges_[e].distance;
+    edge_size_(static_cast<Eigen::Index>(e)) = std::sqrt(edges_[e].length * edges_[e].distance);
+  gather_patches(static_cast<int>(xy.rows()));
   build_pattern(static_cast<int>(xy.rows()));
   system_ = std::make_unique<System>(*this, xy);
 }
@@ -97,8 +98,11 @@ void CreasePreservingSmoother::add_edges(const PlanePositions& xy, const Triangl
       const Vector2 along = (xy.row(b) - xy.row(a)).transpose();
       const double both = area(t) + area(other), length = along.norm();
       if (!(length > 0)) continue;
-      const Vector2 normal = Vector2(-along.y(), along.x()) / length;
-      Edge edge{{F(t, i), a, b, 0}, {}, 1.5 * length * length / both, 2.0 / 3.0 * both / length};
+      Vector2 normal = Vector2(-along.y(), along.x()) / length;
+      if (normal.dot((xy.row(F(t, i)) - xy.row(a)).transpose()) < 0) normal = -normal;  // towards t
+      const Vector3 across(normal.x() * normal.x(), std::numbers::sqrt2 * normal.x() * normal.y(),
+                           normal.y() * normal.y());
+      Edge edge{{F(t, i), a, b, 0}, {}, across, length, 2.0 / 3.0 * both / length};
       const Eigen::Matrix<double, 3, 2> own = barycentric_gradients(xy, F, t),
                                         far = barycentric_gradients(xy, F, other);
       for (int k = 0; k < 3; ++k) edge.jump[k] = own.row((i + k) % 3).dot(normal);
@@ -118,6 +122,54 @@ void CreasePreservingSmoother::add_edges(const PlanePositions& xy, const Triangl
   }
 }
 
+// Gathers the edges at each vertex, and the vertices that their jumps couple.
+void CreasePreservingSmoother::gather_patches(int vertex_count) {
+  std::vector<std::vector<int>> edges(vertex_count);
+  for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
+    for (const int end : {edges_[e].vertex[1], edges_[e].vertex[2]}) edges[end].push_back(e);
+  }
+  Vector third = Vector::Zero(vertex_count);
+  for (int t = 0; t < F_.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) third(F_(t, i)) += area_(t) / 3.0;
+  }
+  for (int v = 0; v < vertex_count; ++v) {
+    if (edges[v].size() <= kMostEdges) {
+      add_patch(edges[v], third(v));
+    } else {
+      for (const int e : edges[v]) add_patch({e}, third(v) / static_cast<double>(edges[v].size()));
+    }
+  }
+}
+
+void CreasePreservingSmoother::add_patch(const std::vector<int>& edges, double area) {
+  if (edges.empty()) return;
+  Patch patch{{}, {}, {}, area};
+  for (const int e : edges) patch.vertex.insert(patch.vertex.end(), edges_[e].vertex, edges_[e].vertex + 4);
+  std::sort(patch.vertex.begin(), patch.vertex.end());
+  patch.vertex.erase(std::unique(patch.vertex.begin(), patch.vertex.end()), patch.vertex.end());
+  for (const int e : edges) {
+    PatchEdge own{e, {}};
+    for (int i = 0; i < 4; ++i) {
+      const auto place = std::lower_bound(patch.vertex.begin(), patch.vertex.end(), edges_[e].vertex[i]);
+      own.place[i] = static_cast<int>(place - patch.vertex.begin());
+    }
+    patch.edges.push_back(own);
+  }
+  patches_.push_back(std::move(patch));
+}
+
+// Returns the weights of the patch's f_xx, sqrt(2) f_xy and f_yy, times its area, one column a vertex.
+CreasePreservingSmoother::PatchWeights CreasePreservingSmoother::sum_jumps(const Patch& patch,
+                                                                           const Vector& trust) const {
+  PatchWeights result = PatchWeights::Zero(3, static_cast<Eigen::Index>(patch.vertex.size()));
+  for (const PatchEdge& own : patch.edges) {
+    const Edge& edge = edges_[own.edge];
+    const Vector3 half = 0.5 * edge.length * std::sqrt(trust(own.edge)) * edge.across;
+    for (int i = 0; i < 4; ++i) result.col(own.place[i]) += edge.jump[i] * half;
+  }
+  return result;
+}
+
 void CreasePreservingSmoother::build_pattern(int vertex_count) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int i, int j) { entries.emplace_back(std::max(i, j), std::min(i, j), 0.0); };
@@ -125,7 +177,13 @@ void CreasePreservingSmoother::build_pattern(int vertex_count) {
   for (int t = 0; t < F_.rows(); ++t) {
     for (int i = 0; i < 3; ++i) add(F_(t, i), F_(t, (i + 1) % 3));
   }
-  for (const Edge& edge : edges_) add(edge.vertex[0], edge.vertex[3]);
+  for (const Patch& patch : patches_) {
+    for (const int i : patch.vertex) {
+      for (const int j : patch.vertex) {
+        if (j < i) add(i, j);
+      }
+    }
+  }
   pattern_.resize(vertex_count, vertex_count);
   pattern_.setFromTriplets(entries.begin(), entries.end());
   for (int t = 0; t < F_.rows(); ++t) {
@@ -133,9 +191,11 @@ void CreasePreservingSmoother::build_pattern(int vertex_count) {
       for (int j = 0; j <= i; ++j) triangle_entries_.push_back(entry_index(pattern_, F_(t, i), F_(t, j)));
     }
   }
-  for (const Edge& edge : edges_) {
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j <= i; ++j) edge_entries_.push_back(entry_index(pattern_, edge.vertex[i], edge.vertex[j]));
+  for (Patch& patch : patches_) {
+    for (const int i : patch.vertex) {
+      for (const int j : patch.vertex) {
+        if (j <= i) patch.entries.push_back(entry_index(pattern_, i, j));
+      }
     }
   }
 }
@@ -147,11 +207,11 @@ void CreasePreservingSmoother::assemble(const Vector& trust, double stiffness, S
   for (int t = 0; t < F_.rows(); ++t) {
     for (int k = 0; k < kTriangleProducts; ++k) value[triangle_entries_[kTriangleProducts * t + k]] += area_(t) / 9.0;
   }
-  for (size_t e = 0; e < edges_.size(); ++e) {
-    const double weight = stiffness * edges_[e].weight * trust(static_cast<Eigen::Index>(e));
-    const int* entry = edge_entries_.data() + kEdgeProducts * e;
-    for (int i = 0, k = 0; i < 4; ++i) {
-      for (int j = 0; j <= i; ++j, ++k) value[entry[k]] += weight * edges_[e].jump[i] * edges_[e].jump[j];
+  for (const Patch& patch : patches_) {
+    const PatchWeights sum = std::sqrt(stiffness / patch.area) * sum_jumps(patch, trust);
+    const int* entry = patch.entries.data();
+    for (Eigen::Index i = 0; i < sum.cols(); ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) value[*entry++] += sum.col(i).dot(sum.col(j));
     }
   }
 }

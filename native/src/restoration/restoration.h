@@ -45,6 +45,8 @@ class Restoration {
   Vector scale_to_limit() const;
   Vector use_symmetry(const Vector& z);
   Vector remove_bumps(const Vector& z);
+  Vector spare_every_light(const Vector& move);
+  bool is_any_worse() const;
   std::vector<Target> plan(const Vector& z);
   std::vector<TriangleFields> smooth_further(const Vector& creases, const TriangleFields& fields) const;
   bool is_held_symmetrically() const;
