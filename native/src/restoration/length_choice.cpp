@@ -28,6 +28,7 @@ double compare(double least, double own) { return own > 0 ? std::pow(least / own
 
 Eigen::MatrixXd share_lengths(const std::vector<TriangleFields>& changes, const PlanePositions& centers,
                               const Vector& area, double length) {
+  if (changes.size() == 1) return Eigen::MatrixXd::Ones(area.size(), 1);
   Eigen::MatrixXd result(area.size(), static_cast<Eigen::Index>(changes.size()) - 1);
   double factor = 1.0;
   for (Eigen::Index k = 0; k < result.cols(); ++k, factor *= kLeastFall * kLeastFall)

@@ -305,12 +305,13 @@ std::vector<Target> Restoration::plan(const Vector& z) {
   return make_targets(target);
 }
 
-// Returns the changes (#F x m each) that smoothing makes to fields up to the length of flaws and to kStretches.
+// Returns the changes (#F x m each) that smoothing makes to fields up to the length of flaws times kStretches; below a
+// cage the first alone.
 std::vector<TriangleFields> Restoration::smooth_further(const Vector& creases, const TriangleFields& fields) const {
   std::vector<TriangleFields> result;
   for (const double stretch : kStretches) {
     result.push_back(smoother_.smooth_with(creases, fields, stretch) - fields);
-    if (!surface_.controls_every_vertex() && result.size() == 2) break;
+    if (!surface_.controls_every_vertex()) break;
   }
   return result;
 }
