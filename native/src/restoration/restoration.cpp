@@ -50,7 +50,7 @@ constexpr double kSymmetricHold = 1e-5;
 constexpr double kLeastGain = 0.3, kLeastSquareGain = 0.1, kVisible = 0.3;
 
 // Lengths, relative to that of the flaws, up to which the lines are smoothed; see share_lengths. The first two, three,
-// four and five of these leave 0.40, 0.37, 0.36, 0.36 of noise on four panels and 0.24, 0.22, 0.19, 0.18 of the flaws
+// four and five of these leave 0.41, 0.39, 0.39, 0.39 of noise on four panels and 0.23, 0.20, 0.18, 0.18 of the flaws
 // of a bonnet with ripples and wide dents; three and four cost 5 and 10 % of a press. The creases of all are those of
 // the first: with creases found anew twice as much was left of ripples round a scoop, whose own bends went.
 // Below a cage the first is taken everywhere: with all of them a clean door moved by 0.8 mm instead of 0.4.
