@@ -59,7 +59,7 @@ def inside(root: Path, *command: str, env: dict[str, str] | None = None) -> list
             "sh", "-c", mounted, str(root), "env", "-i", *given, *command]
 
 
-def ready_root(suite: str, purpose: str = "matrix", sections: tuple[str, ...] = ("blender", "window"),
+def ready_root(suite: str, purpose: str = "matrix", sections: tuple[str, ...] = ("arrays", "blender", "window"),
                single: tuple[str, ...] = ()) -> Path:
     """The root of a suite for a purpose; made where the cache has none for these sections and single packages."""
     root = CACHE / purpose / suite
