@@ -73,11 +73,12 @@ NearestPoint NearestSurface::find(const Vector3& point, double within) const {
       open.push_back(second_first ? node.second : own + 1);
       continue;
     }
+    best.compared += node.end - node.begin;
     for (int k = node.begin; k < node.end; ++k) {
       const Vector3 near = nearest_in_triangle(point, corner(order_[k], 0), corner(order_[k], 1), corner(order_[k], 2));
       if ((near - point).squaredNorm() > squared) continue;
       squared = (near - point).squaredNorm();
-      best = {order_[k], near, std::sqrt(squared)};
+      best = {order_[k], near, std::sqrt(squared), best.compared};
     }
   }
   return best;

@@ -12,6 +12,7 @@ struct NearestPoint {
   int triangle = -1;  // -1: none within the distance
   Vector3 point = Vector3::Zero();
   double distance = 0;
+  int compared = 0;  // triangles whose distance was computed
 };
 
 // Returns the point of the triangle a, b, c that is nearest to p; it may have no area.

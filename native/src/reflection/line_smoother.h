@@ -1,13 +1,23 @@
-// Smooths a field of gradients over a surface by one implicit step (paper, section 4, "Smoothing").
+// Smooths a field of gradients over a surface (paper, section 4, "Smoothing") by an implicit step whose response is
+// sharpened.
 //
-// G (a vector at every vertex) minimises sum_T A_T (c_T |mean of G over T - g_T|^2 + l^4 |Hessian of G|^2), where l =
-// length / 2 pi and c_T is the trust weight of T. A wave of wavelength w keeps 1 / (1 + (length / w)^4) of its
-// amplitude: half at w = length, 6 % at half of it, 94 % at twice. Linear fields have no Hessian energy, also at the
-// border, so a field that is already fair is not bent there (diffusion bends it; the squared Laplacian leaves every
-// harmonic border wave).
+// One step, g -> mean of G over each triangle, minimises over vectors G at the vertices
+//   sum_T A_T c_T |mean of G over T - g_T|^2 + l^4 E(G),
+// where l = length / 2 pi, c_T is the trust weight of T and E the thin-plate energy (see vertex_hessian.h). Of a wave
+// of wavelength w it keeps h = 1 / (1 + (length / w)^4), in all directions and however quads are cut. (By the Hessians
+// of the triangles' own stencils, which are not conservative, a wave as long as the length kept 0.55 on a 4-8 mesh, and
+// 0.60 to 0.82 where vertices have three triangles.) Linear fields have no Hessian energy, also at the border, so a
+// field that is already fair is not bent there (diffusion bends it; the squared Laplacian leaves every harmonic border
+// wave).
+//
+// The step is taken seven times with one factor, as p(h) = h^4 (35 - 84 h + 70 h^2 - 20 h^3), which is flattest at 0
+// and at 1 (Kaiser and Hamming 1977, "Sharpening the response of a symmetric nonrecursive filter"): half of a wave
+// stays at w = length, 3 % at 0.7 lengths, where one step leaves 19 %, and 97 % at 1.4 instead of 79 %. Around an
+// isolated dent the lines rise by less than 3 % of its depth.
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "geometry/stencil.h"
 #include "reflines/progress.h"
@@ -17,12 +27,22 @@
 
 namespace reflines {
 
+// What the systems of all lengths share: one element a triangle, whose "gradient" is the mean of its corners, and after
+// these one element a patch of a vertex, whose Hessian is that vertex's.
+struct SmootherElements {
+  Stencils stencils;        // #T + #P
+  std::vector<int> center;  // #P: the vertex of each patch
+};
+
+SmootherElements make_smoother_elements(const HeightField& field);
+
 class LineSmoother {
  public:
-  // Assembles and factors the system. `along` (#T x 2) are gradients whose level lines are the direction; read only for
-  // directional smoothing. `trust` (#T, 0 to 1) weights each triangle's gradient; `features` (#T, see strong_features)
-  // keep their gradients and hardly count around them. Throws Cancelled; `progress` may be null.
-  LineSmoother(const HeightField& field, const Stencils& stencils, const SmoothOptions& options,
+  // Assembles and factors the system; `field` outlives it. `along` (#T x 2) are gradients whose level lines are the
+  // direction; read only for directional smoothing. `trust` (#T, 0 to 1) weights each triangle's gradient; `features`
+  // (#T, see strong_features) keep their gradients and hardly count around them. Throws Cancelled; `progress` may be
+  // null.
+  LineSmoother(const HeightField& field, const SmootherElements& shared, const SmoothOptions& options,
                const PlaneVectors& along, const Vector& trust, Mask features, const SpdFactorize& factorize,
                const Progress* progress = nullptr);
 
@@ -35,6 +55,9 @@ class LineSmoother {
   bool is_same(double length, const Vector& trust, const Mask& features) const;
 
  private:
+  void filter_once(Vector& g) const;  // #T, in place
+  Vector filter(const Vector& g) const;
+
   const HeightField& field_;
   SmoothOptions options_;
   Mask features_;

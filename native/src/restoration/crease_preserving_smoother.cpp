@@ -18,16 +18,6 @@ constexpr double kCornerWeight = 1e-4;  // see LineSmoother: undetermined corner
 
 constexpr int kTriangleProducts = 6;  // of the lower triangle of a 3 x 3 matrix
 
-// Gradients of the barycentric coordinates of a triangle, a row a corner.
-Eigen::Matrix<double, 3, 2> barycentric_gradients(const PlanePositions& xy, const Triangles& F, int t) {
-  const Vector2 a = xy.row(F(t, 0)), b = xy.row(F(t, 1)), c = xy.row(F(t, 2));
-  const Vector2 opposite[3] = {c - b, a - c, b - a};
-  const double doubled = opposite[0].x() * opposite[1].y() - opposite[0].y() * opposite[1].x();
-  Eigen::Matrix<double, 3, 2> result;
-  for (int i = 0; i < 3; ++i) result.row(i) << -opposite[i].y() / doubled, opposite[i].x() / doubled;
-  return result;
-}
-
 int entry_index(const SparseMatrix& A, int i, int j) {
   const int row = std::max(i, j), column = std::min(i, j);
   const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
@@ -77,98 +67,16 @@ CreasePreservingSmoother::CreasePreservingSmoother(const PlanePositions& xy, con
   for (int t = 0; t < F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) corner_(F(t, i)) += kCornerWeight * area(t) / 3.0;
   }
-  add_edges(xy, F, area);
+  edges_ = list_edge_jumps(xy, F, edge_neighbors(F), area);
   edge_size_.resize(static_cast<Eigen::Index>(edges_.size()));
   for (size_t e = 0; e < edges_.size(); ++e)
     edge_size_(static_cast<Eigen::Index>(e)) = std::sqrt(edges_[e].length * edges_[e].distance);
-  gather_patches(static_cast<int>(xy.rows()));
+  patches_ = gather_patches(edges_, xy, F, area);
   build_pattern(static_cast<int>(xy.rows()));
   system_ = std::make_unique<System>(*this, xy);
 }
 
 CreasePreservingSmoother::~CreasePreservingSmoother() = default;
-
-void CreasePreservingSmoother::add_edges(const PlanePositions& xy, const Triangles& F, const Vector& area) {
-  const Triangles neighbors = edge_neighbors(F);
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const int other = neighbors(t, i);
-      if (other < t || area(t) <= 0 || area(other) <= 0) continue;
-      const int a = F(t, (i + 1) % 3), b = F(t, (i + 2) % 3);
-      const Vector2 along = (xy.row(b) - xy.row(a)).transpose();
-      const double both = area(t) + area(other), length = along.norm();
-      if (!(length > 0)) continue;
-      Vector2 normal = Vector2(-along.y(), along.x()) / length;
-      if (normal.dot((xy.row(F(t, i)) - xy.row(a)).transpose()) < 0) normal = -normal;  // towards t
-      const Vector3 across(normal.x() * normal.x(), std::numbers::sqrt2 * normal.x() * normal.y(),
-                           normal.y() * normal.y());
-      Edge edge{{F(t, i), a, b, 0}, {}, across, length, 2.0 / 3.0 * both / length};
-      const Eigen::Matrix<double, 3, 2> own = barycentric_gradients(xy, F, t),
-                                        far = barycentric_gradients(xy, F, other);
-      for (int k = 0; k < 3; ++k) edge.jump[k] = own.row((i + k) % 3).dot(normal);
-      for (int k = 0; k < 3; ++k) {
-        const double part = far.row(k).dot(normal);
-        if (F(other, k) == a) {
-          edge.jump[1] -= part;
-        } else if (F(other, k) == b) {
-          edge.jump[2] -= part;
-        } else {
-          edge.vertex[3] = F(other, k);
-          edge.jump[3] = -part;
-        }
-      }
-      edges_.push_back(edge);
-    }
-  }
-}
-
-// Gathers the edges at each vertex, and the vertices that their jumps couple.
-void CreasePreservingSmoother::gather_patches(int vertex_count) {
-  std::vector<std::vector<int>> edges(vertex_count);
-  for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
-    for (const int end : {edges_[e].vertex[1], edges_[e].vertex[2]}) edges[end].push_back(e);
-  }
-  Vector third = Vector::Zero(vertex_count);
-  for (int t = 0; t < F_.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) third(F_(t, i)) += area_(t) / 3.0;
-  }
-  for (int v = 0; v < vertex_count; ++v) {
-    if (edges[v].size() <= kMostEdges) {
-      add_patch(edges[v], third(v));
-    } else {
-      for (const int e : edges[v]) add_patch({e}, third(v) / static_cast<double>(edges[v].size()));
-    }
-  }
-}
-
-void CreasePreservingSmoother::add_patch(const std::vector<int>& edges, double area) {
-  if (edges.empty()) return;
-  Patch patch{{}, {}, {}, area};
-  for (const int e : edges) patch.vertex.insert(patch.vertex.end(), edges_[e].vertex, edges_[e].vertex + 4);
-  std::sort(patch.vertex.begin(), patch.vertex.end());
-  patch.vertex.erase(std::unique(patch.vertex.begin(), patch.vertex.end()), patch.vertex.end());
-  for (const int e : edges) {
-    PatchEdge own{e, {}};
-    for (int i = 0; i < 4; ++i) {
-      const auto place = std::lower_bound(patch.vertex.begin(), patch.vertex.end(), edges_[e].vertex[i]);
-      own.place[i] = static_cast<int>(place - patch.vertex.begin());
-    }
-    patch.edges.push_back(own);
-  }
-  patches_.push_back(std::move(patch));
-}
-
-// Returns the weights of the patch's f_xx, sqrt(2) f_xy and f_yy, times its area, one column a vertex.
-CreasePreservingSmoother::PatchWeights CreasePreservingSmoother::sum_jumps(const Patch& patch,
-                                                                           const Vector& trust) const {
-  PatchWeights result = PatchWeights::Zero(3, static_cast<Eigen::Index>(patch.vertex.size()));
-  for (const PatchEdge& own : patch.edges) {
-    const Edge& edge = edges_[own.edge];
-    const Vector3 half = 0.5 * edge.length * std::sqrt(trust(own.edge)) * edge.across;
-    for (int i = 0; i < 4; ++i) result.col(own.place[i]) += edge.jump[i] * half;
-  }
-  return result;
-}
 
 void CreasePreservingSmoother::build_pattern(int vertex_count) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -177,7 +85,7 @@ void CreasePreservingSmoother::build_pattern(int vertex_count) {
   for (int t = 0; t < F_.rows(); ++t) {
     for (int i = 0; i < 3; ++i) add(F_(t, i), F_(t, (i + 1) % 3));
   }
-  for (const Patch& patch : patches_) {
+  for (const VertexPatch& patch : patches_) {
     for (const int i : patch.vertex) {
       for (const int j : patch.vertex) {
         if (j < i) add(i, j);
@@ -191,10 +99,11 @@ void CreasePreservingSmoother::build_pattern(int vertex_count) {
       for (int j = 0; j <= i; ++j) triangle_entries_.push_back(entry_index(pattern_, F_(t, i), F_(t, j)));
     }
   }
-  for (Patch& patch : patches_) {
+  for (const VertexPatch& patch : patches_) {
+    std::vector<int>& entries_of_patch = patch_entries_.emplace_back();
     for (const int i : patch.vertex) {
       for (const int j : patch.vertex) {
-        if (j <= i) patch.entries.push_back(entry_index(pattern_, i, j));
+        if (j <= i) entries_of_patch.push_back(entry_index(pattern_, i, j));
       }
     }
   }
@@ -207,9 +116,9 @@ void CreasePreservingSmoother::assemble(const Vector& trust, double stiffness, S
   for (int t = 0; t < F_.rows(); ++t) {
     for (int k = 0; k < kTriangleProducts; ++k) value[triangle_entries_[kTriangleProducts * t + k]] += area_(t) / 9.0;
   }
-  for (const Patch& patch : patches_) {
-    const PatchWeights sum = std::sqrt(stiffness / patch.area) * sum_jumps(patch, trust);
-    const int* entry = patch.entries.data();
+  for (size_t p = 0; p < patches_.size(); ++p) {
+    const PatchWeights sum = std::sqrt(stiffness) * weigh_patch(patches_[p], edges_, trust);
+    const int* entry = patch_entries_[p].data();
     for (Eigen::Index i = 0; i < sum.cols(); ++i) {
       for (Eigen::Index j = 0; j <= i; ++j) value[*entry++] += sum.col(i).dot(sum.col(j));
     }
@@ -220,11 +129,11 @@ Vector CreasePreservingSmoother::measure_jumps(const TriangleFields& U) const {
   Vector result(static_cast<Eigen::Index>(edges_.size()));
 #pragma omp parallel for schedule(static) if (result.size() > kWorthThreads)
   for (Eigen::Index e = 0; e < result.size(); ++e) {
-    const Edge& edge = edges_[e];
+    const EdgeJump& edge = edges_[e];
     double squared = 0;
     for (Eigen::Index k = 0; k < U.cols(); ++k) {
       double jump = 0;
-      for (int i = 0; i < 4; ++i) jump += edge.jump[i] * U(edge.vertex[i], k);
+      for (int i = 0; i < 4; ++i) jump += edge.weight[i] * U(edge.vertex[i], k);
       squared += jump * jump;
     }
     result(e) = std::sqrt(squared) / edge.distance;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/vertex_hessian.h"
 #include "reflines/progress.h"
 #include "reflines/types.h"
 
@@ -15,12 +16,11 @@ namespace reflines {
 using TriangleFields = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // The smoothed field U lives at the vertices and minimises
-//   sum_T A_T |mean of U over T - g_T|^2 + l^4 sum_v A_v |H_v|^2,
-//   H_v = (1 / A_v) sum_{e at v} sqrt(w_e) |e| / 2 (jump of dU/dn across e) n n^T,
-// l = length / 2 pi. Without weights H_v is the Hessian of the mixed finite element method (Stein, Grinspun, Wardetzky
-// and Jacobson 2018): a wave of wavelength w keeps 1 / (1 + (length / w)^4) of its amplitude in any direction on any
-// mesh, 0.5 at w = length, measured 0.43 to 0.50 on regular, 4-8, random and stretched ones. (The sum of squared jumps,
-// which is cheaper, keeps 0.02 to 0.49.) It vanishes for linear fields, at the border too. Where a design changes its
+//   sum_T A_T |mean of U over T - g_T|^2 + l^4 E(U),   l = length / 2 pi,
+// where E is the thin-plate energy (see vertex_hessian.h), in which the jump across an edge counts by the square root
+// of the edge's weight w_e. Without weights a wave of wavelength w keeps 1 / (1 + (length / w)^4) of its amplitude in
+// any direction on any mesh, 0.5 at w = length. (A sum of squared jumps, which is cheaper, keeps 0.02 to 0.49.) Where a
+// design changes its
 // curvature along a line (a fillet's edge, a character line), the jumps are many times the median; their weight w_e
 // falls to nothing, and the field is smoothed on both sides of the line but not across it.
 struct SmootherOptions {
@@ -49,33 +49,6 @@ class CreasePreservingSmoother {
   TriangleFields smooth_with(const Vector& creases, const TriangleFields& g, double stretch = 1.0) const;
 
  private:
-  // An inner edge: its four vertices, how the normal derivative of a P1 field jumps across it, the tensor n n^T of its
-  // normal, its length, and the distance of the two centroids, which makes a second derivative of the jump.
-  struct Edge {
-    int vertex[4];
-    double jump[4];
-    Vector3 across;  // n_x^2, sqrt(2) n_x n_y, n_y^2: the norm is that of the tensor
-    double length, distance;
-  };
-  struct PatchEdge {
-    int edge;
-    int place[4];  // of its vertices among those of the patch
-  };
-  // A vertex's edges, the vertices that their jumps couple (ascending), where the lower triangle of the products of
-  // these adds up in the values, and a third of the area around it.
-  struct Patch {
-    std::vector<PatchEdge> edges;
-    std::vector<int> vertex, entries;
-    double area;
-  };
-  // The number of edges at a vertex up to which they are taken together. Those of others, as at the tip of a cone,
-  // count one by one: the products of a thousand edges with each other would fill the matrix.
-  static constexpr int kMostEdges = 22, kMostPatchVertices = 1 + 3 * kMostEdges;
-  using PatchWeights = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMostPatchVertices>;
-  void gather_patches(int vertex_count);
-  void add_patch(const std::vector<int>& edges, double area);
-  PatchWeights sum_jumps(const Patch& patch, const Vector& trust) const;
-  void add_edges(const PlanePositions& xy, const Triangles& F, const Vector& area);
   void build_pattern(int vertex_count);
   void assemble(const Vector& trust, double stiffness, SparseMatrix& A) const;
   class System;
@@ -87,12 +60,13 @@ class CreasePreservingSmoother {
   SmootherOptions options_;
   Triangles F_;
   Vector area_, corner_;  // #F; #V: what keeps vertices without data and isolated triangles determined
-  std::vector<Edge> edges_;
+  std::vector<EdgeJump> edges_;
   Vector edge_size_;      // #inner edges: proportional to the square root of the area of their two triangles
   SparseMatrix pattern_;  // lower triangle, values zero
   std::vector<int> triangle_entries_;  // where their products add up in the values
-  std::vector<Patch> patches_;
-  std::unique_ptr<System> system_;  // refers to *this
+  std::vector<VertexPatch> patches_;
+  std::vector<std::vector<int>> patch_entries_;  // likewise, of the lower triangle of each patch's products
+  std::unique_ptr<System> system_;               // refers to *this
 };
 
 }  // namespace reflines

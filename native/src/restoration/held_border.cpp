@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 
+#include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/restoration.h"
 
@@ -48,19 +50,35 @@ std::string explain_clamped(const SmoothPanelReport& continued, const SmoothPane
   return start + text;
 }
 
+// Presses the surface with its own borders. Empty where the solver breaks down with the curvature continued: what lies
+// beside the region is no reason to refuse it.
+std::optional<SmoothPanelResult> press_as_given(MeshSurface& surface, const SmoothPanelOptions& options) {
+  try {
+    return Restoration(surface, options).run();
+  } catch (const SolverFailure&) {
+    if (!surface.optimizer().continues_curvature()) throw;
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 SmoothPanelResult press_held_border(const Positions& V, const Triangles& F, const Vector3& view,
                                     const std::vector<Vector3>& families, const ShapeOptions& shape,
                                     const SmoothPanelOptions& options) {
   MeshSurface surface(V, F, view, families, shape);
-  SmoothPanelResult result = Restoration(surface, options).run();
-  if (!surface.optimizer().continues_curvature()) return result;
+  std::optional<SmoothPanelResult> result = press_as_given(surface, options);
+  if (!surface.optimizer().continues_curvature()) return *result;
   MeshSurface clamped_surface(V, F, view, families, clamp_instead(shape));
   SmoothPanelResult clamped = Restoration(clamped_surface, options).run();
-  const int light = find_less_even(result.report, clamped.report);
-  if (!clamped.report.applied || (result.report.applied && light < 0)) return result;
-  clamped.report.messages.push_back(explain_clamped(result.report, clamped.report, light));
+  if (!result) {
+    clamped.report.messages.emplace_back(
+        "The border is only clamped: with its curvature continued, the solver breaks down.");
+    return clamped;
+  }
+  const int light = find_less_even(result->report, clamped.report);
+  if (!clamped.report.applied || (result->report.applied && light < 0)) return *result;
+  clamped.report.messages.push_back(explain_clamped(result->report, clamped.report, light));
   return clamped;
 }
 

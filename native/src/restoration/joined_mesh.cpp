@@ -22,20 +22,27 @@ Triangles list_border_points(const Triangles& F, int vertex_count) {
   return points;
 }
 
+struct NearVertices {
+  Mask near;  // #S
+  int compared = 0;
+};
+
 // Finds the vertices (#S) that lie within `reach` of some border vertex of the region.
-Mask find_near(const Positions& vertices, const Positions& V, const Triangles& F, double reach) {
+NearVertices find_near(const Positions& vertices, const Positions& V, const Triangles& F, double reach) {
   Mask near = Mask::Constant(vertices.rows(), false);
+  int compared = 0;
   const Triangles points = list_border_points(F, static_cast<int>(V.rows()));
   std::vector<int> all(points.rows());
   std::iota(all.begin(), all.end(), 0);
   const NearestSurface border(V, points, std::move(all));
-#pragma omp parallel for schedule(static) if (vertices.rows() > kWorthThreads)
+#pragma omp parallel for schedule(static) reduction(+ : compared) if (vertices.rows() > kWorthThreads)
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     const Vector3 p = vertices.row(v);
     const NearestPoint nearest = border.find(p, reach);
     near(v) = nearest.triangle >= 0 && (nearest.point - p).squaredNorm() < reach * reach;
+    compared += nearest.compared;
   }
-  return near;
+  return {near, compared};
 }
 
 // Returns the triangles of `around` that have a vertex marked as near (#S) or one of the region's.
@@ -81,7 +88,7 @@ JoinedMesh renumber_beside(const Positions& all, const Triangles& F, int own) {
   std::vector<int> number(all.rows(), -1), kept(own);
   std::iota(kept.begin(), kept.end(), 0);
   std::copy(kept.begin(), kept.end(), number.begin());
-  JoinedMesh joined{{}, F};
+  JoinedMesh joined{.V = {}, .F = F};
   for (Eigen::Index t = 0; t < F.rows(); ++t) {
     for (int& v : joined.F.row(t)) {
       if (number[v] < 0) {
@@ -101,12 +108,15 @@ JoinedMesh join_surroundings(const Positions& V, const Triangles& F, const Surro
   const auto own = static_cast<int>(V.rows());
   Positions all(V.rows() + around.V.rows(), 3);
   all << V, around.V;
-  const Triangles near = take_near(around, find_near(around.V, V, F, reach), own);
+  const NearVertices found = find_near(around.V, V, F, reach);
+  const Triangles near = take_near(around, found.near, own);
   Triangles joined(F.rows() + near.rows(), 3);
   joined << F, near;
   joined = leave_out(joined, F.rows(), find_unusable(all, joined));
   joined = leave_out(joined, F.rows(), find_apart(joined, F.rows()));
-  return renumber_beside(all, joined, own);
+  JoinedMesh result = renumber_beside(all, joined, own);
+  result.compared = found.compared;
+  return result;
 }
 
 }  // namespace reflines

@@ -10,6 +10,7 @@ namespace reflines {
 struct JoinedMesh {
   Positions V;
   Triangles F;
+  int compared = 0;  // pairs of a vertex beside the region and a border vertex whose distance was computed
 };
 
 // Joins the region V (#V x 3), F (#F x 3) with those triangles around it that

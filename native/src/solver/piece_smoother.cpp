@@ -70,13 +70,15 @@ std::shared_ptr<const LineSmoother> PieceSmoother::find_same(double length, int 
 }
 
 std::shared_ptr<const LineSmoother> PieceSmoother::build(const SmoothOptions& options, const PlaneVectors& along,
-                                                         int family, const Mask& features) const {
+                                                         int family, const Mask& features) {
   if (!options.directional) {
     if (auto same = find_same(options.length, family, features)) return same;
   }
   enter(0.1, "assembling the smoothing");
+  if (!elements_) elements_ = std::make_unique<SmootherElements>(make_smoother_elements(field_));
+  throw_if_cancelled(progress_);
   return std::make_shared<LineSmoother>(
-      field_, stencils_, options, along, trust_[family], features,
+      field_, *elements_, options, along, trust_[family], features,
       [this](const SparseMatrix& matrix) { return factorize(matrix); }, progress_);
 }
 

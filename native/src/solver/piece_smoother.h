@@ -54,7 +54,7 @@ class PieceSmoother {
   };
 
   std::shared_ptr<const LineSmoother> build(const SmoothOptions& options, const PlaneVectors& along, int family,
-                                            const Mask& features) const;
+                                            const Mask& features);
   std::shared_ptr<const LineSmoother> find_same(double length, int family, const Mask& features) const;
   Cache& update(Cache& cache, const SmoothOptions& options, const PlaneVectors& along, int family);
   SpdSolve factorize(const SparseMatrix& matrix) const;
@@ -68,9 +68,10 @@ class PieceSmoother {
   bool limit_outliers_;
   LinearSolverKind solver_;
   Progress* progress_ = nullptr;
-  std::vector<Cache> isotropic_, directional_;  // one for each family
-  std::vector<Features> features_;              // likewise
-  std::vector<Cache> linear_;                   // likewise
+  std::unique_ptr<const SmootherElements> elements_;  // made for the first system
+  std::vector<Cache> isotropic_, directional_;        // one for each family
+  std::vector<Features> features_;                    // likewise
+  std::vector<Cache> linear_;                         // likewise
 };
 
 }  // namespace reflines
