@@ -159,6 +159,7 @@ bool BoundedDescent::new_model_pays() const {
 
 bool BoundedDescent::choose_destination() {
   if (model_is_outdated()) return renew_model() && solve_model();
+  if (report_.iterations == 0) return solve_model();
   return kept_factor_leads_on() || solve_model();
 }
 
@@ -249,7 +250,7 @@ void BoundedDescent::take_step() {
   const double before = std::exchange(norm_, bounds_.projected_norm(work_.x, work_.gradient));
   policy_.observe(norm_);
   model_failed_ = model_is_fresh() && norm_ > kTrusted * before;
-  if (assembled_at_ < 0 && report_.iterations > 1) ++work_.extra_steps;
+  if (report_.iterations - std::max(assembled_at_, 0) > 1) ++work_.extra_steps;
   ++report_.iterations;
   moved_ = true;
 }
