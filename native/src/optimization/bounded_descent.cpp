@@ -159,6 +159,7 @@ bool BoundedDescent::new_model_pays() const {
 
 bool BoundedDescent::choose_destination() {
   if (model_is_outdated()) return renew_model() && solve_model();
+  // The last run's pairs gain less than a solve: where contacts have changed, a step with them is no step to take.
   if (report_.iterations == 0) return solve_model();
   return kept_factor_leads_on() || solve_model();
 }
@@ -167,6 +168,8 @@ bool BoundedDescent::renew_model() {
   tell("assembling");
   work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
   work_.held_factor.forget();
+  renewed_ = new_model_pays();
+  work_.usual_steps = 1;
   work_.extra_steps = 0;
   ++report_.assemblies;
   measure_rounding();
@@ -250,7 +253,6 @@ void BoundedDescent::take_step() {
   const double before = std::exchange(norm_, bounds_.projected_norm(work_.x, work_.gradient));
   policy_.observe(norm_);
   model_failed_ = model_is_fresh() && norm_ > kTrusted * before;
-  if (report_.iterations - std::max(assembled_at_, 0) > 1) ++work_.extra_steps;
   ++report_.iterations;
   moved_ = true;
 }
@@ -263,10 +265,20 @@ bool BoundedDescent::discard_model() {
 }
 
 void BoundedDescent::finish(Vector& x) {
+  count_steps();
   const bool moved = moved_ && report_.termination != Termination::kCancelled;
   report_.energy_after = moved ? current_.energy : report_.energy_before;
   report_.gradient_after = moved ? norm_ : report_.gradient_before;
   if (moved) x = work_.x;
+}
+
+// A new matrix that saves no steps is not paid for again.
+void BoundedDescent::count_steps() {
+  const int steps = report_.iterations - std::max(assembled_at_, 0);
+  if (renewed_)
+    work_.usual_steps = std::max(steps, 1);
+  else
+    work_.extra_steps += std::max(steps - work_.usual_steps, 0);
 }
 
 bool BoundedDescent::is_cancelled() {

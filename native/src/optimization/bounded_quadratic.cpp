@@ -132,6 +132,7 @@ BoundedQuadratic::Search BoundedQuadratic::search_contacts(const QuadraticModel&
   std::vector<int> changes;
   for (int round = 0; round < kMaxSearches; ++round) {
     if (cancelled()) return Search::kCancelled;
+    release_pulling(model, bounds, set);
     const Trial trial = minimize_held(model, bounds, wanted, set, d);
     const Sides next = keep_peaks(model.H, bounds, set, next_held(bounds, set, trial.d, trial.gradient), trial.d);
     const bool settled = next == set;
@@ -212,10 +213,34 @@ BoundedQuadratic::Trial BoundedQuadratic::minimize_held(const QuadraticModel& mo
   return trial;
 }
 
+// Releases contacts that pull at their bounds until none does.
+void BoundedQuadratic::release_pulling(const QuadraticModel& model, const Bounds& bounds, Sides& held) {
+  if (!factor_.tells_forces()) return;
+  hold(model, bounds, held);
+  const Vector at_bounds = bounds.ends(held), right = right_side(model, factor_.select_left_out(at_bounds));
+  bool pulls = true;
+  while (pulls) {
+    pulls = false;
+    const Vector forces = factor_.find_forces(right, at_bounds);
+    for (Eigen::Index i = 0; i < forces.size(); ++i) {
+      const int k = factor_.contacts()[i];
+      const bool presses = held[k] == Side::kLow ? forces(i) < 0 : forces(i) > 0;
+      if (presses || bounds.is_point(k)) continue;
+      held[k] = Side::kBetween;
+      pulls = true;
+    }
+    if (pulls) hold(model, bounds, held);
+  }
+}
+
+Vector BoundedQuadratic::right_side(const QuadraticModel& model, const Vector& left_out) {
+  return left_out.isZero(0) ? Vector(-model.gradient) : Vector(-model.gradient_at(left_out));
+}
+
 BoundedQuadratic::Trial BoundedQuadratic::solve_held(const QuadraticModel& model, const Bounds& bounds,
                                                      const Sides& held) {
   const Vector at_bounds = bounds.ends(held), left_out = factor_.select_left_out(at_bounds);
-  Vector d = left_out.isZero(0) ? Vector(-model.gradient) : Vector(-model.gradient_at(left_out));
+  Vector d = right_side(model, left_out);
   counts_.solves += factor_.solve(d, at_bounds);
   d += left_out;
   return {d, model.gradient_at(d)};
