@@ -78,7 +78,7 @@ void BoundedDescent::evaluate_start(const Vector& x) {
   report_.gradient_before = norm_;
   wanted_norm_ = options_.gradient_tolerance * norm_;
   if (!has_factor()) return;
-  measure_rounding();
+  measure_rounding(work_.rounding_weight);
   policy_.start(norm_, std::max(wanted_norm_, rounding_));
 }
 
@@ -172,7 +172,7 @@ bool BoundedDescent::renew_model() {
   work_.usual_steps = 1;
   work_.extra_steps = 0;
   ++report_.assemblies;
-  measure_rounding();
+  measure_rounding(problem_.rounding_weight(work_.matrix));
   report_.analyses += work_.analyze(work_.matrix, problem_, progress_);
   work_.factored_model = choose_model(options_.strategy);
   assembled_at_ = report_.iterations;
@@ -180,8 +180,9 @@ bool BoundedDescent::renew_model() {
   return !is_cancelled() && !gradient_is_small();
 }
 
-void BoundedDescent::measure_rounding() {
-  rounding_ = kEpsilon * problem_.rounding_weight(work_.matrix).cwiseProduct(work_.x).norm();
+void BoundedDescent::measure_rounding(const Vector& weight) {
+  work_.rounding_weight = weight;
+  rounding_ = kEpsilon * weight.cwiseProduct(work_.x).norm();
 }
 
 // Tries a step with the present factor; returns false where it leaves too much to unknowns that should be held or

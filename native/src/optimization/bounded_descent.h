@@ -45,7 +45,7 @@ class BoundedDescent {
   bool model_is_outdated() const;
   bool new_model_pays() const;
   bool renew_model();
-  void measure_rounding();
+  void measure_rounding(const Vector& weight);
   bool choose_destination();
   bool kept_factor_leads_on();
   bool solve_model();

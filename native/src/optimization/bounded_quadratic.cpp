@@ -87,8 +87,9 @@ Sides keep_peaks(const SparseMatrix& H, const Bounds& bounds, const Sides& held,
   const Vector beyond = (d - bounds.nearest(d)).cwiseAbs();
   UnionFind patches(static_cast<int>(beyond.size()));
   for (int column = 0; column < H.outerSize(); ++column) {
+    if (!(beyond(column) > 0)) continue;
     for (SparseMatrix::InnerIterator entry(H, column); entry; ++entry) {
-      if (beyond(column) > 0 && beyond(entry.row()) > 0) patches.unite(column, static_cast<int>(entry.row()));
+      if (beyond(entry.row()) > 0) patches.unite(column, static_cast<int>(entry.row()));
     }
   }
   const auto is_new = [&](int k) { return held[k] == Side::kBetween && next[k] != Side::kBetween; };
@@ -200,7 +201,7 @@ BoundedQuadratic::Trial BoundedQuadratic::minimize_held(const QuadraticModel& mo
                                                         double wanted, const Sides& held, Vector& best) {
   hold(model, bounds, held);
   Trial trial = solve_held(model, bounds, held);
-  const double norm = keep_if_best(model, bounds, trial.d, best);
+  const double norm = keep_if_best(model, bounds, trial, best);
   if (factor_.leaves_out(held) || norm <= wanted) return trial;
   double squared = 0.0;
   for (int k = 0; k < trial.d.size(); ++k) {
@@ -209,7 +210,7 @@ BoundedQuadratic::Trial BoundedQuadratic::minimize_held(const QuadraticModel& mo
   if (std::sqrt(squared) < kLostDigits * norm) return trial;
   factorize(model, held);
   trial = solve_held(model, bounds, held);
-  keep_if_best(model, bounds, trial.d, best);
+  keep_if_best(model, bounds, trial, best);
   return trial;
 }
 
@@ -247,10 +248,10 @@ BoundedQuadratic::Trial BoundedQuadratic::solve_held(const QuadraticModel& model
 }
 
 // Returns the norm of the projected gradient at the nearest point within the bounds.
-double BoundedQuadratic::keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Vector& d,
+double BoundedQuadratic::keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Trial& trial,
                                       Vector& best) {
-  const Vector inside = bounds.nearest(d);
-  const double norm = bounds.projected_norm(inside, model.gradient_at(inside));
+  const Vector inside = bounds.nearest(trial.d);
+  const double norm = bounds.projected_norm(inside, inside == trial.d ? trial.gradient : model.gradient_at(inside));
   if (norm < best_norm_) {
     best_norm_ = norm;
     best = inside;

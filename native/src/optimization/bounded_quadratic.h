@@ -54,7 +54,7 @@ class BoundedQuadratic {
   void release_pulling(const QuadraticModel& model, const Bounds& bounds, Sides& held);
   static Vector right_side(const QuadraticModel& model, const Vector& left_out);
   Trial solve_held(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
-  double keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Vector& d, Vector& best);
+  double keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Trial& trial, Vector& best);
   bool guess_from_inside(const QuadraticModel& model, const Bounds& bounds, double reach, Sides& held);
 
   HeldFactor& factor_;
