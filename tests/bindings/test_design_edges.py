@@ -97,3 +97,17 @@ def test_the_residual_is_that_of_triangles_that_can_change() -> None:
     assert 0 < (~changeable).sum() < len(changeable) / 5
     assert report.residual_rms == pytest.approx(np.sqrt(area @ square / area.sum()), rel=1e-9)
     assert report.residual_rms < np.sqrt(solver.area @ square / solver.area.sum()) / 50
+
+
+def test_the_report_measures_what_the_target_gives_no_weight_and_other_targets_than_the_last() -> None:
+    """The energy knows the squares of triangles with weight only, of the target and the heights it was evaluated at."""
+    solver = optimizer(flat)
+    weight = (np.arange(len(solver.area)) % 3).astype(float)
+    rms = []
+    for scale in (0.9, 0.8, 0.8):
+        target = reflines.Target(scale * solver.field(), weight=weight)
+        report = solver.solve(target)
+        area = solver.area * solver.changeable
+        assert report.residual_rms == pytest.approx(np.sqrt(area @ solver.residual(target) ** 2 / area.sum()), rel=1e-9)
+        rms.append(report.residual_rms)
+    assert rms[0] > 0

@@ -78,7 +78,7 @@ void BoundedDescent::evaluate_start(const Vector& x) {
   report_.gradient_before = norm_;
   wanted_norm_ = options_.gradient_tolerance * norm_;
   if (!has_factor()) return;
-  measure_rounding();
+  measure_rounding(work_.rounding_weight);
   policy_.start(norm_, std::max(wanted_norm_, rounding_));
 }
 
@@ -159,6 +159,8 @@ bool BoundedDescent::new_model_pays() const {
 
 bool BoundedDescent::choose_destination() {
   if (model_is_outdated()) return renew_model() && solve_model();
+  // The last run's pairs gain less than a solve: where contacts have changed, a step with them is no step to take.
+  if (report_.iterations == 0) return solve_model();
   return kept_factor_leads_on() || solve_model();
 }
 
@@ -166,9 +168,11 @@ bool BoundedDescent::renew_model() {
   tell("assembling");
   work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
   work_.held_factor.forget();
+  renewed_ = new_model_pays();
+  work_.usual_steps = 1;
   work_.extra_steps = 0;
   ++report_.assemblies;
-  measure_rounding();
+  measure_rounding(problem_.rounding_weight(work_.matrix));
   report_.analyses += work_.analyze(work_.matrix, problem_, progress_);
   work_.factored_model = choose_model(options_.strategy);
   assembled_at_ = report_.iterations;
@@ -176,8 +180,9 @@ bool BoundedDescent::renew_model() {
   return !is_cancelled() && !gradient_is_small();
 }
 
-void BoundedDescent::measure_rounding() {
-  rounding_ = kEpsilon * problem_.rounding_weight(work_.matrix).cwiseProduct(work_.x).norm();
+void BoundedDescent::measure_rounding(const Vector& weight) {
+  work_.rounding_weight = weight;
+  rounding_ = kEpsilon * weight.cwiseProduct(work_.x).norm();
 }
 
 // Tries a step with the present factor; returns false where it leaves too much to unknowns that should be held or
@@ -249,7 +254,6 @@ void BoundedDescent::take_step() {
   const double before = std::exchange(norm_, bounds_.projected_norm(work_.x, work_.gradient));
   policy_.observe(norm_);
   model_failed_ = model_is_fresh() && norm_ > kTrusted * before;
-  if (assembled_at_ < 0 && report_.iterations > 1) ++work_.extra_steps;
   ++report_.iterations;
   moved_ = true;
 }
@@ -262,10 +266,20 @@ bool BoundedDescent::discard_model() {
 }
 
 void BoundedDescent::finish(Vector& x) {
+  count_steps();
   const bool moved = moved_ && report_.termination != Termination::kCancelled;
   report_.energy_after = moved ? current_.energy : report_.energy_before;
   report_.gradient_after = moved ? norm_ : report_.gradient_before;
   if (moved) x = work_.x;
+}
+
+// A new matrix that saves no steps is not paid for again.
+void BoundedDescent::count_steps() {
+  const int steps = report_.iterations - std::max(assembled_at_, 0);
+  if (renewed_)
+    work_.usual_steps = std::max(steps, 1);
+  else
+    work_.extra_steps += std::max(steps - work_.usual_steps, 0);
 }
 
 bool BoundedDescent::is_cancelled() {

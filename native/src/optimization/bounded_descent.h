@@ -38,13 +38,14 @@ class BoundedDescent {
   void start_on_the_way_to(const Vector& minimum);
   void descend();
   void finish(Vector& x);
+  void count_steps();
 
   // These are the steps of the loop. Those that return bool return false where the run is to stop or the step could not
   // be made.
   bool model_is_outdated() const;
   bool new_model_pays() const;
   bool renew_model();
-  void measure_rounding();
+  void measure_rounding(const Vector& weight);
   bool choose_destination();
   bool kept_factor_leads_on();
   bool solve_model();
@@ -81,6 +82,7 @@ class BoundedDescent {
   double wanted_norm_ = 0.0;
   double rounding_ = 0.0;      // change of the gradient by rounding x alone
   int assembled_at_ = -1;      // iteration at whose point the matrix was assembled; -1: before this run
+  bool renewed_ = false;       // that matrix replaces one whose steps have cost as much
   bool model_failed_ = false;  // no step with it lowers the energy, or its prediction was wrong
 };
 

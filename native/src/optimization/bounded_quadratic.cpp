@@ -87,8 +87,9 @@ Sides keep_peaks(const SparseMatrix& H, const Bounds& bounds, const Sides& held,
   const Vector beyond = (d - bounds.nearest(d)).cwiseAbs();
   UnionFind patches(static_cast<int>(beyond.size()));
   for (int column = 0; column < H.outerSize(); ++column) {
+    if (!(beyond(column) > 0)) continue;
     for (SparseMatrix::InnerIterator entry(H, column); entry; ++entry) {
-      if (beyond(column) > 0 && beyond(entry.row()) > 0) patches.unite(column, static_cast<int>(entry.row()));
+      if (beyond(entry.row()) > 0) patches.unite(column, static_cast<int>(entry.row()));
     }
   }
   const auto is_new = [&](int k) { return held[k] == Side::kBetween && next[k] != Side::kBetween; };
@@ -132,6 +133,7 @@ BoundedQuadratic::Search BoundedQuadratic::search_contacts(const QuadraticModel&
   std::vector<int> changes;
   for (int round = 0; round < kMaxSearches; ++round) {
     if (cancelled()) return Search::kCancelled;
+    release_pulling(model, bounds, set);
     const Trial trial = minimize_held(model, bounds, wanted, set, d);
     const Sides next = keep_peaks(model.H, bounds, set, next_held(bounds, set, trial.d, trial.gradient), trial.d);
     const bool settled = next == set;
@@ -199,7 +201,7 @@ BoundedQuadratic::Trial BoundedQuadratic::minimize_held(const QuadraticModel& mo
                                                         double wanted, const Sides& held, Vector& best) {
   hold(model, bounds, held);
   Trial trial = solve_held(model, bounds, held);
-  const double norm = keep_if_best(model, bounds, trial.d, best);
+  const double norm = keep_if_best(model, bounds, trial, best);
   if (factor_.leaves_out(held) || norm <= wanted) return trial;
   double squared = 0.0;
   for (int k = 0; k < trial.d.size(); ++k) {
@@ -208,24 +210,48 @@ BoundedQuadratic::Trial BoundedQuadratic::minimize_held(const QuadraticModel& mo
   if (std::sqrt(squared) < kLostDigits * norm) return trial;
   factorize(model, held);
   trial = solve_held(model, bounds, held);
-  keep_if_best(model, bounds, trial.d, best);
+  keep_if_best(model, bounds, trial, best);
   return trial;
+}
+
+// Releases contacts that pull at their bounds until none does.
+void BoundedQuadratic::release_pulling(const QuadraticModel& model, const Bounds& bounds, Sides& held) {
+  if (!factor_.tells_forces()) return;
+  hold(model, bounds, held);
+  const Vector at_bounds = bounds.ends(held), right = right_side(model, factor_.select_left_out(at_bounds));
+  bool pulls = true;
+  while (pulls) {
+    pulls = false;
+    const Vector forces = factor_.find_forces(right, at_bounds);
+    for (Eigen::Index i = 0; i < forces.size(); ++i) {
+      const int k = factor_.contacts()[i];
+      const bool presses = held[k] == Side::kLow ? forces(i) < 0 : forces(i) > 0;
+      if (presses || bounds.is_point(k)) continue;
+      held[k] = Side::kBetween;
+      pulls = true;
+    }
+    if (pulls) hold(model, bounds, held);
+  }
+}
+
+Vector BoundedQuadratic::right_side(const QuadraticModel& model, const Vector& left_out) {
+  return left_out.isZero(0) ? Vector(-model.gradient) : Vector(-model.gradient_at(left_out));
 }
 
 BoundedQuadratic::Trial BoundedQuadratic::solve_held(const QuadraticModel& model, const Bounds& bounds,
                                                      const Sides& held) {
   const Vector at_bounds = bounds.ends(held), left_out = factor_.select_left_out(at_bounds);
-  Vector d = left_out.isZero(0) ? Vector(-model.gradient) : Vector(-model.gradient_at(left_out));
+  Vector d = right_side(model, left_out);
   counts_.solves += factor_.solve(d, at_bounds);
   d += left_out;
   return {d, model.gradient_at(d)};
 }
 
 // Returns the norm of the projected gradient at the nearest point within the bounds.
-double BoundedQuadratic::keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Vector& d,
+double BoundedQuadratic::keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Trial& trial,
                                       Vector& best) {
-  const Vector inside = bounds.nearest(d);
-  const double norm = bounds.projected_norm(inside, model.gradient_at(inside));
+  const Vector inside = bounds.nearest(trial.d);
+  const double norm = bounds.projected_norm(inside, inside == trial.d ? trial.gradient : model.gradient_at(inside));
   if (norm < best_norm_) {
     best_norm_ = norm;
     best = inside;

@@ -51,8 +51,10 @@ class BoundedQuadratic {
   };
   Trial minimize_held(const QuadraticModel& model, const Bounds& bounds, double wanted, const Sides& held,
                       Vector& best);
+  void release_pulling(const QuadraticModel& model, const Bounds& bounds, Sides& held);
+  static Vector right_side(const QuadraticModel& model, const Vector& left_out);
   Trial solve_held(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
-  double keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Vector& d, Vector& best);
+  double keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Trial& trial, Vector& best);
   bool guess_from_inside(const QuadraticModel& model, const Bounds& bounds, double reach, Sides& held);
 
   HeldFactor& factor_;

@@ -136,6 +136,14 @@ Vector HeldFactor::select_left_out(const Vector& x) const {
   return result;
 }
 
+Vector HeldFactor::find_forces(const Vector& right, const Vector& at_contacts) {
+  if (differences_.contacts.empty()) return {};
+  Vector kept = right;
+  clear(factored_, kept);
+  int solves = 0;
+  return find_border(border_.reach(kept, solves), right(differences_.released), at_contacts)(contact_column_);
+}
+
 int HeldFactor::solve(Vector& x, const Vector& at_contacts) {
   const Vector of_released = x(differences_.released);
   clear(factored_, x);

@@ -47,6 +47,14 @@ class HeldFactor {
   // their right-hand side. Returns the number of solves by the factor.
   int solve(Vector& x, const Vector& at_contacts = {});
 
+  // Returns whether the forces of contacts cost no solve beside the first for a right-hand side.
+  bool tells_forces() const { return solver_.has_halves(); }
+
+  // Returns the forces (#contacts) by which these, the held unknowns that the factor does not leave out, balance the
+  // right-hand side at their entries of `at_contacts` (n).
+  Vector find_forces(const Vector& right, const Vector& at_contacts);
+  const std::vector<int>& contacts() const { return differences_.contacts; }
+
   // Solves for all columns of X at once, whose entries of held unknowns are 0. Only without contacts and released ones.
   void solve(Eigen::MatrixXd& X) const { solver_.solve(X); }
 

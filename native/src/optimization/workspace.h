@@ -27,7 +27,8 @@ struct Workspace {
   Sides held;           // n: unknowns that held_factor holds; empty: the solver's factor is one of the whole matrix
   HeldFactor held_factor{solver};
   bool many_contacts = false;  // see BoundedQuadratic
-  int extra_steps = 0;         // beyond two of each later minimization, since the matrix was assembled
+  int usual_steps = 1;         // of a minimization at whose start the matrix was assembled
+  int extra_steps = 0;         // beyond these of each minimization since
 
   bool has_factor_of(HessianModel model, Eigen::Index n) const {
     return solver.has_factor() && held.empty() && factored_model == model && rounding_weight.size() == n;

@@ -33,8 +33,13 @@ class Energy {
   void pull_to(const Vector& z, const Vector& weight);
   void pull_as_built(const Vector& z);  // restores the proximity term alone, with rest heights z
 
+  // Returns the only term, or null where there are several.
+  const EnergyTerm* only_term() const { return terms_.size() == 1 ? terms_.data() : nullptr; }
+
   // Returns E(z), and writes dE/dz (#V) into `gradient` where it is not null.
   double evaluate(const Vector& z, Vector* gradient);
+
+  const Vector& triangle_energies() const { return triangle_energy_; }  // #T: of the last evaluation, without the pull
 
   // The #T matrices D_T^T M_T D_T of the second-order model at z by their M_T: the upper triangle row by row (15
   // numbers).

@@ -6,12 +6,6 @@
 namespace reflines {
 namespace {
 
-using Complex = std::complex<double>;
-
-// The smallest |w| / |N|^2 (the visibility) at which derivatives are evaluated; the energy gives such triangles no
-// weight.
-constexpr double kSmallestVisibility = 1e-6;
-
 // The coefficients of 2 (N.b)(N.c) - (b.c) N.N for N = (-p, -q, 1): |N|^2 times the component along c of b reflected in
 // N.
 struct Quadratic {
@@ -44,10 +38,6 @@ ReflectionFunction::ReflectionFunction(const ImagePlane& frame, const Vector3& v
   cqq_ = {r2.cqq, r1.cqq};
 }
 
-Complex ReflectionFunction::w(double p, double q) const {
-  return c0_ + p * (cp_ + p * cpp_ + q * cpq_) + q * (cq_ + q * cqq_);
-}
-
 double ReflectionFunction::theta(double p, double q) const {
   const Complex value = w(p, q);
   return std::atan2(value.imag(), value.real());
@@ -55,31 +45,6 @@ double ReflectionFunction::theta(double p, double q) const {
 
 double ReflectionFunction::visibility(double p, double q) const {
   return std::sqrt(std::norm(w(p, q))) / (1 + p * p + q * q);
-}
-
-ThetaDerivatives ReflectionFunction::derivatives(double p, double q, int order) const {
-  Complex value = w(p, q);
-  const double floor = kSmallestVisibility * (1 + p * p + q * q);
-  if (std::norm(value) < floor * floor) value = floor;
-  const double scale = 1.0 / std::norm(value);
-  const Complex inverse(value.real() * scale, -value.imag() * scale);
-  const Complex P = (cp_ + 2 * p * cpp_ + q * cpq_) * inverse, Q = (cq_ + p * cpq_ + 2 * q * cqq_) * inverse;
-  ThetaDerivatives d;
-  d.p = P.imag();
-  d.q = Q.imag();
-  if (order < 2) return d;
-  const Complex A = 2.0 * cpp_ * inverse, B = cpq_ * inverse, C = 2.0 * cqq_ * inverse;
-  const Complex PP = A - P * P, PQ = B - P * Q, QQ = C - Q * Q;  // second derivatives of log w
-  d.pp = PP.imag();
-  d.pq = PQ.imag();
-  d.qq = QQ.imag();
-  if (order < 3) return d;
-  // (log w)_ijk = -w_ij w_k / w^2 - L_ik L_j - L_i L_jk, since w is quadratic.
-  d.ppp = (-A * P - 2.0 * PP * P).imag();
-  d.ppq = (-A * Q - 2.0 * PQ * P).imag();
-  d.pqq = (-C * P - 2.0 * PQ * Q).imag();
-  d.qqq = (-C * Q - 2.0 * QQ * Q).imag();
-  return d;
 }
 
 }  // namespace reflines

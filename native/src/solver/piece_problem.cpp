@@ -187,9 +187,17 @@ void PieceProblem::set_targets(const std::vector<Target>& targets) {
     terms.push_back(terms_.build_crossing(evaluate_lines(piece_.field.z, crossing).gradient));
   }
   energy_.set_terms(std::move(terms));
+  evaluated_ = false;
 }
 
-TargetTerms::Misfit PieceProblem::misfit(const std::vector<Target>& targets) const {
+double PieceProblem::energy() {
+  evaluated_ = false;
+  return energy_.evaluate(z_, nullptr);
+}
+
+TargetTerms::Misfit PieceProblem::misfit(const std::vector<Target>& targets, bool set) const {
+  if (set && evaluated_ && energy_.only_term() && targets.front().theta.size() == 0 && trial_z_ == z_)
+    return terms_.measure_evaluated(targets.front(), energy_, z_);
   TriangleDerivatives u;
   apply_stencils(energy_.stencils(), z_, u);
   return terms_.measure(targets, u);
@@ -211,6 +219,7 @@ const FieldAverage& PieceProblem::average() {
 
 double PieceProblem::evaluate(const Vector& x, Vector* gradient) {
   map_.apply(x, trial_z_);
+  evaluated_ = true;
   if (!gradient) return energy_.evaluate(trial_z_, nullptr);
   const double energy = energy_.evaluate(trial_z_, &gradient_z_);
   map_.pull_back(gradient_z_, *gradient);
@@ -229,6 +238,7 @@ HessianAssembly& PieceProblem::assembly() {
 const SparseMatrix* PieceProblem::pattern() { return !map_.is_selection() ? nullptr : &assembly().pattern(); }
 
 const SparseMatrix& PieceProblem::hessian(const Vector& x, HessianModel model) {
+  evaluated_ = false;
   map_.apply(x, trial_z_);
   const SparseMatrix& whole =
       assembly().assemble(energy_.element_hessians(trial_z_, model), energy_.proximity_hessian());
@@ -269,6 +279,7 @@ std::unique_ptr<CoarseProblem> PieceProblem::coarse(const Vector& x, const Vecto
   if (modes.count == 0) return nullptr;
   modes.places = places();
   modes.images = image_places();
+  evaluated_ = false;
   map_.apply(x, trial_z_);
   return std::make_unique<CoarsePiece>(piece_.field, energy_, std::move(modes), trial_z_, gradient);
 }

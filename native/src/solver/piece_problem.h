@@ -58,7 +58,7 @@ class PieceProblem : public Problem {
 
   // Sets the targets, whose rows follow the region's triangles.
   void set_targets(const std::vector<Target>& targets);
-  double energy() { return energy_.evaluate(z_, nullptr); }
+  double energy();  // at the current heights
   Report minimize(const MinimizerOptions& options, Progress* progress);
 
   // Sets the limit of the moves from the next `minimize` on; rows follow the region's vertices. `rounding` is the error
@@ -76,7 +76,8 @@ class PieceProblem : public Problem {
   bool depends_only_on(int triangle,
                        const Vector& known) const;  // true where all vertices of its stencil have known > 0
 
-  TargetTerms::Misfit misfit(const std::vector<Target>& targets) const;  // at the current heights
+  // Returns the misfit of the current heights. `set` tells that the energy has these targets now.
+  TargetTerms::Misfit misfit(const std::vector<Target>& targets, bool set) const;
   PieceSmoother& smoother() { return smoother_; }
   const PieceSmoother& smoother() const { return smoother_; }
 
@@ -128,6 +129,7 @@ class PieceProblem : public Problem {
   Mask hidden_;                                        // #T
   Vector x_, z_;                                       // current unknowns and heights
   Vector trial_z_, gradient_z_;                        // work space
+  bool evaluated_ = false;                             // the energy was last evaluated at trial_z_
 };
 
 }  // namespace reflines

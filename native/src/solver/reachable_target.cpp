@@ -161,6 +161,7 @@ Report minimize_reachable(PieceProblem& piece, const std::vector<Target>& wanted
       options.gradient_tolerance > kInteractive) {
     return report;
   }
+  if (reachable.empty()) reachable = wanted;
   ReachableTarget target(piece, wanted);
   MinimizerOptions own = options;
   own.gradient_tolerance = std::max(options.gradient_tolerance, kRoundTolerance);

@@ -237,7 +237,7 @@ void ShapeOptimizer::measure(const std::vector<Target>& targets, Report& report)
       const double move = std::abs(piece->move(v));
       report.largest_move = std::max(report.largest_move, std::isfinite(move) ? move : INFINITY);
     }
-    const TargetTerms::Misfit own = piece->misfit(targets);
+    const TargetTerms::Misfit own = piece->misfit(targets, report.termination != Termination::kCancelled);
     squared += own.squared;
     area += own.area;
   }
@@ -259,8 +259,9 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
     for (size_t k = 0; k < before.size(); ++k) pieces_->pieces()[k]->set_heights(before[k]);
     pieces_->set_limit(limit_before);
   };
-  const std::vector<Target> all = with_border(targets);
-  std::vector<Target> reachable = all;
+  const std::vector<Target> joined = border_.empty() ? std::vector<Target>() : with_border(targets);
+  const std::vector<Target>& all = border_.empty() ? targets : joined;
+  std::vector<Target> reachable;
   Report report;
   report.strategy = options.strategy;
   report.termination = Termination::kAlreadyOptimal;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "reflection/element.h"
 #include "reflines/errors.h"
@@ -51,6 +52,7 @@ EnergyTerm TargetTerms::build_term(const Target& target, bool by_value) const {
   term.gradient.resize(by_value ? 0 : row_count_, 2);
   term.theta.resize(by_value ? row_count_ : 0);
   const double scale = by_value ? value_scale(field_) : 1.0;
+#pragma omp parallel for schedule(static) if (row_count_ > kWorthThreads)
   for (int k = 0; k < row_count_; ++k) {
     const int t = quadrature_.triangle_of(k), row = field_.source[t];
     const double wanted_weight = target.weight.size() > 0 ? target.weight(row) : 1.0;
@@ -89,20 +91,41 @@ EnergyTerm TargetTerms::build_crossing(const PlaneVectors& start) const {
 }
 
 TargetTerms::Misfit TargetTerms::measure(const std::vector<Target>& targets, const TriangleDerivatives& u) const {
-  Vector squared(row_count_), area(row_count_);
+  Vector squared = Vector::Zero(row_count_);
 #pragma omp parallel for schedule(static) if (row_count_ > kWorthThreads)
   for (int k = 0; k < row_count_; ++k) {
     const int t = quadrature_.triangle_of(k);
-    area(k) = squared(k) = 0;
-    if (!field_.has_free_vertex(t))
-      continue;  // the misfit of held triangles is constant, and says nothing about the solve
-    double sum = 0;
+    if (!field_.has_free_vertex(t)) continue;
     for (const Target& target : targets)
-      sum += squared_misfit(target, families_[target.family], u.row(k), field_.source[t]);
-    area(k) = quadrature_.weight_of(k) * field_.area(t);
-    squared(k) = area(k) * sum;
+      squared(k) += squared_misfit(target, families_[target.family], u.row(k), field_.source[t]);
   }
-  return {squared.sum(), area.sum()};
+  return sum(std::move(squared));
+}
+
+TargetTerms::Misfit TargetTerms::measure_evaluated(const Target& target, const Energy& energy, const Vector& z) const {
+  const Vector& weight = energy.only_term()->weight;
+  Vector squared = Vector::Zero(row_count_);
+#pragma omp parallel for schedule(static) if (row_count_ > kWorthThreads)
+  for (int k = 0; k < row_count_; ++k) {
+    const int t = quadrature_.triangle_of(k);
+    if (!field_.has_free_vertex(t)) continue;
+    squared(k) = weight(k) > 0 ? energy.triangle_energies()(k) / weight(k)
+                               : squared_misfit(target, families_[target.family],
+                                                apply_stencil(energy.stencils(), k, z), field_.source[t]);
+  }
+  return sum(std::move(squared));
+}
+
+// Sums squared misfits of triangles. That of held triangles is constant, and says nothing about the solve.
+TargetTerms::Misfit TargetTerms::sum(Vector squared) const {
+  double area = 0;
+  for (int k = 0; k < row_count_; ++k) {
+    const int t = quadrature_.triangle_of(k);
+    const double own = field_.has_free_vertex(t) ? quadrature_.weight_of(k) * field_.area(t) : 0.0;
+    squared(k) *= own;
+    area += own;
+  }
+  return {squared.sum(), area};
 }
 
 std::vector<EnergyTerm> TargetTerms::build(const std::vector<Target>& targets) const {

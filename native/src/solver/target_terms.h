@@ -31,9 +31,14 @@ class TargetTerms {
   };
   Misfit measure(const std::vector<Target>& targets, const TriangleDerivatives& u) const;
 
+  // Measures the misfit of heights z (#V) with a gradient target, the only one of `energy`, which was last evaluated
+  // there: without another pass over the stencils.
+  Misfit measure_evaluated(const Target& target, const Energy& energy, const Vector& z) const;
+
  private:
   EnergyTerm build_term(const Target& target, bool by_value) const;
   EnergyTerm build_companion(const Target& target) const;
+  Misfit sum(Vector squared) const;
 
   const HeightField& field_;
   const Quadrature& quadrature_;

@@ -82,6 +82,19 @@ TEST_P(HeldFactorTest, ContactsAreHeldWhereTheyAreAskedFor) {
   }
 }
 
+TEST_P(HeldFactorTest, ForcesAreWhatTheHeldSolutionLeavesOfTheRightSide) {
+  HeldFactor factor(solver);
+  factor.factorize(H, hold({7, 90}), nullptr);
+  ASSERT_TRUE(factor.hold(H, hold({7, 50, 51, 120}), nullptr));  // 90 is released
+  EXPECT_EQ(factor.contacts(), (std::vector<int>{50, 51, 120}));
+  const Vector right = Vector::LinSpaced(kSize, -1.0, 2.0), at = Vector::Constant(kSize, 0.5);
+  const Vector forces = factor.find_forces(right, at);
+  Vector x = right;
+  factor.solve(x, at);
+  const Vector left = right - H.selfadjointView<Eigen::Lower>() * x;
+  EXPECT_LT((forces - left(factor.contacts())).norm(), 1e-9 * forces.norm());
+}
+
 TEST_P(HeldFactorTest, ReleasedUnknownsMoveAsByAFactorWithThem) {
   HeldFactor factor(solver);
   factor.factorize(H, hold({7, 50, 51, 120}), nullptr);

@@ -24,6 +24,7 @@ class TriangularSolve {
   struct Workspace {
     Vector above;  // #columns above all subtrees: what a subtree adds there
     Vector below;  // for the rows below a supernode
+    Vector column;
   };
   struct Supernode;
 
@@ -36,7 +37,7 @@ class TriangularSolve {
   EliminationSubtrees tree_;
   std::vector<int> place_above_;  // n: of the columns above all subtrees in their order, else -1
   std::vector<Workspace> work_;   // #subtrees
-  Vector below_;
+  Vector below_, column_;
 };
 
 }  // namespace reflines
