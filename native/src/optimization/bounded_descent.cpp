@@ -273,7 +273,7 @@ void BoundedDescent::finish(Vector& x) {
   if (moved) x = work_.x;
 }
 
-// A new matrix that saves no steps is not paid for again.
+// Counts the steps that the matrix has cost beyond the usual ones: a new matrix that saved none is not paid for again.
 void BoundedDescent::count_steps() {
   const int steps = report_.iterations - std::max(assembled_at_, 0);
   if (renewed_)

@@ -17,13 +17,13 @@ constexpr int kPanel = 8;
 // The number of columns from which products are summed by groups: shorter chains have less rounding.
 constexpr int kWide = 128, kGroup = 16;
 
-// The distance in numbers at which memory is asked for: 32 kB, a few blocks of usual size. With 8 to 64 kB a solve
+// The distance in numbers at which memory is prefetched: 32 kB, a few blocks of usual size. With 8 to 32 kB a solve
 // takes the same time.
 constexpr int kAhead = 4096, kCacheLine = 8;
 
-// Asks for memory that is read soon; it may lie outside the factor. The second level of the cache takes more requests
+// Prefetches memory that is read soon; it may lie outside the factor. The second level of the cache takes more requests
 // at once than the first: blocks of 72 x 16 numbers come backward at 24 instead of 8 GB/s.
-void ask_for(const double* place, long long numbers) {
+void prefetch(const double* place, long long numbers) {
   for (long long i = 0; i < numbers; i += kCacheLine) __builtin_prefetch(place + i, 0, 2);
 }
 
@@ -81,7 +81,7 @@ void sweep_forward(const FactorBlock& block, double* x, double* below, double* w
     panel.diagonal().triangularView<Eigen::Lower>().solveInPlace(own);
     std::fill_n(inside, panel.rest(), 0.0);
     for (int j = first; j < panel.end(); ++j) {
-      ask_for(block.column(j) + kAhead, block.height());
+      prefetch(block.column(j) + kAhead, block.height());
       add_column(block.column(j) + panel.end(), panel.rest(), x[j], inside);
       add_column(block.column(j) + block.columns, block.below, x[j], group);
     }
@@ -93,7 +93,7 @@ void sweep_forward(const FactorBlock& block, double* x, double* below, double* w
 
 void sweep_backward(const FactorBlock& block, const double* below, double* x) {
   if (block.columns == 1) {
-    ask_for(block.value - kAhead, block.height());
+    prefetch(block.value - kAhead, block.height());
     x[0] -= ConstSegment(block.column(0) + 1, block.below).dot(ConstSegment(below, block.below));
     x[0] /= block.value[0];
     return;
@@ -101,7 +101,7 @@ void sweep_backward(const FactorBlock& block, const double* below, double* x) {
   for (int end = block.columns; end > 0; end -= kPanel) {
     const int first = std::max(0, end - kPanel);
     const Panel panel{block, first, end - first};
-    ask_for(block.column(first) - kAhead, static_cast<long long>(panel.count) * block.height());
+    prefetch(block.column(first) - kAhead, static_cast<long long>(panel.count) * block.height());
     panel.subtract_rows(block.columns, below, block.below, x);
     panel.subtract_rows(end, x + end, panel.rest(), x);
     Segment own(x + first, panel.count);
