@@ -15,7 +15,9 @@ namespace {
 constexpr double kShallow = 0.35;
 
 // Changes up to this many times the region's median are taken for flaws, too. Of 3, 4, 5 and 6: 0.65, 0.57, 0.55, 0.53
-// left of noise, and no more harm.
+// left of noise, and no more harm. The same number bounds what is left of changes that noise does not hide, as their
+// means over disks do: by size alone noise hides features. With noise on stretched meshes a scoop's lines were 4.0
+// degrees off instead of 3.1, and 0.47 of all error was left instead of 0.54; on others both do the same.
 constexpr double kTypical = 5.0;
 
 // Radians over the length: a typical change beyond it, that of triangles near each other taken together, is no noise.
@@ -31,18 +33,25 @@ constexpr double kAveraged = 0.28;
 
 double geman_mcclure(double x) { return 1.0 / ((1.0 + x * x) * (1.0 + x * x)); }
 
+// Returns up to what a change is a flaw: `kShallow`, or some times the typical one, unless features are all over.
+double find_largest(double typical, double alike) {
+  return std::max(kShallow, kTypical * typical * geman_mcclure(alike / kFeaturesAllOver));
+}
+
 }  // namespace
 
 Vector flaw_weight(const TriangleFields& change, const PlanePositions& centers, const Vector& area, double length) {
-  const DiskMean mean(centers, area, kAveraged * length);
   Eigen::MatrixXd columns(change.rows(), change.cols() + 1);
   columns << change.rowwise().squaredNorm(), change;
-  columns = mean.of_columns(columns);
+  columns = DiskMean(centers, area, kAveraged * length).of_columns(columns);
   const Vector size = length * columns.col(0).cwiseSqrt();
-  const double typical = weighted_median(size, area);
-  const double alike = weighted_median(length * columns.rightCols(change.cols()).rowwise().norm(), area);
-  const double largest = std::max(kShallow, kTypical * typical * geman_mcclure(alike / kFeaturesAllOver));
-  return (size / largest).unaryExpr(&geman_mcclure);
+  const Vector mean = length * columns.rightCols(change.cols()).rowwise().norm();
+  const double alike = weighted_median(mean, area);
+  const Vector by_size = size / find_largest(weighted_median(size, area), alike);
+  // Squared, so that the means that noise leaves, up to twice their median, count nothing: unsquared 0.29 instead of
+  // 0.27 of noise is left on a plain panel.
+  const Vector by_mean = (mean / find_largest(alike, alike)).cwiseAbs2();
+  return by_size.cwiseMax(by_mean).unaryExpr(&geman_mcclure);
 }
 
 }  // namespace reflines
