@@ -15,9 +15,9 @@ namespace {
 constexpr double kShallow = 0.35;
 
 // Changes up to this many times the region's median are taken for flaws, too. Of 3, 4, 5 and 6: 0.65, 0.57, 0.55, 0.53
-// left of noise, and no more harm. The same number bounds what is left of changes that noise does not hide, as their
-// means over disks do: by size alone noise hides features. With noise on stretched meshes a scoop's lines were 4.0
-// degrees off instead of 3.1, and 0.47 of all error was left instead of 0.54; on others both do the same.
+// left of noise, and no more harm. The same number bounds the means of changes over disks, which noise does not hide
+// features from. By size alone it does: with noise on stretched meshes a scoop's lines were 4.0 degrees off instead of
+// 3.1, and 0.47 of all error was left instead of 0.54; on others both do the same.
 constexpr double kTypical = 5.0;
 
 // Radians over the length: a typical change beyond it, that of triangles near each other taken together, is no noise.
