@@ -221,10 +221,14 @@ PlanePositions overlapping(const PlanePositions& places, double radius, const st
   return result.topRows(count);
 }
 
+bool is_seen(const Bump& bump, const BumpSearchOptions& options) {
+  return std::abs(bump.height) >= options.least_height && bump.radius >= 0.999 * options.smallest_radius &&
+         bump.radius <= 1.001 * options.largest_radius;
+}
+
 bool is_flaw(const Bump& bump, const BumpSearchOptions& options) {
-  const double height = std::abs(bump.height);
-  return height >= options.least_height && height <= options.greatest_height &&
-         bump.radius >= 0.999 * options.smallest_radius && bump.radius <= 1.001 * options.largest_radius;
+  const double steepness = std::abs(bump.height) / (options.steepness * bump.radius);
+  return bump.explained >= kExplained * std::max(1.0, steepness);
 }
 
 bool is_apart(const Bump& bump, const std::vector<Bump>& others) {
@@ -247,25 +251,27 @@ std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions
     indexes.emplace_back(samples, 1.5 * kReach * radius);  // refined radii are up to 1.3 times larger
     const DiskIndex& index = indexes.back();
     const PlanePositions places = overlapping(thin(seeds, kSeedSpacing * radius), radius, removed);
-    std::vector<Bump> found(places.rows());
+    std::vector<Bump> measured(places.rows());
 #pragma omp parallel for schedule(dynamic, 64)
     for (Eigen::Index k = 0; k < places.rows(); ++k) {
       if (progress && progress->cancelled()) continue;
-      found[k] = measure_at(samples, index, places.row(k), radius);
+      measured[k] = measure_at(samples, index, places.row(k), radius);
     }
     if (progress) progress->enter(0.5, "looking for dents");
-    for (const Bump& bump : found) {
-      if (bump.explained > kWorthRefining * kExplained && is_flaw(bump, options))
+    for (const Bump& bump : measured) {
+      if (bump.explained > kWorthRefining * kExplained && is_seen(bump, options))
         candidates.push_back({bump, indexes.size() - 1});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.bump.explained > b.bump.explained; });
-  std::vector<Bump> result;
+  std::vector<Bump> found, result;
   for (const Candidate& candidate : candidates) {
-    if (!is_apart(candidate.bump, result)) continue;
+    if (!is_apart(candidate.bump, found)) continue;
     const Bump best = refine(samples, indexes[candidate.scale], options, candidate.bump);
-    if (best.explained >= kExplained && is_flaw(best, options) && is_apart(best, result)) result.push_back(best);
+    if (best.explained < kExplained || !is_seen(best, options) || !is_apart(best, found)) continue;
+    found.push_back(best);
+    if (is_flaw(best, options)) result.push_back(best);
   }
   return result;
 }

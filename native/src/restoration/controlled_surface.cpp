@@ -61,9 +61,12 @@ Vector CageControlledSurface::gather_faces(const Vector& values) const {
   return (squares.array() / areas.array().max(1e-300)).sqrt();
 }
 
+Mask CageControlledSurface::controls_of(const Mask& vertices) const {
+  return (optimizer_->influence().transpose() * vertices.cast<double>().matrix()).array() > 0;
+}
+
 void CageControlledSurface::hold(const Mask& vertices) {
-  const Vector influence = optimizer_->influence().transpose() * vertices.cast<double>().matrix();
-  const Mask controls = influence.array() > 0;
+  const Mask controls = controls_of(vertices);
   options_.held = options_.held.size() > 0 ? Mask(options_.held || controls) : controls;
   build();
 }

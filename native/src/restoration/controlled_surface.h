@@ -36,6 +36,9 @@ class ControlledSurface {
   // Returns the moves of the surface (#V) from those of its control vertices (#C). No vertex moves further than they.
   virtual Vector surface_move(const Vector& control_move) const = 0;
 
+  // Returns the control vertices (#C) that move any of these vertices of the surface (#V).
+  virtual Mask controls_of(const Mask& vertices) const = 0;
+
   // Converts values of triangles (#F) to those of the faces that the caller knows: the triangles themselves, or the
   // faces of a cage, each with the root mean square over its surface.
   virtual Vector gather_faces(const Vector& values) const = 0;
@@ -59,6 +62,7 @@ class MeshSurface : public ControlledSurface {
   bool can_limit() const override;
   bool controls_every_vertex() const override { return true; }
   Vector surface_move(const Vector& control_move) const override { return control_move; }
+  Mask controls_of(const Mask& vertices) const override { return vertices; }
   Vector gather_faces(const Vector& values) const override { return values; }
   void hold(const Mask& vertices) override;
 
@@ -88,6 +92,7 @@ class CageControlledSurface : public ControlledSurface {
   bool can_limit() const override { return false; }
   bool controls_every_vertex() const override { return false; }
   Vector surface_move(const Vector& control_move) const override { return optimizer_->influence() * control_move; }
+  Mask controls_of(const Mask& vertices) const override;
   Vector gather_faces(const Vector& values) const override;
   void hold(const Mask& vertices) override;
 

@@ -10,7 +10,7 @@ namespace reflines {
 // smoothing up to `length` makes to the fields of the lines. `centers` (#F x 2) and `area` (#F, 0 where a triangle does
 // not count) are those of the triangles in the image plane. A flaw is shallow, or it is everywhere: noise and ripples
 // change the lines of the whole region alike, so that the median tells them, and features change them at few places and
-// much more.
+// much more. The changes of noise cancel out over some edges, those of features do not.
 Vector flaw_weight(const TriangleFields& change, const PlanePositions& centers, const Vector& area, double length);
 
 }  // namespace reflines

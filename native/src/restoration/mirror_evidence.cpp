@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/cage_symmetry.h"
+#include "restoration/designed_difference.h"
 #include "restoration/disk_mean.h"
 
 namespace reflines {
@@ -17,6 +18,7 @@ constexpr double kPaired = 0.97;                          // of the vertices
 constexpr double kNeighbourhood = 0.56;                   // of the length: over which roughness is compared
 // Roughness counts up to this many root mean squares of the difference's own: fillets are rough on both sides.
 constexpr double kRoughest = 2.0;
+constexpr double kTaper = 0.28;  // of the length: beside designed differences corrections rise from nothing
 
 PlanePositions plane_normals(const PlanePositions& xy, const PlanePositions& axes) {
   const PlanePositions centred = xy.rowwise() - xy.colwise().mean();
@@ -27,7 +29,8 @@ PlanePositions plane_normals(const PlanePositions& xy, const PlanePositions& axe
   return result;
 }
 
-// Partners across the line n . p = offset; empty where too few vertices have one.
+// Partners across the line n . p = offset, itself where there is none; empty where too few vertices have one that is
+// nearly as high.
 IndexVector paired(const PlanePositions& xy, const Vector& z, double diagonal, const Vector2& n, double offset) {
   Positions flat(xy.rows(), 3);
   flat << xy, Vector::Zero(xy.rows());
@@ -35,9 +38,11 @@ IndexVector paired(const PlanePositions& xy, const Vector& z, double diagonal, c
   IndexVector partner = mirror_pairs(flat, plane, kPairTolerance * diagonal);
   Eigen::Index found = 0;
   for (Eigen::Index v = 0; v < partner.size(); ++v) {
-    const bool good = partner(v) >= 0 && std::abs(z(v) - z(partner(v))) < kDeepest * diagonal;
-    found += good;
-    if (!good) partner(v) = static_cast<int>(v);
+    if (partner(v) < 0) {
+      partner(v) = static_cast<int>(v);
+    } else {
+      found += std::abs(z(v) - z(partner(v))) < kDeepest * diagonal;
+    }
   }
   return static_cast<double>(found) >= kPaired * static_cast<double>(partner.size()) ? partner : IndexVector();
 }
@@ -100,10 +105,8 @@ class Roughness {
   std::vector<std::vector<int>> neighbors_;
 };
 
-}  // namespace
-
-IndexVector find_mirror_partners(const PlanePositions& xy, const Vector& z, double diagonal,
-                                 const PlanePositions& axes) {
+// Finds the partners of vertices, however differently high they are.
+IndexVector find_images(const PlanePositions& xy, const Vector& z, double diagonal, const PlanePositions& axes) {
   const PlanePositions normals = plane_normals(xy, axes);
   for (Eigen::Index k = 0; k < normals.rows(); ++k) {
     if (normals.row(k).norm() < 0.3) continue;
@@ -117,9 +120,20 @@ IndexVector find_mirror_partners(const PlanePositions& xy, const Vector& z, doub
   return {};
 }
 
+}  // namespace
+
+IndexVector find_mirror_partners(const PlanePositions& xy, const Vector& z, double diagonal,
+                                 const PlanePositions& axes) {
+  IndexVector result = find_images(xy, z, diagonal, axes);
+  for (Eigen::Index v = 0; v < result.size(); ++v) {
+    if (std::abs(z(v) - z(result(v))) >= kDeepest * diagonal) result(v) = static_cast<int>(v);
+  }
+  return result;
+}
+
 MirrorEvidence find_mirror_evidence(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal,
                                     double length, const PlanePositions& axes) {
-  MirrorEvidence result{find_mirror_partners(xy, z, diagonal, axes), Vector::Zero(z.size())};
+  MirrorEvidence result{find_images(xy, z, diagonal, axes), Vector::Zero(z.size()), Mask::Constant(z.size(), false)};
   if (result.partner.size() == 0) return result;
   const Vector difference = z - z(result.partner);
   if ((difference.array() == 0).all()) return result;
@@ -127,6 +141,9 @@ MirrorEvidence find_mirror_evidence(const PlanePositions& xy, const Vector& z, c
   const DiskMean mean(xy, Vector::Ones(z.size()), kNeighbourhood * length);
   const Vector unbounded = roughness.of(difference).cwiseAbs();
   const Vector most = kRoughest * mean.of(unbounded.cwiseAbs2()).cwiseSqrt();
+  result.design = find_designed_differences(xy, F, difference, most / kRoughest, kDeepest * diagonal, length);
+  const Vector spared =
+      DiskMean(xy, Vector::Ones(z.size()), kTaper * length).of((!result.design).cast<double>().matrix());
   // Bounded as that of the heights is: else the peak of a dent would count in the difference only, and a quarter of it
   // would be taken for a bump of the other side.
   const Vector own = mean.of(unbounded.cwiseMin(most).cwiseAbs2());
@@ -137,7 +154,8 @@ MirrorEvidence find_mirror_evidence(const PlanePositions& xy, const Vector& z, c
   const Vector excess = mean.of(rough - rough(result.partner).eval());
   for (Eigen::Index v = 0; v < z.size(); ++v) {
     const double share = own(v) > 0 ? std::clamp(0.5 + 0.5 * excess(v) / own(v), 0.0, 1.0) : 0.5;
-    result.correction(v) = -share * difference(v);
+    result.correction(v) = result.design(v) ? 0.0 : -share * spared(v) * difference(v);
+    if (result.design(v)) result.partner(v) = static_cast<int>(v);
   }
   return result;
 }

@@ -1,5 +1,6 @@
 // A panel that is symmetric but for its flaws tells them from design: what one half has and the other has not is a
-// flaw, and it is taken from the half that is the rougher for it.
+// flaw, and it is taken from the half that is the rougher for it; unless it is as steep as no flaw is (see
+// designed_difference.h).
 #pragma once
 
 #include "reflines/types.h"
@@ -10,6 +11,7 @@ struct MirrorEvidence {
   IndexVector
       partner;  // #V: the vertex in each vertex's place on the other side, itself on the plane; empty: no symmetry
   Vector correction;  // #V: heights to add so that partners are equally high; 0 where they are
+  Mask design;        // #V: where they differ by design; their own partners there
 };
 
 // Finds the partners of vertices xy (#V x 2), z (#V), each itself where it has none; empty where the vertices are not

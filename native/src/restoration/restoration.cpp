@@ -271,6 +271,10 @@ Vector Restoration::use_symmetry(const Vector& z) {
   if (report_.mirrored == 0) return z;
   const Positions& C = surface_.control_positions();
   partner_ = find_mirror_partners(frame_.project(C), frame_.heights(C), diagonal_of(C), axes);
+  const Mask design = surface_.controls_of(evidence.design);
+  for (Eigen::Index c = 0; c < partner_.size(); ++c) {
+    if (design(c)) partner_(c) = static_cast<int>(c);
+  }
   // Given mirror images move alike whatever was found.
   if (options_.partner.size() > 0 || !is_held_symmetrically()) partner_.resize(0);
   return z + evidence.correction;
