@@ -34,7 +34,7 @@ def solved(**settings: object) -> bpy.types.PropertyGroup:
 def test_a_smoothing_tells_first_how_much_smoother_the_lines_are(capfd: pytest.CaptureFixture) -> None:
     report = solved(length=0.414)
     ratio = report.score_before / report.score_after
-    assert report.headline().startswith(f"Lines {ratio:.1f} x smoother, moved at most 1.8 mm")
+    assert report.headline().startswith(f"Lines {ratio:.1f} x smoother, moved at most 1.4 mm")
     told = [line for line in capfd.readouterr().out.splitlines() if line.startswith("Info: Lines")]
     assert told == [f"Info: {report.headline()} (Panel)"]  # the solver's numbers are in the panel Numbers
 

@@ -18,9 +18,9 @@ def plain(x: Array, _: Array) -> Array:
 
 
 def scoop(x: Array, y: Array) -> Array:
-    """0.3 % of the diagonal deep, steep at its front and gentle behind."""
+    """0.6 % of the diagonal deep, steep at its front and gentle behind."""
     u, v = (x - 0.15) / 0.08, (y - 0.08) / 0.056
-    return -0.003 * DIAGONAL * np.exp(-np.where(u > 0, u / 0.6, u / 1.6)**2 - v**2)
+    return -0.006 * DIAGONAL * np.exp(-np.where(u > 0, u / 0.6, u / 1.6)**2 - v**2)
 
 
 def handle(x: Array, y: Array) -> Array:
@@ -82,7 +82,7 @@ def press(V: Array, F: Array, z: Array) -> tuple[Array, object]:
 
 @pytest.mark.parametrize("cells", [30, 42])
 def test_a_clean_scoop_is_no_dent(cells: int) -> None:
-    """Its parts look like bumps within the height that dents have: taken out, the lines on it were 3 degrees off."""
+    """Its parts look like bumps, less high than the deepest dents: taken out, all lines were 0.6 degrees off in the mean."""
     V, F = make_panel(scoop, cells, jitter=0.25)
     positions, report = press(V, F, 0 * V[:, 0])
     assert report.mirrored == 0
@@ -96,7 +96,7 @@ def test_ripples_go_from_a_panel_with_a_scoop() -> None:
     assert error(positions, V, F) < 0.4 * error(V + z[:, None] * VIEW, V, F)
 
 
-@pytest.mark.parametrize("depth", [0.0006, 0.0012])
+@pytest.mark.parametrize("depth", [0.0006, 0.0012, 0.0018])
 def test_dents_of_a_plain_panel_go(depth: float) -> None:
     V, F = make_panel(plain, 42, jitter=0.25)
     z = dents(V, depth)

@@ -14,13 +14,12 @@ namespace {
 constexpr double kSmallestRadius = 0.25, kLargestRadius = 0.63;
 constexpr double kLeastHeight = 7e-4;
 
-// Height over radius of a dent whose lines shift by two degrees. Of 0.020, 0.024, 0.028 and 0.033, on analytic panels
-// with a badge, a scoop, a handle's recess or a row of knobs, cut in three ways: the knobs are harmed by 0.10, 0.33,
-// 0.65 and 0.77 degrees at worst, and of dents twice as deep as those of the judge 0.41, 0.14, 0.14 and 0.14 is left.
-// With a bound of the height alone, 0.028 of the length, the parts of a scoop of 0.3 % of the diagonal went: of ripples
-// on that panel 0.56 to 0.84 was left instead of 0.24 to 0.39, and the clean one was harmed by 0.5 degrees instead of
-// 0.05. Dents three times as deep stay now, as nothing tells them from knobs.
-constexpr double kSteepness = 0.024;
+// Height over radius. A dent of 1.3 per mille of the diagonal, 5 % of it wide, is as steep, and of its lines four degrees
+// are off. Of 0.024, 0.05 and 0.08, on analytic panels: of ripples beside a scoop of 0.6 % of the diagonal 0.24, 0.24 and
+// 1.1 is left (1.2 with a bound of the height alone), and of dents of 1.8 per mille 0.9, 0.14 and 0.14. A scoop of 0.3 %
+// and a row of knobs are as steep as such dents, and nothing tells them from these: clean ones are harmed by 0.5 and 0.8
+// degrees from 0.05 on.
+constexpr double kSteepness = 0.05;
 
 constexpr int kRounds = 3;
 

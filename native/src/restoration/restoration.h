@@ -61,6 +61,7 @@ class Restoration {
                                          std::vector<double>& typical);
   void measure_result(const Vector& move);
   std::vector<LineScore> score(const Vector& z);
+  bool has_gain() const;
   int find_worse_light() const;
   SmoothPanelResult judge(const Vector& move);
   void tell();

@@ -65,7 +65,7 @@ TEST(BumpRemoval, TakesDentsOutThatOverlap) {
 
 // A knob as round as a dent: no bump explains more than all of a surface, which it would have to.
 TEST(BumpRemoval, LeavesASteepBumpAndItsPartsAlone) {
-  const Found found = remove_from({{{0.6, 0.45}, 0.008}});
+  const Found found = remove_from({{{0.6, 0.45}, 0.02}});
   EXPECT_EQ(found.count, 0);
   EXPECT_EQ(found.left, found.planted);
 }
