@@ -14,11 +14,11 @@ namespace {
 constexpr double kSmallestRadius = 0.25, kLargestRadius = 0.63;
 constexpr double kLeastHeight = 7e-4;
 
-// Height over radius. A dent of 1.3 per mille of the diagonal, 5 % of it wide, is as steep, and of its lines four degrees
-// are off. Of 0.024, 0.05 and 0.08, on analytic panels: of ripples beside a scoop of 0.6 % of the diagonal 0.24, 0.24 and
-// 1.1 is left (1.2 with a bound of the height alone), and of dents of 1.8 per mille 0.9, 0.14 and 0.14. A scoop of 0.3 %
-// and a row of knobs are as steep as such dents, and nothing tells them from these: clean ones are harmed by 0.5 and 0.8
-// degrees from 0.05 on.
+// Height over radius. A dent of 1.3 per mille of the diagonal, 5 % of it wide, is as steep, and of its lines four
+// degrees are off. Of 0.024, 0.05 and 0.08, on analytic panels: of ripples beside a scoop of 0.6 % of the diagonal
+// 0.24, 0.24 and 1.1 is left (1.2 with a bound of the height alone), and of dents of 1.8 per mille 0.9, 0.14 and 0.14.
+// A scoop of 0.3 % and a row of knobs are as steep as such dents, and nothing tells them from these: clean ones are
+// harmed by 0.5 and 0.8 degrees from 0.05 on.
 constexpr double kSteepness = 0.05;
 
 constexpr int kRounds = 3;

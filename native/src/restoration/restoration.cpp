@@ -101,6 +101,15 @@ double measure_gain(const std::vector<double>& before, const std::vector<double>
   return sum / static_cast<double>(after.size());
 }
 
+// Returns the share of a move with which a light's unevenness rises by kVisiblyWorse. Its square is nearly a parabola
+// over the share, given by the unevenness at the start, with half of the move and with the whole.
+double bearable_share(double start, double half, double whole) {
+  const double curve = 2.0 * (whole * whole + start * start - 2.0 * half * half);
+  const double slope = whole * whole - start * start - curve;
+  const double rise = (kVisiblyWorse * kVisiblyWorse - 1.0) * start * start;
+  return 2.0 * rise / (slope + std::sqrt(std::max(slope * slope + 4.0 * curve * rise, 0.0)));
+}
+
 std::string degrees(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
@@ -157,17 +166,17 @@ Vector Restoration::find_move() {
   return find_worse_light() < 0 ? spare_every_light(move) : move;
 }
 
-// Returns the largest share of the move with which no light is less even than at the start, where that is most of it.
-// The square of the unevenness is nearly a parabola over the share, given by its values at 0, a half and 1.
+// Returns the largest share of the move with which no light is visibly less even than at the start, where that is most
+// of it.
 Vector Restoration::spare_every_light(const Vector& move) {
   const std::vector<double> whole = report_.unevenness_after;
   if (!is_any_worse()) return move;
   measure_result(0.5 * move);
   double share = 1.0;
   for (size_t k = 0; k < whole.size(); ++k) {
-    const double start = std::pow(report_.unevenness_before[k], 2), half = std::pow(report_.unevenness_after[k], 2);
-    const double curve = 2.0 * (whole[k] * whole[k] + start - 2.0 * half), slope = whole[k] * whole[k] - start - curve;
-    if (whole[k] > report_.unevenness_before[k] && curve > 0) share = std::min(share, kSpared * -slope / curve);
+    if (whole[k] > kVisiblyWorse * report_.unevenness_before[k])
+      share = std::min(share,
+                       kSpared * bearable_share(report_.unevenness_before[k], report_.unevenness_after[k], whole[k]));
   }
   if (share > kLeastShare) {
     measure_result(share * move);
