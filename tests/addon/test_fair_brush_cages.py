@@ -98,8 +98,8 @@ def read_surface(cage: object, faces: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize(("cells", "bound"), [(18, 0.04), (36, 0.1)])
 def test_a_dab_is_the_solve_of_the_whole_cage_with_the_rest_held(cells: int, bound: float) -> None:
-    """What the filter would have seen beyond the window changes the move by 3 %, and by nothing at the circle, so that no
-    seam can be seen; of many faces the surface is sampled more coarsely."""
+    """What the filter would have seen beyond the window changes the move by 3 %, and by nothing at the circle, so that
+    no seam can be seen; of many faces the surface is sampled more coarsely."""
     cage = brushed(cells=cells)
     point = np.array([0.15, -0.1, 0.0])
     place = cage.frame[:2] @ point

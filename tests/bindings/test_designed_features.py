@@ -82,7 +82,7 @@ def press(V: Array, F: Array, z: Array) -> tuple[Array, object]:
 
 @pytest.mark.parametrize("cells", [30, 42])
 def test_a_clean_scoop_is_no_dent(cells: int) -> None:
-    """Its parts look like bumps, less high than the deepest dents: taken out, all lines were 0.6 degrees off in the mean."""
+    """Its parts look like bumps, less high than the deepest dents: taken out, the lines were 0.6 degrees off."""
     V, F = make_panel(scoop, cells, jitter=0.25)
     positions, report = press(V, F, 0 * V[:, 0])
     assert report.mirrored == 0

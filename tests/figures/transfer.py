@@ -15,7 +15,7 @@ SLANT = 0.5  # angle between the waves and the grid, radians
 
 
 def expected(ratio: np.ndarray) -> np.ndarray:
-    """A wave left by the filter: one implicit step of fourth order, halved at the length, whose response is sharpened."""
+    """A wave left by the filter: an implicit step of fourth order, halved at the length, with a sharpened response."""
     step = 1.0 / (1.0 + ratio**-4.0)
     return step**4 * (35.0 - 84.0 * step + 70.0 * step**2 - 20.0 * step**3)
 

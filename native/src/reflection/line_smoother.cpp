@@ -35,7 +35,7 @@ constexpr double kFeatureWeight = 1e-3;
 // The least weight of untrusted data, which determine the smoothed field where nothing else does.
 constexpr double kLeastTrust = 1e-6;
 
-// Of H^3, H^2, H and 1 in p(H) / H^4.
+// The coefficients of H^3, H^2, H and 1 in p(H) / H^4.
 constexpr double kSharpened[4] = {-20.0, 70.0, -84.0, 35.0};
 
 PlaneVectors shorten(const PlaneVectors& gradient, double longest) {
