@@ -27,8 +27,8 @@
 
 namespace reflines {
 
-// The elements that the systems of all lengths share: one element a triangle, whose "gradient" is the mean of its
-// corners, and after these one element a patch of a vertex, whose Hessian is that vertex's.
+// The elements that the systems of all lengths share: one a triangle, whose "gradient" is the mean of its corners, and
+// after these one a patch of a vertex, whose "Hessian" is M_v^-1/2 D_v (see vertex_hessian.h).
 struct SmootherElements {
   Stencils stencils;        // #T + #P
   std::vector<int> center;  // #P: the vertex of each patch
