@@ -20,9 +20,8 @@ using TriangleFields = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 // where E is the thin-plate energy (see vertex_hessian.h), in which the jump across an edge counts by the square root
 // of the edge's weight w_e. Without weights a wave of wavelength w keeps 1 / (1 + (length / w)^4) of its amplitude in
 // any direction on any mesh, 0.5 at w = length. (A sum of squared jumps, which is cheaper, keeps 0.02 to 0.49.) Where a
-// design changes its
-// curvature along a line (a fillet's edge, a character line), the jumps are many times the median; their weight w_e
-// falls to nothing, and the field is smoothed on both sides of the line but not across it.
+// design changes its curvature along a line (a fillet's edge, a character line), the jumps are many times the median;
+// their weight w_e falls to nothing, and the field is smoothed on both sides of the line but not across it.
 struct SmootherOptions {
   // Times the median jump, to which each edge counts by the square root of its triangles' area: jumps of this size have
   // a quarter of the full weight. Were edges only counted, features, which have most of them, would set the scale: the
