@@ -37,6 +37,8 @@ Minimizer::Minimizer(LinearSolverKind kind) : workspace_(std::make_unique<Worksp
 
 Minimizer::~Minimizer() = default;
 
+void Minimizer::forget_factor() { workspace_->forget_factor(); }
+
 Report Minimizer::minimize(Problem& problem, Vector& x, const MinimizerOptions& options, Progress* progress) {
   check(options);
   return measure_time([&] { return Descent(problem, options, progress, *workspace_).run(x); });

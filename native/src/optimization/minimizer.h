@@ -38,6 +38,9 @@ class Minimizer {
   Report minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options = {},
                   Progress* progress = nullptr);
 
+  // Makes the next solve give the bits of a new minimizer's, with the symbolic analysis kept.
+  void forget_factor();
+
  private:
   std::unique_ptr<Workspace> workspace_;
 };

@@ -38,6 +38,17 @@ struct Workspace {
            static_cast<Eigen::Index>(held.size()) == n;
   }
 
+  // Forgets what solves left for later ones, but for the analysis, which depends on the pattern alone.
+  void forget_factor() {
+    solver.forget_factor();
+    held_factor.forget();
+    held.clear();
+    memory.clear();
+    many_contacts = false;
+    usual_steps = 1;
+    extra_steps = 0;
+  }
+
   // Analyses the pattern of the matrix, whose values are not read. Returns the number of analyses made, 0 where the
   // pattern is known. Throws Cancelled.
   int analyze(const SparseMatrix& matrix, Problem& problem, const Progress* progress) {

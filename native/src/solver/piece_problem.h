@@ -51,6 +51,7 @@ class PieceProblem : public Problem {
   void scale_move(double share);                        // of the unknowns from the start
   void set_move(const Vector& move);                    // of a mesh's free vertices from the start: #V of the piece
   void reset();  // restores the state as built, so that later solves give the same bits
+  void forget_factor() { minimizer_->forget_factor(); }  // which depends on where a cancelled solve had come to
   const Vector& unknowns() const { return x_; }
   bool is_mesh() const { return kind_ == SurfaceKind::kMesh; }
 

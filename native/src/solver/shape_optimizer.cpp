@@ -256,7 +256,10 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
   std::vector<Vector> before;
   for (const auto& piece : pieces_->pieces()) before.push_back(piece->unknowns());
   const auto restore = [&] {
-    for (size_t k = 0; k < before.size(); ++k) pieces_->pieces()[k]->set_heights(before[k]);
+    for (size_t k = 0; k < before.size(); ++k) {
+      pieces_->pieces()[k]->set_heights(before[k]);
+      pieces_->pieces()[k]->forget_factor();
+    }
     pieces_->set_limit(limit_before);
   };
   const std::vector<Target> joined = border_.empty() ? std::vector<Target>() : with_border(targets);
