@@ -46,7 +46,7 @@ using py::literals::operator""_a;
 // 60 (15 in a chain) the sharp line of a fender of 12 degrees was no crease: 149 degrees of wobble.
 constexpr double kCageCreaseAngle = 1.5 * kCreaseAngle;
 
-std::function<std::unique_ptr<CageOptimizer>()> prepare_optimizer(
+std::function<std::unique_ptr<CageOptimizer>()> prepare_cage_optimizer(
     const Positions& V, const Indices& face_offsets, const Indices& face_vertices, const Vector3& view_direction,
     const Eigen::MatrixXd& line_direction, const std::optional<Mask>& region, const Codes& border,
     const std::optional<Mask>& fixed, const std::optional<Indices>& partner, const std::optional<Indices>& image_of,
@@ -81,8 +81,8 @@ void bind_cage_optimizer(py::module_& module) {
   py::class_<CageOptimizer> optimizer(module, "CageOptimizer", BaseIsSurface(), py::multiple_inheritance(),
                                       py::module_local());
   const auto define = [&](const auto&... arguments) {
-    optimizer.def(py::init(construct(&prepare_optimizer)), arguments...);
-    optimizer.def_static("create", create(&prepare_optimizer), arguments...);
+    optimizer.def(py::init(construct(&prepare_cage_optimizer)), arguments...);
+    optimizer.def_static("create", create(&prepare_cage_optimizer), arguments...);
   };
   define("V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a, "line_direction"_a,
          "region"_a = py::none(), "border"_a = "clamped", "fixed"_a = py::none(), "partner"_a = py::none(),

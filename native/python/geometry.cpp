@@ -32,7 +32,7 @@ double theta_of_normal(const ImagePlane& frame, const ReflectionFunction& reflec
   return reflection.theta(-n.x() / n.z(), -n.y() / n.z());
 }
 
-Vector theta(const Positions& normals, const Positions& views, const Vector3& line_direction) {
+Vector theta_of_normals(const Positions& normals, const Positions& views, const Vector3& line_direction) {
   if (views.rows() != 1 && views.rows() != normals.rows()) {
     throw InvalidInput("There are " + std::to_string(views.rows()) + " view directions for " +
                        std::to_string(normals.rows()) + " normals; give one, or one for each.");
@@ -89,11 +89,11 @@ py::object copy(const NormalFit& fit) {
 
 void bind_geometry(py::module_& module) {
   module.def("image_plane", &image_plane, py::arg("view_direction"), py::arg("line_direction"));
-  module.def("theta", &theta, py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
+  module.def("theta", &theta_of_normals, py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
   module.def(
       "theta",
       [](const Positions& normals, const Vector3& view, const Vector3& line) {
-        return theta(normals, view.transpose(), line);
+        return theta_of_normals(normals, view.transpose(), line);
       },
       py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
   module.def("crease_edges", &creases, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("angle") = kCreaseAngle);

@@ -39,7 +39,7 @@ std::vector<Target> list_targets(const Targets& targets) {
 
 using BuildOptimizer = std::function<std::unique_ptr<ShapeOptimizer>()>;
 
-BuildOptimizer prepare_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
+BuildOptimizer prepare_shape_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
                                  const Eigen::MatrixXd& line_direction, const Codes& border,
                                  const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
                                  const Around& around, const std::optional<Indices>& face_of_triangle,
@@ -128,8 +128,8 @@ void bind_optimizer(py::module_& module) {
   using Release = py::call_guard<ReleaseGil>;
   py::class_<ShapeOptimizer> optimizer(module, "ShapeOptimizer", py::module_local());
   const auto define = [&](const auto&... arguments) {
-    optimizer.def(py::init(construct(&prepare_optimizer)), arguments...);
-    optimizer.def_static("create", create(&prepare_optimizer), arguments...);
+    optimizer.def(py::init(construct(&prepare_shape_optimizer)), arguments...);
+    optimizer.def_static("create", create(&prepare_shape_optimizer), arguments...);
   };
   define(py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
          py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
