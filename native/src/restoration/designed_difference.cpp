@@ -38,7 +38,7 @@ PlanePositions vertex_gradients(const PlanePositions& xy, const Triangles& F, co
   PlanePositions result = PlanePositions::Zero(xy.rows(), 2);
   Vector area = Vector::Zero(xy.rows());
   for (Eigen::Index t = 0; t < F.rows(); ++t) {
-    const Vector2 a = xy.row(F(t, 0)), b = xy.row(F(t, 1)) - xy.row(F(t, 0)), c = xy.row(F(t, 2)) - xy.row(F(t, 0));
+    const Vector2 b = xy.row(F(t, 1)) - xy.row(F(t, 0)), c = xy.row(F(t, 2)) - xy.row(F(t, 0));
     const double doubled = b.x() * c.y() - b.y() * c.x();
     const double up = z(F(t, 1)) - z(F(t, 0)), on = z(F(t, 2)) - z(F(t, 0));
     const Vector2 gradient = Vector2(up * c.y() - on * b.y(), on * b.x() - up * c.x()) * (doubled < 0 ? -1.0 : 1.0);
