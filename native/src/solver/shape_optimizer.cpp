@@ -255,10 +255,10 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
   forget_lines();
   std::vector<Vector> before;
   for (const auto& piece : pieces_->pieces()) before.push_back(piece->unknowns());
-  const auto restore = [&] {
+  const auto restore = [&](bool factors_are_kept) {
     for (size_t k = 0; k < before.size(); ++k) {
       pieces_->pieces()[k]->set_heights(before[k]);
-      pieces_->pieces()[k]->forget_factor();
+      if (!factors_are_kept) pieces_->pieces()[k]->forget_factor();
     }
     pieces_->set_limit(limit_before);
   };
@@ -278,12 +278,12 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
         add_piece_report(own, report);
       if (own.termination == Termination::kCancelled) break;
     }
-    if (report.termination == Termination::kCancelled) restore();
+    if (report.termination == Termination::kCancelled) restore(report.assemblies == 0 && report.solves == 0);
     measure(targets, report);
     check_reach(box_, report.largest_move);
     tell_limit(report);
   } catch (...) {
-    restore();
+    restore(false);
     throw;
   }
   return report;
