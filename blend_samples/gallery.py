@@ -18,8 +18,7 @@ import pictures
 HERE = pathlib.Path(__file__).resolve().parent
 WIDTH = 480  # pixels of each part of a picture of the manual
 TAKEN_WIDTH = 760
-TAKEN = ("live.jpg", "pull_line.jpg", "fair_brush.jpg", "draw_highlight.jpg",
-         "straighten.jpg")  # by hand; window_pictures.py takes the others
+TAKEN = ("live.jpg", "pull_line.jpg")  # by hand; window_pictures.py takes others, and some are in the manual alone
 
 
 @dataclass(frozen=True)
