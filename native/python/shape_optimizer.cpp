@@ -40,12 +40,12 @@ std::vector<Target> list_targets(const Targets& targets) {
 using BuildOptimizer = std::function<std::unique_ptr<ShapeOptimizer>()>;
 
 BuildOptimizer prepare_shape_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
-                                 const Eigen::MatrixXd& line_direction, const Codes& border,
-                                 const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
-                                 const Around& around, const std::optional<Indices>& face_of_triangle,
-                                 const std::string& stencil, const std::string& linear_solver,
-                                 const std::string& crease_rule, const Indices& marked_creases, double crease_angle,
-                                 double proximity, std::shared_ptr<Progress> progress) {
+                                       const Eigen::MatrixXd& line_direction, const Codes& border,
+                                       const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
+                                       const Around& around, const std::optional<Indices>& face_of_triangle,
+                                       const std::string& stencil, const std::string& linear_solver,
+                                       const std::string& crease_rule, const Indices& marked_creases,
+                                       double crease_angle, double proximity, std::shared_ptr<Progress> progress) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;

@@ -38,7 +38,7 @@ class LinearSolver {
   void factorize(const SparseMatrix& matrix, const Progress* progress = nullptr);
   bool has_factor() const;
   void forget_factor() { has_factor_ = false; }  // the analysis stays
-  double diagonal_shift() const;  // shift of the factored A + shift * diag(A); 0 for a sound matrix
+  double diagonal_shift() const;                 // shift of the factored A + shift * diag(A); 0 for a sound matrix
 
   // Solves x <- A^-1 x with the last factor. Allocates only in the first call after `analyze`.
   void solve(Vector& x);
