@@ -8,7 +8,8 @@ matrix does.
     .ci/release.py [--test]
 
 --test: then in a window of both Blenders the repository is added by an address on this machine; the add-on is installed
-from it, used, updated to a version 0.2.0 that is made for it, used again and removed, in one session.
+from it, used, updated to a version 0.2.0 that is made for it, used again and removed, in one session. Blender 3.4
+installs and enables the zip for older ones.
 """
 import argparse
 import hashlib
@@ -19,7 +20,8 @@ import zipfile
 from pathlib import Path
 
 from debian import Unavailable, output
-from matrix import ROOT, inside, ready_root
+from matrix import NAME, ROOT, inside, install, ready_root
+from matrix import USER as LEGACY_USER
 from wheel import version, write_wheel
 
 sys.path.insert(0, str(ROOT / "tests"))
@@ -29,6 +31,8 @@ from lanes import CRASHED, NO_ARCHIVE, Counts, run_reporting, window_command  # 
 BUILD = ROOT / "build/package"
 REPOSITORY = ROOT / "build/repository"
 SUITES = ("trixie", "sid")  # Blender 4.3, 5.2
+LEGACY_SUITE = "bookworm"   # Blender 3.4, which takes a zip, but no repository
+ENABLES = f"import bpy; bpy.ops.preferences.addon_enable(module='{NAME}'); bpy.ops.reflines.smooth.get_rna_type()"
 PLACE = "release"  # of all this in a root
 USER = f"/{PLACE}/blender_user"
 NEXT = "0.2.0"
@@ -77,7 +81,7 @@ def release() -> None:
     shutil.rmtree(REPOSITORY, ignore_errors=True)
     shutil.copytree(made, REPOSITORY)
     (REPOSITORY / "legacy").mkdir()
-    for package in BUILD.glob(f"reflection_lines-{version()}*.zip"):
+    for package in BUILD.glob(f"{NAME}-{version()}*.zip"):
         shutil.copy(package, REPOSITORY / "legacy")
     write_hashes(REPOSITORY)
     for path in sorted(path for path in REPOSITORY.rglob("*") if path.is_file()):
@@ -126,10 +130,25 @@ def test_in(suite: str, older: Path, newer: Path) -> Counts:
     return counts
 
 
+def test_legacy_zip() -> Counts:
+    """Installs and enables the repository's zip for older Blenders in one of these."""
+    root = ready_root(LEGACY_SUITE)
+    (root / "src").mkdir(exist_ok=True)
+    options = ["-b", "--factory-startup", "--python-exit-code", "1", "--python-expr", ENABLES]
+    try:
+        install(root, REPOSITORY / f"legacy/{NAME}-{version()}.zip")
+        output(*inside(root, "blender", *options, env={"BLENDER_USER_RESOURCES": LEGACY_USER}))
+    except (RuntimeError, Unavailable) as error:
+        print(f"{LEGACY_SUITE}: {error}")
+        return CRASHED
+    print(f"{LEGACY_SUITE}: installed from {REPOSITORY.name}/legacy and enabled", flush=True)
+    return Counts(passed=1)
+
+
 def test() -> Counts:
     root = ready_root(SUITES[0])
     newer = make_repository(root, next_version(root / PLACE / "next"), "repository-next")
-    return sum((test_in(suite, REPOSITORY, newer) for suite in SUITES), Counts())
+    return sum((test_in(suite, REPOSITORY, newer) for suite in SUITES), test_legacy_zip())
 
 
 def main() -> int:
