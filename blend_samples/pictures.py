@@ -39,12 +39,12 @@ def side_by_side(pictures: list[pathlib.Path], path: pathlib.Path) -> None:
     image.save()
 
 
-def shrink(path: pathlib.Path, small: pathlib.Path, width: int) -> None:
+def shrink(path: pathlib.Path, small: pathlib.Path, width: int, quality: int = QUALITY) -> None:
     """Writes a JPEG `width` pixels wide. Changes the scene's output settings, so it comes after all rendering."""
     scene = bpy.context.scene
     scene.view_settings.view_transform = 'Standard'
     output = scene.render.image_settings
-    output.file_format, output.color_mode, output.quality = 'JPEG', 'RGB', QUALITY
+    output.file_format, output.color_mode, output.quality = 'JPEG', 'RGB', quality
     image = bpy.data.images.load(str(path))
     image.scale(width, round(image.size[1] * width / image.size[0]))
     image.save_render(str(small), scene=scene)

@@ -21,6 +21,7 @@ Steps = Generator[float, None, None]
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
 STRIP = ("sample", "smoothed", "camera", "stripes", "swept", "own_smoothed")  # row by row, two in each
 COLUMNS, STRIP_WIDTH, WIDTH = 2, 1120, 760  # of pictures in a row; pixels of the strip, and of a single picture
+QUALITY = 60  # per cent: with it the pictures of the manual stay below what a test allows
 
 
 def view_picture(name: str) -> Steps:
@@ -85,7 +86,7 @@ def take_all() -> Steps:
     save(join(STRIP), FOLDER / "first_use.png")
     for name, source, width in (("first_use", "first_use", STRIP_WIDTH), ("toolbar", "toolbar", WIDTH),
                                 ("drag", "drag", WIDTH), ("sidebar", "smoothed", WIDTH)):
-        pictures.shrink(FOLDER / f"{source}.png", FOLDER / f"{name}.jpg", width)
+        pictures.shrink(FOLDER / f"{source}.png", FOLDER / f"{name}.jpg", width, QUALITY)
 
 
 def all_steps() -> Steps:
