@@ -22,7 +22,7 @@ from wheel import version
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
 
-from lanes import CRASHED, Counts, run_reporting  # noqa: E402  (found through the line above)
+from lanes import Counts, crashed, run_reporting  # noqa: E402  (found through the line above)
 
 NAME = "reflection_lines"
 LANES = ("bindings", "addon", "ui")
@@ -134,8 +134,7 @@ def test_suite(suite: str, package: Path) -> Counts:
     try:
         counts = run_lanes(root, install(root, package))
     except (RuntimeError, Unavailable) as error:
-        print(f"{suite}: {error}")
-        counts = CRASHED
+        counts = crashed(f"{suite}: {error}")
     print(f"{suite}: {counts} (root {prepared - start:.0f} s, tests {time.monotonic() - prepared:.0f} s)", flush=True)
     return counts
 

@@ -30,7 +30,7 @@ from windows_python import ready_python
 
 sys.path.insert(0, str(ROOT / "tests"))
 
-from lanes import CRASHED, Counts, junit_counts  # noqa: E402  (found through the line above)
+from lanes import Counts, crashed, junit_counts  # noqa: E402  (found through the line above)
 
 SUITE = "trixie"  # the first that has this compiler
 SOURCES = ("native", "tests", "blend_samples", ".ci/package", ".ci/wine", "CMakeLists.txt", "CMakePresets.json",
@@ -86,7 +86,7 @@ def run_tests(root: Path) -> Counts:
         options = ["--gtest_brief=1", f"--gtest_output=xml:Z:/{REPORTS}/{report.name}"]
         command = ["wine", f"/{BUILD}/{program.name}", *options]
         subprocess.run(inside(root, *command, env=WINE), stderr=subprocess.DEVNULL)
-        counts = junit_counts(report) if report.is_file() else CRASHED
+        counts = junit_counts(report) if report.is_file() else crashed(f"{program.stem}: no report")
         print(f"{program.stem}: {counts}", flush=True)
         total += counts
     return total
@@ -114,11 +114,12 @@ def faults(root: Path, module: Path) -> Iterator[str]:
 
 def inspect(root: Path) -> Counts:
     found = modules(root)
-    total = Counts(failed=len(PYTHON_SUITES) - len(found))
+    missing = len(PYTHON_SUITES) - len(found)
+    total = sum((crashed("windows: a module is not there") for _ in range(missing)), Counts())
     for module in found:
         wrong = list(faults(root, module))
         print(f"{module.name}: {module.stat().st_size / 1e6:.1f} MB, {'; '.join(wrong) or 'as it should be'}")
-        total += Counts(passed=not wrong, failed=bool(wrong))
+        total += crashed(f"{module.name}: {wrong[0]}") if wrong else Counts(passed=1)
     return total
 
 
@@ -126,7 +127,7 @@ def give_modules(root: Path, folder: Path) -> Counts:
     """Builds the modules and copies them where none has a fault."""
     folder.mkdir(parents=True)
     if not build(root, [f"reflines_{tag}" for tag in PYTHON_SUITES]):
-        return CRASHED
+        return crashed("windows: the modules cannot be built")
     counts = inspect(root)
     for module in modules(root) if counts.failed == 0 else ():
         shutil.copy(module, folder)
@@ -135,7 +136,7 @@ def give_modules(root: Path, folder: Path) -> Counts:
 
 def test(root: Path) -> Counts:
     if not build(root, ["all"]):
-        return CRASHED
+        return crashed("windows: the build failed")
     total = run_tests(root) + inspect(root)
     for module in modules(root):
         tag = re.search(r"\.cp(\d+)-", module.name)[1]

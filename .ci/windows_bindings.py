@@ -14,7 +14,7 @@ from matrix import ROOT, inside
 
 sys.path.insert(0, str(ROOT / "tests"))
 
-from lanes import CRASHED, Counts, judged, junit_counts  # noqa: E402  (found through the line above)
+from lanes import Counts, crashed, judged, junit_counts  # noqa: E402  (found through the line above)
 
 TOOLS = ("python3-numpy", "python3-pytest", "python3-scipy")  # of the tests, in the root
 TESTS = "src/tests/bindings"
@@ -49,7 +49,8 @@ def settings(root: Path, program: Path, wine: dict[str, str]) -> dict[str, str]:
 def loaded(root: Path, env: dict[str, str]) -> Counts:
     """Whether the module loads; prints where and in which Python."""
     command = ["python3", "-c", "import reflines; print('loaded', reflines.LOADED)"]
-    return Counts(passed=1) if subprocess.run(inside(root, *command, env=env)).returncode == 0 else CRASHED
+    found = subprocess.run(inside(root, *command, env=env)).returncode == 0
+    return Counts(passed=1) if found else crashed("windows: the module does not load")
 
 
 def run_tests(root: Path, env: dict[str, str]) -> Counts:
@@ -62,9 +63,10 @@ def run_tests(root: Path, env: dict[str, str]) -> Counts:
     try:
         code = subprocess.run(inside(root, *command, env=env), timeout=LIMIT).returncode
     except subprocess.TimeoutExpired:
-        print(f"the binding tests did not end within {LIMIT} s")
-        return CRASHED
-    counts = junit_counts(root / REPORT) if (root / REPORT).is_file() else CRASHED
+        return crashed(f"windows: the binding tests did not end within {LIMIT} s")
+    if not (root / REPORT).is_file():
+        return crashed("windows: the binding tests left no report")
+    counts = junit_counts(root / REPORT)
     return judged(counts, code, "bindings") + Counts(skipped=len(LEFT_OUT))
 
 
@@ -83,10 +85,10 @@ def compare(root: Path, env: dict[str, str]) -> Counts:
     runs = [subprocess.run([sys.executable, ROOT / ".ci/wine/moves.py", here], env=os.environ | {"PYTHONPATH": path}),
             subprocess.run(inside(root, "python3", "/src/.ci/wine/moves.py", f"/{there.relative_to(root)}", env=env))]
     if any(run.returncode != 0 for run in runs):
-        return CRASHED
+        return crashed("windows: the solves that are compared did not end")
     difference = largest_difference(here, there)
     print(f"solves of Windows and Linux differ by {difference:.1e} of the largest move; {DIFFERENCE:.0e} is allowed")
-    return Counts(passed=1) if difference <= DIFFERENCE else CRASHED
+    return Counts(passed=1) if difference <= DIFFERENCE else crashed("windows: other solves than on Linux")
 
 
 def test_bindings(root: Path, program: Path, module: Path, wine: dict[str, str]) -> Counts:

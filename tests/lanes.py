@@ -2,7 +2,8 @@
 
 A lane is one way of running tests: native executables, Python without Blender, Blender in the background, Blender in a
 window, the rules of the house, an installed package in other Debians. A lane that crashes before its counts can be read
-counts as one failure.
+counts as one failure. Each failed test is named by a line "FAILED name: why" where it fails, and once more at the end,
+below what hundreds of other tests print.
 
 REFLINES_ADDON names an installed add-on and REFLINES_FOLDER its place: then the lanes test that one, and build nothing.
 """
@@ -18,7 +19,7 @@ import time
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,6 +28,7 @@ PYTHON = "/usr/bin/python3"
 BLENDER = "/usr/bin/blender"
 INSTALLED = "REFLINES_ADDON" in os.environ
 COUNTS_LINE = re.compile(r"(\d+) passed, (\d+) failed, (\d+) skipped\s*")
+FAILED_LINE = re.compile(r"((?:\w+: )?)FAILED (.+)")  # tests that run beside others have a mark before it
 
 
 @dataclass(frozen=True)
@@ -34,32 +36,49 @@ class Counts:
     passed: int = 0
     failed: int = 0
     skipped: int = 0
+    failures: tuple[str, ...] = ()  # what is known of those that failed: "name: why"
 
     def __add__(self, other: "Counts") -> "Counts":
-        return Counts(self.passed + other.passed, self.failed + other.failed, self.skipped + other.skipped)
+        return Counts(self.passed + other.passed, self.failed + other.failed, self.skipped + other.skipped,
+                      self.failures + other.failures)
 
     def __str__(self) -> str:
         return f"{self.passed} passed, {self.failed} failed, {self.skipped} skipped"
 
 
-CRASHED = Counts(failed=1)
 NO_ARCHIVE = 75  # how .ci/package.py ends where Debian's archive cannot be had
 
 
+def failed_test(case: ElementTree.Element) -> str | None:
+    """The name of a failed test of a JUnit file and the first line of its message; None where it did not fail."""
+    for kind in ("failure", "error"):
+        found = case.find(kind)
+        if found is not None:
+            why = (found.get("message") or found.text or kind).strip().splitlines()
+            return f"{case.get('classname')}.{case.get('name')}: {why[0] if why else kind}"
+    return None
+
+
 def junit_counts(path: Path) -> Counts:
-    """The counts of a JUnit file, as both CTest and pytest write it."""
+    """The counts of a JUnit file, as both CTest and pytest write it; prints the failed tests."""
     cases = list(ElementTree.parse(path).getroot().iter("testcase"))
-    failed = sum(1 for case in cases if case.find("failure") is not None or case.find("error") is not None)
+    failures = tuple(what for what in map(failed_test, cases) if what is not None)
+    print(*(f"FAILED {what}\n" for what in failures), sep="", end="", flush=True)
     idle = ("notrun", "disabled")
     skipped = sum(1 for case in cases if case.find("skipped") is not None or case.get("status") in idle)
-    return Counts(len(cases) - failed - skipped, failed, skipped)
+    return Counts(len(cases) - len(failures) - skipped, len(failures), skipped, failures)
+
+
+def crashed(what: str) -> Counts:
+    """One failure of tests that did not come to be counted; prints it as that of a test."""
+    print(f"FAILED {what}", flush=True)
+    return Counts(failed=1, failures=(what,))
 
 
 def judged(counts: Counts, code: int, what: str) -> Counts:
     """A non-zero exit without a counted failure is a failure all the same."""
     if code != 0 and counts.failed == 0:
-        print(f"{what}: exit code {code} although no test is counted as failed")
-        return counts + CRASHED
+        return counts + crashed(f"{what}: exit code {code} although no test is counted as failed")
     return counts
 
 
@@ -71,11 +90,9 @@ def run_with_junit(command: Sequence[str], report: Path, env: dict[str, str] | N
     try:
         code = subprocess.run(command, cwd=ROOT, env=env, timeout=timeout).returncode
     except subprocess.TimeoutExpired:
-        print(f"{command[0]}: no end after {timeout} s")
-        return CRASHED
+        return crashed(f"{command[0]}: no end after {timeout} s")
     if not report.is_file():
-        print(f"{command[0]}: exit code {code} and no report")
-        return CRASHED
+        return crashed(f"{command[0]}: exit code {code} and no report")
     return judged(junit_counts(report), code, command[0])
 
 
@@ -109,18 +126,18 @@ def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int, 
                                stderr=subprocess.STDOUT, start_new_session=True)
     watch = threading.Timer(timeout, os.killpg, (process.pid, signal.SIGKILL))
     watch.start()
-    counts = None
+    counts, failures = None, []
     for line in process.stdout:
         print(mark + line, end="", flush=True)
-        found = COUNTS_LINE.fullmatch(line)
+        found, failure = COUNTS_LINE.fullmatch(line), FAILED_LINE.match(line)
         counts = Counts(*map(int, found.groups())) if found else counts
+        failures += [mark + "".join(failure.groups())] if failure else []
     code = process.wait()
     watch.cancel()
     if counts is None or code == -signal.SIGKILL:
         why = "no line of counts" if counts is None else f"stopped after {timeout} s"
-        print(f"{command[-1]}: exit code {code}, {why}")
-        return CRASHED
-    return judged(counts, code, command[-1])
+        return crashed(f"{command[-1]}: exit code {code}, {why}")
+    return judged(replace(counts, failures=tuple(failures)), code, command[-1])
 
 
 def script_options(script: str) -> list[str]:
@@ -173,8 +190,7 @@ def packed_lane(*script: str) -> Counts:
     if packed == NO_ARCHIVE:
         return Counts(skipped=1)
     if packed != 0:
-        print("there is no package to test")
-        return CRASHED
+        return crashed("there is no package to test")
     return rooted_lane(*script)
 
 
@@ -247,8 +263,7 @@ def run_lanes(names: Sequence[str]) -> Counts:
         print(f"== {name}", flush=True)
         start = time.monotonic()
         if LANES[name].built and not built:
-            print("the native build failed, so this lane cannot run")
-            counts = CRASHED
+            counts = crashed(f"{name}: the native build failed, so this lane cannot run")
         else:
             counts = LANES[name].run()
         print(f"== {name}: {counts} ({time.monotonic() - start:.0f} s)", flush=True)
@@ -263,6 +278,7 @@ def main() -> int:
     parser.add_argument("--all", action="store_true", help="with the lanes that otherwise run only by name: matrix, "
                                                               "release, windows, asan, tsan, fuzz")
     total = run_lanes(chosen_lanes(parser.parse_args()))
+    print(*(f"== failed: {what}\n" for what in total.failures), sep="", end="")
     print(total)
     return 0 if total.failed == 0 and total.passed + total.skipped > 0 else 1
 

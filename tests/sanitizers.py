@@ -16,7 +16,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from lanes import CRASHED, PYTHON, ROOT, Counts, native_lane, run_with_junit
+from lanes import PYTHON, ROOT, Counts, crashed, native_lane, run_with_junit
 
 # Seconds of one input. A press fits small matrices to look for dents: with sanitizers that takes 160 times as long.
 FUZZERS = {"shape": 5, "cage": 5, "grids": 5, "press": 25}
@@ -98,7 +98,7 @@ def binding_file(path: Path, env: dict[str, str]) -> Counts:
 
 def asan() -> Counts:
     if not built("asan"):
-        return CRASHED
+        return crashed("asan: the build failed")
     env = asan_environment()
     return native_lane("asan", env) + binding_tests(env)
 
@@ -117,16 +117,15 @@ def tsan() -> Counts:
     env = os.environ | {"TSAN_OPTIONS": f"ignore_noninstrumented_modules=1:suppressions={suppressions('races', RACES)}",
                         "OMP_NUM_THREADS": "4", "OMP_TOOL_LIBRARIES": archer.strip()}  # not always found
     if not catches_a_race(env):
-        print("the racy program was not caught")
-        return CRASHED
+        return crashed("tsan: the racy program was not caught")
     if not built("tsan"):
-        return CRASHED
+        return crashed("tsan: the build failed")
     return Counts(passed=1) + native_lane("tsan", env)
 
 
 def fuzz(minutes: float = 1.0, seed: int = 0) -> Counts:
     if not built("asan", *(f"fuzz_{name}" for name in FUZZERS)):
-        return CRASHED
+        return crashed("fuzz: the build failed")
     return sum((fuzzed(name, minutes, seed) for name in FUZZERS), Counts())
 
 
@@ -141,7 +140,7 @@ def fuzzed(name: str, minutes: float, seed: int) -> Counts:
                "-max_len=600", "-print_final_stats=1", "-verbosity=0", f"-artifact_prefix={kept}-"]
     code = subprocess.run(command, cwd=ROOT, env=asan_environment() | {"OMP_NUM_THREADS": "1"}).returncode
     print(f"fuzz {name}: exit code {code}", flush=True)
-    return Counts(passed=1) if code == 0 else CRASHED
+    return Counts(passed=1) if code == 0 else crashed(f"fuzz {name}: exit code {code}")
 
 
 def main() -> int:

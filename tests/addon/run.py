@@ -14,13 +14,21 @@ import installation
 HERE = Path(__file__).resolve().parent
 
 
+def reason(report: pytest.TestReport) -> str:
+    """The first line of what a failed test raised, as far as pytest knows it."""
+    crash = getattr(report.longrepr, "reprcrash", None)
+    return (crash.message if crash else str(report.longrepr)).strip().partition("\n")[0]
+
+
 class Counter:
-    """Prints the one line that the test lanes read."""
+    """Prints what the test lanes read: a line for each failed test, and the line of counts."""
 
     def pytest_terminal_summary(self, terminalreporter: object) -> None:
         stats = terminalreporter.stats
-        failed = len(stats.get("failed", [])) + len(stats.get("error", []))
-        terminalreporter.write_line(f"{len(stats.get('passed', []))} passed, {failed} failed, "
+        failed = [*stats.get("failed", []), *stats.get("error", [])]
+        for report in failed:
+            terminalreporter.write_line(f"FAILED {report.nodeid}: {reason(report)}")
+        terminalreporter.write_line(f"{len(stats.get('passed', []))} passed, {len(failed)} failed, "
                                     f"{len(stats.get('skipped', []))} skipped")
 
 

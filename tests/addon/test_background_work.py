@@ -13,6 +13,7 @@ from reflection_lines import native, native_call
 from reflection_lines.interactive.background_work import BackgroundWork
 
 PATIENCE = 30.0  # seconds
+ATTEMPTS = 100   # on a machine with other work, which may keep a short call waiting
 OPERATORS = 500  # with a context of a script's: a thread that ran Python at any time crashed Blender within 100
 
 
@@ -129,8 +130,12 @@ def test_long_native_calls_are_not_waited_for_and_short_ones_are(made):
         return times
 
     worker = made(work, lambda: ended.append(True))
-    worker.submit(1)
-    assert worker.has_outcome() and worker.take() == 1
+    at_once = False
+    for _ in range(ATTEMPTS):
+        worker.submit(1)
+        at_once = at_once or worker.has_outcome()
+        assert taken(worker) == 1
+    assert at_once
     start = time.monotonic()
     worker.submit(10**6)
     assert time.monotonic() - start < 1.0 and not worker.is_idle() and worker.take() is None

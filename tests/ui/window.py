@@ -78,9 +78,9 @@ def all_steps(tests: tuple[Test, ...]) -> Generator[float, None, None]:
         try:
             yield from test(Window())
             passed += 1
-        except BaseException:  # noqa: BLE001  (a Blender that is not ended waits for a user for ever)
+        except BaseException as error:  # noqa: BLE001  (a Blender that is not ended waits for a user for ever)
             traceback.print_exc()
-            print(f"FAILED {test.__name__}")
+            print(f"FAILED {test.__name__}: {type(error).__name__}: {error}".partition("\n")[0])
     print(f"{passed} passed, {len(tests) - passed} failed, 0 skipped")
     sys.stdout.flush()
     os._exit(0 if passed == len(tests) else 1)

@@ -1,0 +1,38 @@
+"""The lanes name each failed test, also where tests print their counts themselves."""
+import os
+import sys
+from pathlib import Path
+
+import lanes
+
+JUNIT = """<testsuites><testsuite><testcase classname="a" name="good"/>
+<testcase classname="a" name="bad"><failure message="1 is not 2&#10;more"/></testcase>
+<testcase classname="a" name="idle"><skipped/></testcase></testsuite></testsuites>"""
+
+
+def reported(text: str, code: int = 0, mark: str = "") -> lanes.Counts:
+    """What is read of a program that prints a text and ends with a code."""
+    command = [sys.executable, "-c", f"import sys; print({text!r}); sys.exit({code})"]
+    return lanes.run_reporting(command, os.environ, 60, mark)
+
+
+def test_a_junit_file_names_what_failed(tmp_path: Path, capsys) -> None:
+    (tmp_path / "report.xml").write_text(JUNIT)
+    assert lanes.junit_counts(tmp_path / "report.xml") == lanes.Counts(1, 1, 1, ("a.bad: 1 is not 2",))
+    assert capsys.readouterr().out == "FAILED a.bad: 1 is not 2\n"
+
+
+def test_printed_failures_are_named_with_the_marks_of_their_lanes() -> None:
+    printed = "FAILED first: why\nbeside: FAILED second: why\nnot FAILED here: no\n3 passed, 2 failed, 0 skipped"
+    counts = reported(printed, code=1, mark="lane: ")
+    assert counts == lanes.Counts(3, 2, 0, ("lane: first: why", "lane: beside: second: why"))
+
+
+def test_a_crash_is_a_failure_with_a_name() -> None:
+    for counts in (reported("no counts", code=3), reported("1 passed, 0 failed, 0 skipped", code=3)):
+        assert counts.failed == 1 and len(counts.failures) == 1 and "exit code 3" in counts.failures[0]
+
+
+def test_sums_keep_the_names() -> None:
+    total = sum([lanes.Counts(1, 1, 0, ("a",)), lanes.Counts(), lanes.Counts(0, 1, 0, ("b",))], lanes.Counts())
+    assert total == lanes.Counts(1, 2, 0, ("a", "b")) and str(total) == "1 passed, 2 failed, 0 skipped"
