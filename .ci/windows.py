@@ -113,9 +113,10 @@ def faults(root: Path, module: Path) -> Iterator[str]:
 
 
 def inspect(root: Path) -> Counts:
-    found = modules(root)
-    missing = len(PYTHON_SUITES) - len(found)
-    total = sum((crashed("windows: a module is not there") for _ in range(missing)), Counts())
+    found, total = modules(root), Counts()
+    for tag in PYTHON_SUITES:
+        if not any(f".cp{tag}-" in module.name for module in found):
+            total += crashed(f"windows: no module for CPython {tag}")
     for module in found:
         wrong = list(faults(root, module))
         print(f"{module.name}: {module.stat().st_size / 1e6:.1f} MB, {'; '.join(wrong) or 'as it should be'}")

@@ -136,7 +136,7 @@ def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int, 
     watch.cancel()
     if counts is None or code == -signal.SIGKILL:
         why = "no line of counts" if counts is None else f"stopped after {timeout} s"
-        return crashed(f"{command[-1]}: exit code {code}, {why}")
+        return Counts(failures=tuple(failures)) + crashed(f"{command[-1]}: exit code {code}, {why}")
     return judged(replace(counts, failures=tuple(failures)), code, command[-1])
 
 

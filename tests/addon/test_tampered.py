@@ -44,12 +44,9 @@ def test_other_text_is_no_record(solved, text) -> None:
 @pytest.mark.parametrize("shape", hostile_files.BOMBS)
 def test_nothing_large_is_unpacked(solved, shape) -> None:
     text = hostile_files.large_bomb(shape)
-    taken = []
-    for _ in range(3):  # a machine with other work may be slow once
-        start = time.monotonic()
-        assert solve_record.decode_solve(solved, text) is None
-        taken.append(time.monotonic() - start)
-    assert min(taken) < 0.2  # unpacking takes 0.5 s and more
+    start = time.thread_time()  # which other work on the machine does not add to
+    assert solve_record.decode_solve(solved, text) is None
+    assert time.thread_time() - start < 0.2  # unpacking takes 0.5 s and more
 
 
 def test_one_bad_record_does_not_stop_the_others(solved) -> None:

@@ -31,6 +31,7 @@ def test_printed_failures_are_named_with_the_marks_of_their_lanes() -> None:
 def test_a_crash_is_a_failure_with_a_name() -> None:
     for counts in (reported("no counts", code=3), reported("1 passed, 0 failed, 0 skipped", code=3)):
         assert counts.failed == 1 and len(counts.failures) == 1 and "exit code 3" in counts.failures[0]
+    assert reported("FAILED first: why", code=3).failures[0] == "first: why"
 
 
 def test_sums_keep_the_names() -> None:
