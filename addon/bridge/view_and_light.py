@@ -86,8 +86,18 @@ def find_obstacle(scene: bpy.types.Scene) -> str:
     return native.STATE.problem or scene.reflection_lines.missing()
 
 
+def refuse_obstacle(scene: bpy.types.Scene) -> None:
+    """Refuses where no tool can run now."""
+    obstacle = find_obstacle(scene)
+    if obstacle:
+        raise Refusal(obstacle)
+
+
 def read_scene_view(scene: bpy.types.Scene, center: np.ndarray) -> View:
-    """Reads the scene's view and light for a patch whose centre, in world space, is given."""
+    """Reads the scene's view and light for a patch whose centre, in world space, is given; refuses where one is
+    missing: while a tool runs, scripts and other windows can remove them.
+    """
+    refuse_obstacle(scene)
     settings = scene.reflection_lines
     return build_view(settings.camera, settings.light, center)
 

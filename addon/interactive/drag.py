@@ -10,7 +10,7 @@ from typing import Protocol
 import bpy
 import numpy as np
 
-from ..bridge import facing, read_mesh, region_faces, units, view_region, write_mesh
+from ..bridge import facing, read_mesh, region_faces, units, view_and_light, view_region, write_mesh
 from ..bridge.write_mesh import EditVertices
 from ..model.gain import Gain
 from ..model.patch import Patch
@@ -106,12 +106,16 @@ class Drag:
 
     def find_objects(self) -> list[bpy.types.Object]:
         """Returns the dragged objects; refuses where somebody else has changed one of them."""
-        found = [bpy.data.objects.get(patch.name) for patch in self.patches]
-        for ob, patch, shown, counts in zip(found, self.patches, self.shown, self.counts, strict=True):
-            same = ob is not None and ob.type == 'MESH' and read_mesh.count_elements(ob) == counts
-            if not same or not read_mesh.has_positions(ob, patch, shown):
-                raise Refusal(f"{patch.name} was changed while it was dragged: it is left as it is now")
-        return found
+        return [self.find_object(which) for which in range(len(self.patches))]
+
+    def find_object(self, which: int) -> bpy.types.Object:
+        """Returns one of the dragged objects; refuses where somebody else has changed it."""
+        patch = self.patches[which]
+        ob = bpy.data.objects.get(patch.name)
+        same = ob is not None and ob.type == 'MESH' and read_mesh.count_elements(ob) == self.counts[which]
+        if not same or not read_mesh.has_positions(ob, patch, self.shown[which]):
+            raise Refusal(f"{patch.name} was changed while it was dragged: it is left as it is now")
+        return ob
 
     def update_request(self, context: bpy.types.Context, *, final: bool = False) -> None:
         """Sets the tool's properties from the drag's values, and builds the request for them."""
@@ -119,18 +123,23 @@ class Drag:
             if self.values.is_touched(index):
                 setattr(self.tool, handle.name, self.values.value(index))
         # The settings are read after each target, since a panel's size sets its length.
+        objects = self.find_objects()
         wanted = [(self.tool.build_target(context, ob, patch), self.tool.read_solve_settings(context.scene))
-                  for ob, patch in zip(self.find_objects(), self.patches, strict=True)]
+                  for ob, patch in zip(objects, self.patches, strict=True)]
         builds, settings = zip(*wanted, strict=True)
         press = self.tool.choose_press() if final else None
         self.request = SolveRequest(builds, settings, final, press=press)
-        falloff = self.tool.read_falloff(context, self.find_objects()[0], self.patches[0])
+        falloff = self.tool.read_falloff(context, objects[0], self.patches[0])
         self.circle_points = (falloff_circle.sample_circle(falloff.centre, falloff.radius, self.frame)
                               if falloff is not None else None)
 
     def submit_request(self, context: bpy.types.Context, *, final: bool = False) -> None:
-        """Submits the request of the present values; a refusal is shown in the header."""
+        """Submits the request of the present values; a refusal of these is shown in the header. Refuses where no values
+        could help, since somebody else has changed a mesh, or removed the view camera or the light.
+        """
         self.moved = False
+        self.find_objects()
+        view_and_light.refuse_obstacle(context.scene)
         try:
             self.update_request(context, final=final)
         except Refusal as refusal:
@@ -209,9 +218,13 @@ class Drag:
         context.workspace.status_text_set(None)
 
     def abort(self, context: bpy.types.Context) -> None:
-        """Restores the mesh and ends the drag, when Blender exits, opens another file or disables the add-on."""
-        with suppress(Refusal):  # the mesh is gone, or was changed by something else
-            self.restore()
+        """Restores the meshes and ends the drag, when it cannot go on, and when Blender exits, opens another file or
+        disables the add-on.
+        """
+        every = zip(self.patches, self.before, self.shown, self.vertices, strict=True)
+        for which, (patch, before, shown, vertices) in enumerate(every):
+            with suppress(Refusal):  # this one is gone, or was changed by something else
+                write_mesh.write_positions(self.find_object(which), patch, before, shown, vertices)
         self.end(context)
 
 

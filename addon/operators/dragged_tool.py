@@ -118,12 +118,15 @@ class DraggedTool(SolveTool):
         return Drag(self, context)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        result = {'CANCELLED'}
         try:
-            return self.handle_timer(context) if event.type == 'TIMER' else self.handle_event(context, event)
+            result = self.handle_timer(context) if event.type == 'TIMER' else self.handle_event(context, event)
         except Refusal as refusal:
-            self.end_drag(context)
             self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        finally:  # Blender drops the operator after an error that nobody expected, too
+            if result == {'CANCELLED'} and self.drag is not None:
+                self.cancel(context)
+        return result
 
     def handle_timer(self, context: bpy.types.Context) -> set[str]:
         """Submits moved values, and takes what the work has finished."""
@@ -205,6 +208,6 @@ class DraggedTool(SolveTool):
         drag.end(context)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Restores the mesh when Blender exits or opens another file."""
+        """Restores the mesh when the drag cannot go on, and when Blender exits or opens another file."""
         drag, self.drag = self.drag, None
         drag.abort(context)

@@ -45,6 +45,17 @@ class Window:
         self.event(kind, 'PRESS', **modifiers)
         self.event(kind, 'RELEASE', **modifiers)
 
+    def read_last_report(self) -> str:
+        """The last line of what Blender's Info editor tells, which another editor is for a moment."""
+        area = self.area('PROPERTIES')
+        area.type = 'INFO'
+        region = next(region for region in area.regions if region.type == 'WINDOW')
+        with bpy.context.temp_override(window=self.window, area=area, region=region):
+            bpy.ops.info.select_all(action='SELECT')
+            bpy.ops.info.report_copy()
+        area.type = 'PROPERTIES'
+        return bpy.context.window_manager.clipboard.strip().rpartition("\n")[2]
+
     def redraw(self) -> None:
         for area in self.window.screen.areas:
             area.tag_redraw()
