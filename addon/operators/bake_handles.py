@@ -70,26 +70,32 @@ the scene moves the panel"""
         """Takes a frame and begins with the next, or ends. Other events are swallowed: an undo would meet a scene at
         another frame.
         """
-        if event.type in CANCEL_KEYS and event.value == 'PRESS':
-            self.end_modal(context)
-            self.bake.cancel()
-            return self.drop({'CANCELLED'})
-        if event.type != 'TIMER':
-            return {'RUNNING_MODAL'}
+        result = {'CANCELLED'}
         try:
-            solution = self.work.take()
-            if solution is None and self.work.is_alive():
-                return {'RUNNING_MODAL'}
-            self.bake.take(solution or Refusal("The solver stopped: the mesh is as it was before"))
-            if not self.bake.is_done():
-                self.work.submit(self.bake.gather_next())
-                self.show_progress(context)
-                return {'RUNNING_MODAL'}
-            self.end_modal(context)
-            return self.finish()
+            if event.type == 'TIMER':
+                result = self.go_on(context)
+            elif event.type not in CANCEL_KEYS or event.value != 'PRESS':
+                result = {'RUNNING_MODAL'}
         except Refusal as refusal:
-            self.end_modal(context)
-            return self.give_up(refusal)
+            self.report({'ERROR'}, str(refusal))
+        finally:  # Blender drops the operator after an error that nobody expected, too
+            if result == {'CANCELLED'}:
+                self.take_back(context)
+        return result
+
+    def go_on(self, context: bpy.types.Context) -> set[str]:
+        """Takes a frame, where it is done, and begins with the next; raises a refusal."""
+        solution = self.work.take()
+        if solution is None and self.work.is_alive():
+            return {'RUNNING_MODAL'}
+        self.bake.take(solution or Refusal("The solver stopped: the mesh is as it was before"))
+        if not self.bake.is_done():
+            self.work.submit(self.bake.gather_next())
+            self.show_progress(context)
+            return {'RUNNING_MODAL'}
+        result = self.finish()
+        self.end_modal(context)
+        return result
 
     def finish(self) -> set[str]:
         self.bake.write()
@@ -120,6 +126,12 @@ the scene moves the panel"""
         context.window_manager.event_timer_remove(self.timer)
         self.area.header_text_set(None)
         context.workspace.status_text_set(None)
+
+    def take_back(self, context: bpy.types.Context) -> None:
+        """Goes back to the frame and the mode before, where the bake does not go on."""
+        self.end_modal(context)
+        self.bake.cancel()
+        self.drop(set())
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Goes back to the frame before, when Blender exits or opens another file."""

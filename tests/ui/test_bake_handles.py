@@ -149,4 +149,34 @@ def test_escape_leaves_no_bit_changed(driver: window.Window) -> Steps:
     yield from settled(driver)
 
 
-window.run(test_a_handle_is_keyed_baked_and_played, test_escape_leaves_no_bit_changed)
+def remove_camera() -> None:
+    bpy.data.objects.remove(bpy.context.scene.reflection_lines.camera)
+
+
+def break_bake() -> None:
+    """An error of ours that nobody expected."""
+    kind = sys.modules["reflection_lines"].interactive.handle_bake.HandleBake
+    right = kind.find_scene
+
+    def fail(bake: object) -> None:
+        kind.find_scene = right
+        raise ZeroDivisionError
+    kind.find_scene = fail
+
+
+def test_a_bake_that_cannot_go_on_takes_all_back_and_says_so(driver: window.Window) -> Steps:
+    for how, told in ((remove_camera, "No view camera: press Add View Camera"), (break_bake, "ZeroDivisionError")):
+        yield from keyed(driver)
+        ob, scene = bpy.context.view_layer.objects.active, bpy.context.scene
+        scene.frame_set(7)
+        before, scene.reflection_lines.bake.step = scenes.fingerprint(ob), 1
+        baking(driver)
+        assert ob.mode == 'OBJECT'
+        how()
+        yield 1.0
+        assert ob.mode == 'EDIT' and scene.frame_current == 7 and scenes.fingerprint(ob) == before
+        assert told in driver.read_last_report()
+
+
+window.run(test_a_handle_is_keyed_baked_and_played, test_escape_leaves_no_bit_changed,
+           test_a_bake_that_cannot_go_on_takes_all_back_and_says_so)
