@@ -79,7 +79,8 @@ shape, Discard takes it back; both can wait until the file is opened again"""
             patch = self.prepare(context, active)
         except Refusal as refusal:
             context.view_layer.objects.active = active
-            bpy.ops.object.mode_set(mode=mode)
+            if active.mode != mode:  # of a hidden or linked object no mode can be set, not even the one it is in
+                bpy.ops.object.mode_set(mode=mode)
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
         self.begin(context, bpy.data.objects[patch.name], patch)

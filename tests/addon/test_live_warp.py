@@ -134,6 +134,20 @@ def test_a_lattice_that_folds_over_is_not_applied(panel) -> None:
     end("discard")
 
 
+def test_a_refusal_on_a_hidden_panel_is_a_sentence(panel) -> None:
+    """Of a hidden object Blender sets no mode."""
+    scenes.edit_inner(panel)
+    scenes.smooth()
+    scenes.object_mode()
+    bpy.context.scene.reflection_lines.warp.lattice = None
+    panel.hide_viewport = True
+    scenes.activate(panel)
+    bpy.context.view_layer.update()
+    with pytest.raises(RuntimeError, match="^Error: There is no warp lattice"):
+        start()
+    assert panel.mode == 'OBJECT'
+
+
 def test_other_tools_wait_for_the_end(panel) -> None:
     start()
     scenes.activate(panel)
