@@ -127,9 +127,9 @@ class HandleBake:
         self.leave()
 
     def leave(self) -> None:
-        """Goes back to the frame before."""
+        """Goes back to the frame before. Setting the frame that is there would undo changes without a key."""
         scene, (whole, part) = bpy.data.scenes.get(self.scene), self.before
-        if scene is not None:
+        if scene is not None and (scene.frame_current, scene.frame_subframe) != self.before:
             scene.frame_set(whole, subframe=part)
 
     def cancel(self) -> None:

@@ -135,6 +135,17 @@ def test_fractions_of_frames_drivers_and_a_range_of_ones_own(panel) -> None:
     assert bake(start=1, end=11, step=10) == {'FINISHED'} and len(find_baked(ob)) == 2
 
 
+def test_a_bake_that_is_refused_at_once_leaves_changes_without_a_key(panel) -> None:
+    assert pull(UP) == {'FINISHED'}
+    door = bpy.data.objects.new("Door", None)
+    bpy.context.collection.objects.link(door)
+    door.keyframe_insert("location", frame=1)
+    door.location.x = 5.0
+    with pytest.raises(RuntimeError, match="key the place of a handle first"):
+        bake()
+    assert door.location.x == 5.0
+
+
 def test_what_cannot_be_baked_is_refused_and_changes_no_bit(panel) -> None:
     assert not bpy.ops.reflines.bake_handles.poll()
     assert pull(UP) == {'FINISHED'}
