@@ -4,23 +4,31 @@ import numpy as np
 
 from ..model.line_surface import LineSurface, Place, PlaneTriangles
 from . import view_region
+from .view_region import View
 
 
 class ScreenSurface:
-    """A surface at the start of a session as a 3D view shows it; projected anew when the view is turned."""
+    """A surface at the start of a session as a 3D view shows it; projected anew when the view is turned, and where the
+    mouse comes to another one of the four in Quad View.
+    """
 
     def __init__(self, surface: LineSurface, area: bpy.types.Area) -> None:
         self.surface, self.area = surface, area
+        self.last = (-1, -1)  # place over a view that was asked for, pixels of the window
         self.matrix = np.zeros((4, 4))  # of the last projection, to pixels of the region
         self.triangles: PlaneTriangles | None = None
         self.depth = np.empty(0)  # #V x 2: homogeneous w, and depth
 
-    def find_place(self, x: float, y: float) -> Place | None:
-        """Returns the foremost place at a pixel of the window; None beside the surface, and over a sidebar."""
-        if not view_region.is_over_view(self.area, int(x), int(y)):
+    def find_place(self, x: float, y: float, *, stay: bool = False) -> Place | None:
+        """Returns the foremost place at a pixel of the window; None beside the surface, over a sidebar, and, where it
+        is to `stay` in the view of the last place, over another one.
+        """
+        view = view_region.find_view_at(self.area, int(x), int(y))
+        if view is None or stay and view != self.find_view():
             return None
+        self.last = int(x), int(y)
         self.project()
-        region = view_region.find_view_region(self.area)
+        region = view[0]
         found, weights = self.triangles.find(np.array([x - region.x, y - region.y]))
         if not len(found):
             return None
@@ -30,9 +38,13 @@ class ScreenSurface:
         front = int((weights * self.depth[corners, 1]).sum(axis=1).argmin())
         return Place(int(found[front]), weights[front])
 
+    def find_view(self) -> View:
+        """Returns the view of the last place."""
+        return view_region.find_view_at(self.area, *self.last) or view_region.list_views(self.area)[0]
+
     def project(self) -> None:
         """Projects the surface, where the view has changed."""
-        matrix = compute_pixel_matrix(self.area)
+        matrix = compute_pixel_matrix(self.find_view())
         if self.triangles is not None and np.array_equal(matrix, self.matrix):
             return
         self.matrix = matrix
@@ -41,22 +53,22 @@ class ScreenSurface:
 
     def measure_pixel(self, point: np.ndarray) -> float:
         """Returns the length of a pixel across the view at a point (3), world units."""
-        matrix = compute_pixel_matrix(self.area)
+        matrix = compute_pixel_matrix(self.find_view())
         across = np.linalg.norm(matrix[:2, :3], axis=1).mean()
         return float(matrix[3] @ np.append(point, 1.0)) / across
 
     def find_pixels(self, points: np.ndarray) -> np.ndarray:
         """Returns where points (#P x 3) are seen, in pixels of the window: #P x 2, NaN behind the viewer."""
-        region = view_region.find_view_region(self.area)
-        return project_points(compute_pixel_matrix(self.area), points)[0] + [region.x, region.y]
+        view = self.find_view()
+        return project_points(compute_pixel_matrix(view), points)[0] + [view[0].x, view[0].y]
 
 
-def compute_pixel_matrix(area: bpy.types.Area) -> np.ndarray:
+def compute_pixel_matrix(view: View) -> np.ndarray:
     """Returns the matrix (4 x 4) from world space to homogeneous pixels of the view's region."""
-    region = view_region.find_view_region(area)
+    region, region_3d = view
     to_pixels = np.diag([0.5 * region.width, 0.5 * region.height, 1.0, 1.0])
     to_pixels[:2, 3] = 0.5 * region.width, 0.5 * region.height
-    return to_pixels @ np.array(area.spaces.active.region_3d.perspective_matrix)
+    return to_pixels @ np.array(region_3d.perspective_matrix)
 
 
 def project_points(matrix: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,10 +1,19 @@
 """Tests whether the mouse is over a 3D view itself, or over the sidebar, a header or a toolbar that covers it."""
 import bpy
 
+View = tuple[bpy.types.Region, bpy.types.RegionView3D]
+
 
 def find_view_region(area: bpy.types.Area) -> bpy.types.Region:
-    """Returns the region of a 3D view's area that shows the scene."""
+    """Returns the region of a 3D view's area that shows the scene, the first of four in Quad View."""
     return next(region for region in area.regions if region.type == 'WINDOW')
+
+
+def list_views(area: bpy.types.Area) -> list[View]:
+    """Returns the regions of a 3D view's area that show the scene, each with its view: four in Quad View."""
+    regions = [region for region in area.regions if region.type == 'WINDOW']
+    space = area.spaces.active  # its region_3d is that of the last region
+    return list(zip(regions, space.region_quadviews or [space.region_3d], strict=True))
 
 
 def covers(region: bpy.types.Region, x: int, y: int) -> bool:
@@ -12,12 +21,18 @@ def covers(region: bpy.types.Region, x: int, y: int) -> bool:
     return 0 <= x - region.x < region.width and 0 <= y - region.y < region.height and region.width > 1
 
 
-def is_over_view(area: bpy.types.Area, x: int, y: int) -> bool:
-    """Returns whether nothing but the scene is at a place (pixels of the window). The view's region reaches below the
-    sidebar where regions overlap.
+def find_view_at(area: bpy.types.Area, x: int, y: int) -> View | None:
+    """Returns what shows the scene at a place (pixels of the window), None where something else does. The view's region
+    reaches below the sidebar where regions overlap.
     """
-    others = (region for region in area.regions if region.type != 'WINDOW')
-    return covers(find_view_region(area), x, y) and not any(covers(region, x, y) for region in others)
+    if any(covers(region, x, y) for region in area.regions if region.type != 'WINDOW'):
+        return None
+    return next((view for view in list_views(area) if covers(view[0], x, y)), None)
+
+
+def is_over_view(area: bpy.types.Area, x: int, y: int) -> bool:
+    """Returns whether nothing but the scene is at a place (pixels of the window)."""
+    return find_view_at(area, x, y) is not None
 
 
 def find_view_left(area: bpy.types.Area) -> int:

@@ -45,7 +45,7 @@ class BrushStroke:
 
     def dab(self, place: np.ndarray, size: float, brush: Brush) -> bool:
         """Dabs at a place; returns False beside the panel."""
-        found = self.screen.find_place(*place)
+        found = self.screen.find_place(*place, stay=self.last is not None)
         if found is None:
             return False
         point = self.surface.read_point(found, self.surface.start)

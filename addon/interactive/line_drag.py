@@ -124,7 +124,7 @@ class LineDrag(Drag):
 
     def draw_on(self) -> None:
         """Draws on to the place under the mouse."""
-        place = self.screen.find_place(*self.mouse)
+        place = self.screen.find_place(*self.mouse, stay=True)
         if place is None:
             return
         ends = [self.surface.read_point(each, self.surface.start) for each in (self.stroke[-1], place)]
@@ -134,7 +134,7 @@ class LineDrag(Drag):
     def pull_held(self, *, back: bool) -> None:
         """Moves the end of the held handle under the mouse."""
         own = self.handles[self.held]
-        place = None if back else self.screen.find_place(*self.mouse)
+        place = None if back else self.screen.find_place(*self.mouse, stay=True)
         if place is None and not back:
             return  # beside the panel
         if back:
@@ -325,7 +325,8 @@ class LineDrag(Drag):
         self.looked = True
         if self.surface is None:
             return
-        self.hover, self.near = self.screen.find_place(*self.mouse), None
+        at_work = self.held is not None or bool(self.stroke)
+        self.hover, self.near = self.screen.find_place(*self.mouse, stay=at_work), None
         dots = self.list_dots()
         if dots and self.hover is not None:
             points = np.array([self.find_dot(self.handles[index].dots[number]) for index, number in dots])

@@ -3,9 +3,11 @@ import bpy
 import numpy as np
 from bpy_extras.view3d_utils import region_2d_to_location_3d
 
-from ..bridge import scene_objects, view_and_light
+from ..bridge import scene_objects, view_and_light, view_region
+from ..bridge.view_region import View
+from ..interactive import drag_input
 
-NAVIGATION = {'MIDDLEMOUSE', 'WHEELUPMOUSE', 'WHEELDOWNMOUSE'}
+NAVIGATION = {*drag_input.NAVIGATION, *drag_input.NOTCHES}
 
 
 class REFLINES_OT_pick_direction(bpy.types.Operator):
@@ -22,17 +24,21 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         self.points = []
-        self.window = next(region for region in context.area.regions if region.type == 'WINDOW')
+        self.view: View | None = None  # that of the first click, one of four in Quad View
         context.window_manager.modal_handler_add(self)
         context.workspace.status_text_set("Click where the line starts, then where it goes. Esc: leave all as it is")
         return {'RUNNING_MODAL'}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type in {'ESC', 'RIGHTMOUSE'}:
-            context.workspace.status_text_set(None)
+            self.cancel(context)
             return {'CANCELLED'}
         if event.type != 'LEFTMOUSE' or event.value != 'PRESS':
             return {'PASS_THROUGH'} if event.type in NAVIGATION else {'RUNNING_MODAL'}
+        view = view_region.find_view_at(context.area, event.mouse_x, event.mouse_y)
+        if view is None or self.points and view != self.view:
+            return {'RUNNING_MODAL'}  # beside the view
+        self.view = view
         self.points.append(self.find_point(context, event))
         return {'RUNNING_MODAL'} if len(self.points) < 2 else self.finish(context)
 
@@ -40,9 +46,10 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
         """Returns the point under the mouse in world space, as far away as the panel's middle: only the direction
         between two points is used.
         """
-        at = (event.mouse_x - self.window.x, event.mouse_y - self.window.y)
+        region, region_3d = self.view
+        at = (event.mouse_x - region.x, event.mouse_y - region.y)
         centre = view_and_light.measure_extent(scene_objects.find_active_object(context))[0]
-        return np.array(region_2d_to_location_3d(self.window, context.space_data.region_3d, at, centre))
+        return np.array(region_2d_to_location_3d(region, region_3d, at, centre))
 
     def finish(self, context: bpy.types.Context) -> set[str]:
         context.workspace.status_text_set(None)
@@ -50,6 +57,10 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
         settings.start, settings.end = self.points
         settings.direction = 'POINTS'
         return {'FINISHED'}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Takes the text away, also when Blender exits or opens another file."""
+        context.workspace.status_text_set(None)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_pick_direction])

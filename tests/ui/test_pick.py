@@ -56,4 +56,40 @@ def test_escape_leaves_all_as_it_was(driver: window.Window) -> Steps:
     assert settings.direction == 'MEAN' and tuple(settings.start) == before
 
 
-window.run(test_two_clicks_are_a_direction, test_escape_leaves_all_as_it_was)
+def test_clicks_beside_the_view_do_not_count(driver: window.Window) -> Steps:
+    """On another editor, and on a header of the view's own."""
+    prepare(driver)
+    settings, other = bpy.context.scene.reflection_lines.direction, driver.area('PROPERTIES')
+    settings.direction = 'MEAN'
+    with driver.override():
+        bpy.ops.reflines.pick_direction('INVOKE_DEFAULT')
+    for region in (other.regions[-1], driver.region('HEADER')):
+        driver.x, driver.y = region.x + region.width // 2, region.y + region.height // 2
+        driver.event('MOUSEMOVE')
+        yield 0.1
+        driver.key('LEFTMOUSE')
+        yield 0.1
+    yield from click(driver, 500, 300)
+    assert settings.direction == 'MEAN'
+    yield from click(driver, 560, 300)
+    assert settings.direction == 'POINTS' and abs(settings.end[1] - settings.start[1]) < 1e-5
+
+
+def test_a_trackpad_moves_the_view_meanwhile(driver: window.Window) -> Steps:
+    prepare(driver)
+    with driver.override():
+        bpy.ops.reflines.pick_direction('INVOKE_DEFAULT')
+    driver.move(400, 300)
+    yield 0.1
+    before = driver.region_3d().view_matrix.copy()
+    driver.event('TRACKPADPAN')
+    driver.x += 40
+    driver.event('TRACKPADPAN')
+    yield 0.5
+    driver.key('ESC')
+    yield 0.2
+    assert driver.region_3d().view_matrix != before
+
+
+window.run(test_two_clicks_are_a_direction, test_escape_leaves_all_as_it_was,
+           test_clicks_beside_the_view_do_not_count, test_a_trackpad_moves_the_view_meanwhile)
