@@ -43,6 +43,7 @@ NAMES = (
     "ui.handle_properties", "ui.check_properties", "ui.properties",
     "state.last_checks", "state.last_panels", "state.optimizer_cache", "state.solve_history", "state.persistence",
     "interactive.background_work", "interactive.drag_handles", "interactive.solve_job",
+    "interactive.running_operators",
     "overlay.brush_circle", "overlay.falloff_circle", "overlay.handle_marks",
     "interactive.brush_stroke", "interactive.drag_input", "interactive.drag", "interactive.drawn_lines",
     "interactive.line_build", "interactive.line_drag", "interactive.handle_bake",

@@ -2,6 +2,7 @@
 import bpy
 
 from ..bridge import scene_objects, view_and_light
+from ..interactive import running_operators
 from ..interactive.background_work import BackgroundWork
 from ..interactive.handle_bake import HandleBake
 from ..model.refusal import Refusal
@@ -63,6 +64,7 @@ the scene moves the panel"""
         self.area = context.area
         self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
         context.window_manager.modal_handler_add(self)
+        running_operators.note_begin(self)
         self.show_progress(context)
         return {'RUNNING_MODAL'}
 
@@ -121,6 +123,7 @@ the scene moves the panel"""
         context.workspace.status_text_set("Esc: cancel")
 
     def end_modal(self, context: bpy.types.Context) -> None:
+        running_operators.note_end(self)
         self.work.stop()
         self.work = None
         context.window_manager.event_timer_remove(self.timer)
@@ -128,7 +131,7 @@ the scene moves the panel"""
         context.workspace.status_text_set(None)
 
     def take_back(self, context: bpy.types.Context) -> None:
-        """Goes back to the frame and the mode before, where the bake does not go on."""
+        """Goes back to the frame and the mode before, where the bake does not go on, or the add-on is disabled."""
         self.end_modal(context)
         self.bake.cancel()
         self.drop(set())
@@ -140,4 +143,9 @@ the scene moves the panel"""
         self.drop(set())
 
 
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_bake_handles])
+register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_bake_handles])
+
+
+def unregister() -> None:
+    running_operators.take_back(REFLINES_OT_bake_handles)
+    unregister_classes()

@@ -2,6 +2,7 @@
 import bpy
 
 from ..bridge import scene_objects, units
+from ..interactive import running_operators
 from ..interactive.brush_stroke import BrushStroke
 from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
@@ -51,6 +52,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
         context.window_manager.modal_handler_add(self)
+        running_operators.note_begin(self)
         return {'RUNNING_MODAL'}
 
     def begin_stroke(self, context: bpy.types.Context) -> None:
@@ -101,18 +103,28 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
 
     def end(self, context: bpy.types.Context, why: str) -> set[str]:
         """Ends the stroke and drops it: Blender keeps the operator."""
+        running_operators.note_end(self)
+        self.stroke.area.header_text_set(None)
         self.stroke = None
-        context.area.header_text_set(None)
         if why:
             self.report({'WARNING'}, why)
         return {'CANCELLED'}
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Restores the mesh when Blender exits or opens another file."""
+        self.take_back(context)
+
+    def take_back(self, context: bpy.types.Context) -> None:
+        """Restores the mesh, where nobody else has changed it, and ends the stroke."""
         ob = bpy.data.objects.get(self.subject)
         if not self.stroke.is_changed(ob):
             self.stroke.restore(ob)
         self.end(context, "")
 
 
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_fair_brush])
+register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_fair_brush])
+
+
+def unregister() -> None:
+    running_operators.take_back(REFLINES_OT_fair_brush)
+    unregister_classes()

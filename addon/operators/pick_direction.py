@@ -5,7 +5,7 @@ from bpy_extras.view3d_utils import region_2d_to_location_3d
 
 from ..bridge import scene_objects, view_and_light, view_region
 from ..bridge.view_region import View
-from ..interactive import drag_input
+from ..interactive import drag_input, running_operators
 
 NAVIGATION = {*drag_input.NAVIGATION, *drag_input.NOTCHES}
 
@@ -26,12 +26,13 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
         self.points = []
         self.view: View | None = None  # that of the first click, one of four in Quad View
         context.window_manager.modal_handler_add(self)
+        running_operators.note_begin(self)
         context.workspace.status_text_set("Click where the line starts, then where it goes. Esc: leave all as it is")
         return {'RUNNING_MODAL'}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type in {'ESC', 'RIGHTMOUSE'}:
-            self.cancel(context)
+            self.take_back(context)
             return {'CANCELLED'}
         if event.type != 'LEFTMOUSE' or event.value != 'PRESS':
             return {'PASS_THROUGH'} if event.type in NAVIGATION else {'RUNNING_MODAL'}
@@ -52,15 +53,25 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
         return np.array(region_2d_to_location_3d(region, region_3d, at, centre))
 
     def finish(self, context: bpy.types.Context) -> set[str]:
-        context.workspace.status_text_set(None)
+        self.take_back(context)
         settings = context.scene.reflection_lines.direction
         settings.start, settings.end = self.points
         settings.direction = 'POINTS'
         return {'FINISHED'}
 
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Takes the text away, also when Blender exits or opens another file."""
+    def take_back(self, context: bpy.types.Context) -> None:
+        """Takes back the text of the status bar."""
+        running_operators.note_end(self)
         context.workspace.status_text_set(None)
 
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Takes the text away when Blender exits or opens another file."""
+        self.take_back(context)
 
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_pick_direction])
+
+register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_pick_direction])
+
+
+def unregister() -> None:
+    running_operators.take_back(REFLINES_OT_pick_direction)
+    unregister_classes()

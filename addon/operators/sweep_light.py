@@ -6,7 +6,7 @@ from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
 from mathutils import Vector
 
 from ..bridge import light_angles
-from ..interactive import drag_input
+from ..interactive import drag_input, running_operators
 from ..interactive.drag_handles import Handle
 
 HANDLES = (
@@ -66,11 +66,13 @@ picture, the wheel tilts it"""
         self.follow(context)
         context.workspace.status_text_set(drag_input.describe_keys(self.values))
         context.window_manager.modal_handler_add(self)
+        running_operators.note_begin(self)
         return {'RUNNING_MODAL'}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if drag_input.cancels(event) or context.scene.reflection_lines.explain_fixed_light():
-            return self.cancel_sweep(context)
+            self.take_back(context)
+            return {'CANCELLED'}
         if drag_input.navigates(event, self.values):
             return {'PASS_THROUGH'}
         if drag_input.keeps(event, self.values, held=self.release_confirm):
@@ -104,20 +106,26 @@ picture, the wheel tilts it"""
         self.area.tag_redraw()  # the numbers in the sidebar too
         self.area.header_text_set(f"{drag_input.describe_values(self.values, context.scene)}   ({self.bl_label})")
 
-    def cancel_sweep(self, context: bpy.types.Context) -> set[str]:
+    def take_back(self, context: bpy.types.Context) -> None:
+        """Turns the light back, and ends the sweep."""
         settings = context.scene.reflection_lines
         if not settings.explain_fixed_light():
             light_angles.restore_transform(settings.light, self.start)
         self.end(context)
-        return {'CANCELLED'}
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Turns the light back when Blender exits or opens another file."""
-        self.cancel_sweep(context)
+        self.take_back(context)
 
     def end(self, context: bpy.types.Context) -> None:
+        running_operators.note_end(self)
         self.area.header_text_set(None)
         context.workspace.status_text_set(None)
 
 
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_sweep_light])
+register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_sweep_light])
+
+
+def unregister() -> None:
+    running_operators.take_back(REFLINES_OT_sweep_light)
+    unregister_classes()

@@ -1,12 +1,15 @@
-"""What Blender goes on to call after the add-on was disabled raises nothing."""
+"""Disabling the add-on takes back what runs, and what Blender goes on to call afterwards raises nothing."""
 from collections.abc import Generator
 
 import bpy
+import numpy as np
 
 import installation
+import scenes
 import window
-from dragging import panel
+from dragging import panel, shown
 from errors import read_errors
+from pulling import MIDDLE, UP, applied, pull, start
 
 Steps = Generator[float, None, None]
 
@@ -35,4 +38,57 @@ def test_the_cursor_of_fair_brush_is_not_drawn(driver: window.Window) -> Steps:
     assert "Traceback" not in written, written
 
 
-window.run(test_the_cursor_of_fair_brush_is_not_drawn)
+def test_a_swept_light_is_turned_back(driver: window.Window) -> Steps:
+    panel(driver)
+    light = bpy.context.scene.reflection_lines.light
+    before = np.array(light.matrix_world)
+    driver.move(300, 290)
+    with driver.override():
+        assert bpy.ops.reflines.sweep_light('INVOKE_DEFAULT', True) == {'RUNNING_MODAL'}
+    yield 0.2
+    driver.move(400, 290)
+    yield 0.2
+    assert not np.array_equal(np.array(light.matrix_world), before)
+    written = yield from read_errors(without_the_addon(driver))
+    assert np.array_equal(np.array(light.matrix_world), before) and "Traceback" not in written, written
+
+
+def test_a_stroke_is_taken_back(driver: window.Window) -> Steps:
+    panel(driver, cells=24)
+    before = shown(driver)
+    driver.move(*MIDDLE)
+    with driver.override():
+        bpy.ops.wm.tool_set_by_id(name="reflection_lines.fair_brush")
+    driver.redraw()
+    yield 0.3
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield 0.3
+    assert not np.array_equal(shown(driver), before)
+    written = yield from read_errors(without_the_addon(driver))
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.2
+    assert np.array_equal(shown(driver), before) and "Traceback" not in written, written
+
+
+def test_a_bake_is_taken_back(driver: window.Window) -> Steps:
+    yield from start(driver)
+    yield from pull(driver, MIDDLE, UP)
+    yield from applied(driver)
+    ob, scene = bpy.context.view_layer.objects.active, bpy.context.scene
+    handle = ob.reflection_lines.handles.kept[0]
+    for frame in (1, 900):
+        handle.keyframe_insert("radius", frame=frame)
+    scene.frame_set(7)
+    before = scenes.fingerprint(ob)
+    driver.move(300, 290)
+    with driver.override():
+        assert bpy.ops.reflines.bake_handles('INVOKE_DEFAULT', True, step=1) == {'RUNNING_MODAL'}
+    yield 0.3
+    assert ob.mode == 'OBJECT' and scene.frame_current != 7
+    written = yield from read_errors(without_the_addon(driver))
+    assert ob.mode == 'EDIT' and scene.frame_current == 7 and scenes.fingerprint(ob) == before
+    assert "Traceback" not in written, written
+
+
+window.run(test_the_cursor_of_fair_brush_is_not_drawn, test_a_swept_light_is_turned_back, test_a_stroke_is_taken_back,
+           test_a_bake_is_taken_back)
