@@ -57,7 +57,7 @@ picture, the wheel tilts it"""
         if context.area is None or context.area.type != 'VIEW_3D':
             return self.execute(context)
         settings = context.scene.reflection_lines
-        self.start = light_angles.read_transform(settings.light)
+        self.light, self.start = settings.light.name, light_angles.read_transform(settings.light)
         angles = light_angles.read_light_angles(settings.picture_camera(), settings.light)
         self.values = drag_input.read_values(HANDLES, angles, context.scene)
         self.area, self.region, self.region_3d = context.area, context.region, context.region_data
@@ -70,7 +70,7 @@ picture, the wheel tilts it"""
         return {'RUNNING_MODAL'}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if drag_input.cancels(event) or context.scene.reflection_lines.explain_fixed_light():
+        if drag_input.cancels(event) or not self.can_go_on(context):
             self.take_back(context)
             return {'CANCELLED'}
         if drag_input.navigates(event, self.values):
@@ -84,6 +84,11 @@ picture, the wheel tilts it"""
             drag_input.change_values(self.values, event)
         self.follow(context)
         return {'RUNNING_MODAL'}
+
+    def can_go_on(self, context: bpy.types.Context) -> bool:
+        """Returns whether the light is still there, can be turned, and is the one that the sweep began with."""
+        settings = context.scene.reflection_lines
+        return not settings.explain_fixed_light() and settings.light.name == self.light
 
     def move_mouse(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
         """Moves the held value with the mouse: from left to right, or with `around` along the gizmo's ring."""
@@ -107,10 +112,10 @@ picture, the wheel tilts it"""
         self.area.header_text_set(f"{drag_input.describe_values(self.values, context.scene)}   ({self.bl_label})")
 
     def take_back(self, context: bpy.types.Context) -> None:
-        """Turns the light back, and ends the sweep."""
-        settings = context.scene.reflection_lines
-        if not settings.explain_fixed_light():
-            light_angles.restore_transform(settings.light, self.start)
+        """Turns the light back, where it is still there, and ends the sweep."""
+        light = bpy.data.objects.get(self.light)
+        if light is not None:
+            light_angles.restore_transform(light, self.start)
         self.end(context)
 
     def cancel(self, context: bpy.types.Context) -> None:

@@ -100,5 +100,27 @@ def test_turn_and_tilt_can_be_typed_while_the_light_is_swept(driver: window.Wind
     assert abs(settings().light_tilt - radians(85.0)) < 1e-4, np.degrees(settings().light_tilt)
 
 
+def test_another_light_picked_meanwhile_ends_the_sweep_and_stays(driver: window.Window) -> Steps:
+    edited_panel(driver, "Picked")
+    swept, start = settings().light, np.array(settings().light.matrix_world)
+    other = bpy.data.objects.new("Other", None)
+    other.location = (7.0, 8.0, 9.0)
+    bpy.context.collection.objects.link(other)
+    driver.move(300, 300)
+    yield 0.1
+    with driver.override():
+        bpy.ops.reflines.sweep_light('INVOKE_DEFAULT')
+    driver.move(400, 300)
+    yield 0.2
+    assert not np.array_equal(np.array(swept.matrix_world), start)
+    settings().light = other
+    for event in (lambda: driver.move(420, 300), lambda: driver.key('ESC')):
+        event()
+        yield 0.3
+        assert np.array_equal(np.array(swept.matrix_world), start)
+        assert tuple(other.location) == (7.0, 8.0, 9.0) and not any(other.rotation_euler)
+
+
 window.run(test_the_sidebar_turns_the_light_in_edit_mode, test_sweep_light_in_edit_mode,
-           test_turn_and_tilt_can_be_typed_while_the_light_is_swept)
+           test_turn_and_tilt_can_be_typed_while_the_light_is_swept,
+           test_another_light_picked_meanwhile_ends_the_sweep_and_stays)
