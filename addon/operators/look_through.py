@@ -2,6 +2,7 @@
 import bpy
 
 from ..bridge import view_camera, view_region
+from ..state import last_looks
 
 
 class REFLINES_OT_look_through(bpy.types.Operator):
@@ -21,15 +22,29 @@ The scene's own camera stays as it is"""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         space, camera = context.space_data, context.scene.reflection_lines.camera
-        back = view_camera.is_looking_through(space, camera)
-        if not back:
-            space.use_local_camera, space.camera = True, camera
-        if back or space.region_3d.view_perspective != 'CAMERA':
-            with context.temp_override(region=view_region.find_view_region(context.area)):
-                bpy.ops.view3d.view_camera()
-        if back:
-            space.use_local_camera = False
+        if view_camera.is_looking_through(space, camera):
+            self.look_back(context)
+            return {'FINISHED'}
+        last_looks.remember_look(space, camera)
+        space.use_local_camera, space.camera = True, camera
+        if space.region_3d.view_perspective != 'CAMERA':
+            self.switch_view(context)
         return {'FINISHED'}
+
+    def look_back(self, context: bpy.types.Context) -> None:
+        """Looks as before: through the scene's own or a local camera, where it is still there, or through none."""
+        space, look = context.space_data, last_looks.take_look(context.space_data)
+        local = bpy.data.objects.get(look.local)
+        if not look.through or (local or context.scene.camera) is None:
+            self.switch_view(context)
+        space.use_local_camera = local is not None
+        if local is not None:
+            space.camera = local
+
+    def switch_view(self, context: bpy.types.Context) -> None:
+        """Looks through the camera of the 3D view, or no longer."""
+        with context.temp_override(region=view_region.find_view_region(context.area)):
+            bpy.ops.view3d.view_camera()
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_look_through])

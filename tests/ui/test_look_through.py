@@ -41,6 +41,42 @@ def test_through_the_camera_and_back(driver: window.Window) -> Steps:
     assert np.abs(axes(driver) - before).max() < 1e-5
 
 
+def add_camera(name: str) -> bpy.types.Object:
+    camera = bpy.data.objects.new(name, bpy.data.cameras.new(name))
+    bpy.context.collection.objects.link(camera)
+    return camera
+
+
+def describe(driver: window.Window) -> tuple:
+    space = driver.area().spaces.active
+    return space.region_3d.view_perspective, space.use_local_camera, space.camera
+
+
+def test_back_to_another_camera(driver: window.Window) -> Steps:
+    """The scene's own, and one of this view alone, also where the view was turned away in between."""
+    prepare(driver, fresh_panel(driver, "Others"))
+    space, region_3d, bpy.context.scene.camera = driver.area().spaces.active, driver.region_3d(), add_camera("Own")
+    for local in (None, add_camera("Local")):
+        space.use_local_camera = local is not None
+        if local is not None:
+            space.camera = local
+        region_3d.view_perspective = 'CAMERA'
+        yield 0.3
+        before = describe(driver)
+        assert before == ('CAMERA', local is not None, local or bpy.context.scene.camera)
+        yield from look(driver)
+        assert describe(driver) == ('CAMERA', True, settings().camera)
+        yield from look(driver)
+        assert describe(driver) == before
+        yield from look(driver)
+        region_3d.view_perspective = 'ORTHO'
+        yield from look(driver)
+        assert describe(driver) == ('CAMERA', True, settings().camera)
+        yield from look(driver)
+        assert describe(driver) == ('ORTHO', *before[1:])
+    space.use_local_camera = False
+
+
 def test_the_camera_takes_this_view_in_edit_mode(driver: window.Window) -> Steps:
     ob = fresh_panel(driver, "From View")
     prepare(driver, ob)
@@ -55,4 +91,5 @@ def test_the_camera_takes_this_view_in_edit_mode(driver: window.Window) -> Steps
     assert ob.mode == 'EDIT'
 
 
-window.run(test_through_the_camera_and_back, test_the_camera_takes_this_view_in_edit_mode)
+window.run(test_through_the_camera_and_back, test_back_to_another_camera,
+           test_the_camera_takes_this_view_in_edit_mode)
