@@ -33,13 +33,13 @@ Mesh read_obj(const std::string& path) {
     if (kind == "v") {
       for (double x; words >> x;) positions.push_back(x);
     } else if (kind == "f") {
+      const size_t before = corners.size();
       while (words >> corner) corners.push_back(std::stoi(corner) - 1);
+      if (corners.size() != before + 3) throw reflines::InvalidInput(path + " holds other faces than triangles.");
     }
     kind.clear();
   }
-  if (positions.size() % 3 != 0 || corners.size() % 3 != 0) {
-    throw reflines::InvalidInput(path + " holds other faces than triangles, or vertices without 3 coordinates.");
-  }
+  if (positions.size() % 3 != 0) throw reflines::InvalidInput(path + " holds vertices without 3 coordinates.");
   return {Eigen::Map<reflines::Positions>(positions.data(), static_cast<int>(positions.size()) / 3, 3),
           Eigen::Map<reflines::Triangles>(corners.data(), static_cast<int>(corners.size()) / 3, 3)};
 }

@@ -10,6 +10,7 @@
 #include "geometry/normal_fit.h"
 #include "python/native_call.h"
 #include "reflines/cage_optimizer.h"
+#include "reflines/handle_follower.h"
 #include "reflines/line_handles.h"
 #include "reflines/shape_optimizer.h"
 
@@ -24,6 +25,7 @@ class ExclusiveUse {
   ExclusiveUse(const CageOptimizer& optimizer, Use use) : ExclusiveUse(optimizer.surface(), use) {}
   ExclusiveUse(const NormalFit& fit, Use use) : ExclusiveUse(&fit, use, "normal fit") {}
   ExclusiveUse(const LineHandles& handles, Use use) : ExclusiveUse(&handles, use, "set of handles") {}
+  ExclusiveUse(const HandleFollower& follower, Use use) : ExclusiveUse(&follower, use, "follower") {}
   ~ExclusiveUse();
   ExclusiveUse(const ExclusiveUse&) = delete;
   ExclusiveUse& operator=(const ExclusiveUse&) = delete;

@@ -27,9 +27,11 @@ Eigen::Matrix3d image_plane(const Vector3& view_direction, const Vector3& line_d
   return rows;
 }
 
-double theta_of_normal(const ImagePlane& frame, const ReflectionFunction& reflection, const Vector3& normal) {
-  const Vector3 n = frame.to_frame(normal);
-  return reflection.theta(-n.x() / n.z(), -n.y() / n.z());
+void check_normals(const Positions& normals) {
+  int bad = 0;
+  for (const auto& normal : normals.rowwise()) bad += !normal.allFinite() || normal.isZero(0);
+  if (bad == 0) return;
+  throw InvalidInput(std::to_string(bad) + " normals are 0 or not finite; give the direction of each.");
 }
 
 Vector theta_of_normals(const Positions& normals, const Positions& views, const Vector3& line_direction) {
@@ -37,11 +39,12 @@ Vector theta_of_normals(const Positions& normals, const Positions& views, const 
     throw InvalidInput("There are " + std::to_string(views.rows()) + " view directions for " +
                        std::to_string(normals.rows()) + " normals; give one, or one for each.");
   }
+  check_normals(normals);
   Vector result(normals.rows());
   for (Eigen::Index k = 0; k < normals.rows(); ++k) {
     const Vector3 view = views.row(views.rows() == 1 ? 0 : k);
     const ImagePlane frame(view, line_direction);
-    result(k) = theta_of_normal(frame, ReflectionFunction(frame, view, line_direction), normals.row(k));
+    result(k) = ReflectionFunction(frame, view, line_direction).theta(frame.to_frame(normals.row(k)));
   }
   return result;
 }

@@ -5,9 +5,11 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "python/bind.h"
 #include "python/exclusive_use.h"
+#include "python/index_arrays.h"
 #include "reflines/handle_follower.h"
 #include "reflines/shape_optimizer.h"
 
@@ -17,9 +19,9 @@ namespace reflines {
 namespace {
 
 Handle make_handle(const PlanePositions& points, const std::optional<double>& value, double radius,
-                   const std::optional<PlanePositions>& centre, const IndexVector& triangles, const std::string& name) {
+                   const std::optional<PlanePositions>& centre, const Indices& triangles, const std::string& name) {
   const HandleKind kind = value ? HandleKind::kPull : HandleKind::kPin;
-  return {kind, points, value.value_or(0.0), centre.value_or(PlanePositions()), radius, triangles, name};
+  return {kind, points, value.value_or(0.0), centre.value_or(PlanePositions()), radius, index_vector(triangles), name};
 }
 
 std::function<std::unique_ptr<LineHandles>()> prepare_line_handles(ShapeOptimizer& optimizer, int family,
@@ -52,8 +54,10 @@ py::object read_vertex_theta(ShapeOptimizer& optimizer, int family) {
 
 py::object follow(HandleFollower& follower, const std::vector<Handle>& handles, ShapeOptimizer& optimizer,
                   bool keep_others) {
-  return call_native(optimizer,
-                     [=, &follower, &optimizer] { return follower.follow(handles, optimizer, keep_others); });
+  auto own = std::make_shared<const ExclusiveUse>(follower, ExclusiveUse::Use::kChanges);
+  return call_native(optimizer, [=, own = std::move(own), &follower, &optimizer] {
+    return follower.follow(handles, optimizer, keep_others);
+  });
 }
 
 }  // namespace
@@ -62,7 +66,7 @@ void bind_line_handles(py::module_& module) {
   py::class_<Handle>(module, "Handle", py::module_local())
       .def(py::init(&make_handle), py::arg("points") = PlanePositions(0, 2), py::kw_only(),
            py::arg("value") = py::none(), py::arg("radius") = Handle().radius, py::arg("centre") = py::none(),
-           py::arg("triangles") = IndexVector(), py::arg("name") = "");
+           py::arg("triangles") = Indices(), py::arg("name") = "");
   py::class_<HandleReach>(module, "HandleReach", py::module_local())
       .def_readonly("theta", &HandleReach::theta)
       .def_readonly("distance", &HandleReach::distance)

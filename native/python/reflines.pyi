@@ -60,7 +60,7 @@ class Region:
     clamped: int
     pieces: int        # height-field pieces, each solved on its own, or with its mirror image
     silhouettes: int   # faces with |n.v| < 0.2 (12 degrees), their vertices held; see `face_of_triangle` of ShapeOptimizer
-    turned_away: int   # faces with n.v <= 0, their vertices held
+    turned_away: int   # faces with n.v <= -0.2, turned away, their vertices held
     unused_pieces: int # pieces without a free vertex
     creases: int       # edges held as creases
     marked_creases: int  # those of them that were marked
@@ -343,7 +343,7 @@ def turn(optimizer: ShapeOptimizer, *, angle: float, influence: np.ndarray | Non
     influence."""
 
 def keep(optimizer: ShapeOptimizer, *, family: int) -> Target:
-    """Builds the target of the lines as they are, with a tenth of the weight: solved for together with new lines of another
+    """Builds the target of the lines as they are, with a hundredth of the weight: solved for together with new lines of another
     family, it keeps those that cross them as far as these allow."""
 
 def falloff(optimizer: ShapeOptimizer, *, centre: Sequence[float], radius: float, curve: np.ndarray) -> np.ndarray:
@@ -471,6 +471,6 @@ def image_plane(view_direction: Sequence[float], line_direction: Sequence[float]
     """Returns the rows a_perp, a_v, v (3 x 3). Raises InvalidInput where the two directions are parallel."""
 
 def theta(normals: np.ndarray, view_direction: np.ndarray, line_direction: Sequence[float]) -> np.ndarray:
-    """Returns theta (#N) of normals (#N x 3, any length); view_direction is 3 or #N x 3."""
+    """Returns theta (#N) of normals (#N x 3, any length but 0), radians in (-pi, pi]; view_direction is 3 or #N x 3."""
 
 __version__: str

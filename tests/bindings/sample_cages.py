@@ -19,6 +19,19 @@ def hood(columns: int = 16, rows: int = 14) -> tuple[Array, Array, Array]:
     return V, np.arange(0, 4 * len(quads) + 1, 4), quads.ravel()
 
 
+def ball(around: int = 8, down: int = 8) -> tuple[Array, Array, Array]:
+    """A closed body: a sphere of radius 1 with triangles at its poles."""
+    polar, turn = np.pi * np.arange(1, down) / down, 2 * np.pi * np.arange(around) / around
+    V = np.stack([np.outer(np.sin(polar), np.cos(turn)), np.outer(np.sin(polar), np.sin(turn)),
+                  np.repeat(np.cos(polar)[:, None], around, axis=1)], axis=2).reshape(-1, 3)
+    north, south, last = len(V), len(V) + 1, (down - 2) * around
+    faces = [[row * around + k, (row + 1) * around + k, (row + 1) * around + (k + 1) % around, row * around + (k + 1) % around]
+             for row in range(down - 2) for k in range(around)]
+    faces += [[north, k, (k + 1) % around] for k in range(around)]
+    faces += [[south, last + (k + 1) % around, last + k] for k in range(around)]
+    return np.vstack([V, [[0, 0, 1], [0, 0, -1]]]), np.cumsum([0] + [len(face) for face in faces]), np.concatenate(faces)
+
+
 def roof() -> tuple[Array, Array, Array]:
     """The roof of a real car as its authors modelled it, in metres."""
     V, faces = obj("subaru_roof_cage.obj")

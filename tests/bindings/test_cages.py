@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 import reflines
-from sample_cages import DENT, LINE, VIEW, dented, hood, optimizer, roof
+from sample_cages import DENT, LINE, VIEW, ball, dented, hood, optimizer, roof
 
 ABOVE, ALONG = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.05])
 PANELS = {"hood": (hood, VIEW, LINE), "roof": (roof, ABOVE, ALONG)}
@@ -241,3 +241,39 @@ def test_unusable_input_gets_one_sentence(options: dict, said: str) -> None:
         reflines.CageOptimizer(*hood(), **{"view_direction": VIEW, "line_direction": LINE} | options)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("linear_solver", ["cholmod", "umfpack"])
+def test_of_a_closed_cage_the_side_that_is_turned_away_stays(linear_solver: str) -> None:
+    """Vertices that move nothing that can be seen had empty columns: the solve wrote beyond its memory."""
+    cage, view = ball(), np.array([0.1, 0.05, 1.0])
+    solver = optimizer(cage, view, level=1, linear_solver=linear_solver)
+    away = cage[0] @ view < -0.4
+    assert solver.region.turned_away > 0 and solver.cage_free.any() and not solver.cage_free[away].any()
+    assert solver.solve(reflines.turn(solver, angle=0.1)).largest_move > 0
+    assert np.array_equal(solver.cage_positions[away], cage[0][away])
+
+
+def test_what_the_cage_moves_is_what_is_told_on_a_closed_one_too() -> None:
+    """A vertex of the cage that moves a side which is turned away, too, moved that by more than the limit."""
+    cage, view, limit = ball(12, 10), np.array([0.3, 0.1, 1.0]), 0.002
+    solver = optimizer(cage, view, level=2)
+    solver.solve(reflines.turn(solver, angle=0.3), limit=limit)
+    surface = reflines.Subdivision(cage[1], cage[2], vertices=len(cage[0]), level=2)
+    moved = surface.positions(solver.cage_positions - cage[0])
+    told = np.zeros_like(moved)
+    told[solver.refined] = solver.positions - optimizer(cage, view, level=2).positions
+    assert np.abs(moved).max() > 0.5 * limit
+    assert np.abs(moved - told).max() < 1e-12
+    assert np.linalg.norm(moved, axis=1).max() < limit * (1 + 1e-9)
+
+
+def test_a_vertex_in_no_face_takes_no_digits() -> None:
+    cage = dented(hood(), VIEW, LINE)
+    far = np.vstack([cage[0], [[0.0, 0.0, 1e12]]]), cage[1], cage[2]
+    results = []
+    for one in (cage, far):
+        solver = optimizer(one)
+        solver.solve(reflines.smooth(solver, length=0.4))
+        results.append(solver.cage_positions[:len(cage[0])])
+    assert np.array_equal(*results)

@@ -51,6 +51,8 @@ def test_marks_decide_what_passes() -> None:
     ({"gap": -1.0}, "mark for the gap"),
     ({"angle": float("nan")}, "mark for the angle"),
     ({"deviation": -0.1}, "mark for the deviation"),
+    ({"deviation": float("inf")}, "mark for the deviation"),
+    ({"crease_angle": float("nan")}, "crease angle"),
     ({"crease_rule": "some"}, "'some'"),
 ])
 def test_unusable_input_gets_one_sentence(change: dict, said: str) -> None:
@@ -60,3 +62,30 @@ def test_unusable_input_gets_one_sentence(change: dict, said: str) -> None:
         arguments["region"] = np.zeros(len(F), bool)
     with pytest.raises(reflines.InvalidInput, match=said):
         reflines.check(**arguments)
+
+
+@pytest.mark.parametrize("first", [True, False])
+def test_what_is_fixed_to_the_region_from_beside_is_no_border(first: bool) -> None:
+    """The pairs of an edge of three triangles depended on which came first."""
+    V, F = panel(16)
+    region = region_of(V, F)
+    edge = F[np.flatnonzero(region)[region.sum() // 2], :2]
+    fin = np.array([[*edge, len(V)]])
+    W = np.vstack([V, V[edge[:1]] + [0.0, 0.0, 0.2]])
+    faces, mask = (np.vstack([fin, F]), np.r_[False, region]) if first else (np.vstack([F, fin]), np.r_[region, False])
+    plain, finned = reflines.check(V, V, F, region), reflines.check(W, W, faces, mask)
+    assert [(row.name, row.after) for row in finned.rows] == [(row.name, row.after) for row in plain.rows]
+
+
+@pytest.mark.parametrize("first", [True, False])
+def test_an_edge_with_several_triangles_beside_it_cannot_be_judged(first: bool) -> None:
+    V, F = panel(16)
+    region = region_of(V, F)
+    plain = reflines.check(V, V, F, region)
+    edge = plain.edges[[kind == "border" for kind in plain.kind].index(True)]
+    fin = np.array([[*edge, len(V)]])
+    W = np.vstack([V, V[edge[:1]] + [0.0, 0.0, 0.2]])
+    faces, mask = (np.vstack([fin, F]), np.r_[False, region]) if first else (np.vstack([F, fin]), np.r_[region, False])
+    finned = reflines.check(W, W, faces, mask)
+    assert [kind for kind, ends in zip(finned.kind, finned.edges) if set(ends) == set(edge)] == ["open"]
+    assert list(finned.kind).count("border") == list(plain.kind).count("border") - 1

@@ -134,3 +134,14 @@ def test_a_dense_mesh_seen_from_elsewhere_is_refused(other: dict) -> None:
     dense = reflines.ShapeOptimizer(V, F, **{"view_direction": VIEW, "line_direction": LINE, "border": "free"} | other)
     with pytest.raises(reflines.InvalidInput, match="different views or line directions"):
         reflines.match_dense(optimizer(hood(8, 6), level=2), dense)
+
+
+def test_a_limit_of_the_last_solve_does_not_hold_a_fit() -> None:
+    cage = noisy(hood(12, 10))
+    solvers = [optimizer(cage, border="free", level=2) for _ in range(2)]
+    solvers[0].solve(reflines.smooth(solvers[0], length=0.4), limit=1e-4)
+    heights = solvers[1].heights + 0.02
+    for solver in solvers:
+        solver.fit(heights, np.ones(len(heights)))
+        assert np.abs(solver.heights - heights).max() < 1e-3 and not solver.at_limit.any()
+    assert np.abs(solvers[0].positions - solvers[1].positions).max() < 1e-10

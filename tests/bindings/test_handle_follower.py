@@ -171,3 +171,21 @@ def test_bad_handles_are_refused_in_a_sentence() -> None:
         with pytest.raises(reflines.InvalidInput, match=words):
             session.follower.follow(handles, session.other)
     assert session.other.heights.tobytes() == session.start.heights.tobytes()
+
+
+def test_lines_of_another_region_are_refused() -> None:
+    session = Session()
+    other = reflines.ShapeOptimizer(*mesh("regular"), view_direction=(0, 0, 1), line_direction=(0, 1, 0))
+    for start, lines in ((session.start, reflines.LineHandles(other)), (other, session.lines)):
+        with pytest.raises(reflines.InvalidInput, match="another region"):
+            reflines.HandleFollower(start, lines)
+
+
+def test_one_follower_is_used_by_one_thread_at_a_time() -> None:
+    """Two that moved an optimizer each wrote into one window: a segmentation fault."""
+    session, beside = Session(), Session().other
+    handles = [session.pull(0.001, (x, y)) for x in np.linspace(-0.3, 0.3, 7) for y in np.linspace(-0.3, 0.3, 7)]
+    first = reflines.start(session.follower.follow, handles, session.other)
+    with pytest.raises(reflines.InvalidInput, match="follower is in use by another thread"):
+        session.follower.follow(handles, beside)
+    assert first.result()

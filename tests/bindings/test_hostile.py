@@ -162,3 +162,55 @@ def test_a_blur_of_next_to_nothing_is_none(solver, blur) -> None:
     image = np.random.default_rng(0).random((8, 8))
     target = reflines.pattern(solver, image=image, blur=blur)
     assert np.array_equal(target.gradient, reflines.pattern(solver, image=image).gradient)
+
+
+def test_a_place_at_its_limit_may_be_the_origin() -> None:
+    """Steps of one bit from zero never arrived: the positions took for ever."""
+    view, limit = np.array([0.6, 0.0, 0.8]), 0.01
+    plane, F = panel(16, jitter=0.0)
+    flat = plane[:, :1] * [0.8, 0.0, -0.6] + plane[:, 1:2] * [0.0, 1.0, 0.0] - limit * view
+    raised = flat + 5 * limit * np.exp(-(plane[:, :2] ** 2).sum(1) / 0.02)[:, None] * view
+    solvers = [reflines.ShapeOptimizer(V, F, view_direction=view, line_direction=(0, 1, 0.1)) for V in (flat, raised)]
+    assert solvers[0].solve(reflines.Target(solvers[1].field()), limit=limit).limited > 0
+    positions = solvers[0].positions
+    assert np.abs(positions[solvers[0].at_limit != 0]).min() < 1e-9
+    assert np.linalg.norm(positions - flat, axis=1).max() <= limit
+
+
+@pytest.mark.parametrize(("options", "said"), [
+    ({"crease_angle": np.nan}, "crease angle"), ({"crease_angle": -1.0}, "crease angle"),
+    ({"proximity": np.nan}, "proximity"), ({"proximity": np.inf}, "proximity"),
+])
+def test_options_that_are_no_numbers_are_refused(options: dict, said: str) -> None:
+    with pytest.raises(reflines.InvalidInput, match=said):
+        reflines.ShapeOptimizer(*panel(8), view_direction=VIEW, line_direction=LINE, **options)
+
+
+@pytest.mark.parametrize(("options", "said"), [
+    ({"normal": (0, 0, 0)}, "length 0"), ({"normal": (np.nan, 0, 0)}, "not a finite"),
+    ({"point": (np.inf, 0, 0)}, "not a finite"), ({"tolerance": np.nan}, "tolerance"), ({"tolerance": -1.0}, "tolerance"),
+])
+def test_mirror_planes_that_are_none_are_refused(options: dict, said: str) -> None:
+    with pytest.raises(reflines.InvalidInput, match=said):
+        reflines.mirror_pairs(panel(4)[0], **{"point": (0, 0, 0), "normal": (1, 0, 0), "tolerance": 1e-6, **options})
+
+
+def test_the_normal_of_a_mirror_plane_may_be_of_any_length() -> None:
+    V = panel(4, jitter=0.0)[0]
+    pairs = [reflines.mirror_pairs(V, point=(0, 0, 0), normal=(size, 0, 0), tolerance=1e-6) for size in (1.0, 1e200, 1e-200)]
+    assert (pairs[0] >= 0).any() and np.array_equal(pairs[0], pairs[1]) and np.array_equal(pairs[0], pairs[2])
+
+
+def test_a_normal_across_the_view_has_the_light_behind_and_no_normal_has_none() -> None:
+    edge_on = np.array([[1.0, 0.0, 0.0], [0.0, -2.0, 0.0], [1e200, 1e200, 0.0]])
+    assert np.array_equal(reflines.theta(edge_on, (0, 0, 1.0), (0, 1, 0)), np.full(3, np.pi))
+    for bad in (0.0, np.nan):
+        with pytest.raises(reflines.InvalidInput, match="2 normals"):
+            reflines.theta(np.vstack([edge_on, np.full((2, 3), bad)]), (0, 0, 1.0), (0, 1, 0))
+
+
+def test_triangles_whose_corners_coincide_have_unit_normals() -> None:
+    V, F = panel(4)
+    V[:] = V[0]
+    normals = reflines.NormalFit(V, F).normals(V)
+    assert np.allclose(np.linalg.norm(normals, axis=1), 1.0)

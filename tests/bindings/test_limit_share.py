@@ -42,6 +42,30 @@ def test_a_cage_has_shares_too() -> None:
     assert moves.min() >= -report.limit - ROUNDING
 
 
+def test_without_a_limit_a_share_of_nothing_is_nothing() -> None:
+    V, F = panel(24, jitter=0.0)
+    V = rippled(V, amplitude=0.002, wavelength=0.3)
+    share = np.tile([-1.0, 1.0], (len(V), 1))
+    share[V[:, 0] > 0] = 0
+    positions, report = reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LINE, limit=np.inf,
+                                              limit_share=share)
+    assert report.applied and report.limited > 0
+    assert np.array_equal(positions[V[:, 0] > 0], V[V[:, 0] > 0]) and not np.array_equal(positions, V)
+
+
+def test_partners_of_a_cage_keep_equal_moves_under_unequal_shares() -> None:
+    V, offsets, corners = hood()
+    V += 0.002 * np.sin(50 * np.abs(V[:, :1])) * np.cos(45 * V[:, 1:2]) * CAGE_VIEW
+    partner = reflines.mirror_pairs(V, point=(0, 0, 0), normal=(1, 0, 0), tolerance=1e-6)
+    share = np.tile([-1.0, 1.0], (len(V), 1))
+    share[V[:, 0] > 0] *= 0.1
+    positions, _ = reflines.smooth_cage_panel(V, offsets, corners, view_direction=CAGE_VIEW, line_direction=CAGE_LINE,
+                                              partner=partner, limit_share=share, limit=1e-3)
+    moves = (positions - V) @ CAGE_VIEW
+    assert np.abs(moves).max() > 1e-5
+    assert np.abs(moves - moves[partner]).max() < 1e-12
+
+
 @pytest.mark.parametrize(("share", "said"), [
     (np.zeros((3, 2)), "3 lowest and 3 highest"),
     (np.tile([0.5, 1.0], (81, 1)), "limit of 81 of the 81"),

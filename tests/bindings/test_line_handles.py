@@ -386,7 +386,9 @@ def bad_handles(lines: reflines.LineHandles, start: Array) -> list[tuple[list[re
             ([good, reflines.Handle(point + 9.0)], "Handle 2 lies off the region"),
             ([reflines.Handle(point + 0.4, value=0.1, radius=0.2, centre=point)], "outside its radius"),
             ([good, reflines.Handle(triangles=np.array([-1]))], "names a triangle"),
-            ([good, reflines.Handle(triangles=np.array([10**6]))], "names a triangle")]
+            ([good, reflines.Handle(triangles=np.array([10**6]))], "names a triangle"),
+            ([reflines.Handle(point, value=0.1, radius=RADIUS, triangles=np.array([10**6]))], "names a triangle"),
+            ([reflines.Handle([[0, 0], [1e200, 0]], value=0.1, radius=RADIUS)], "too far away")]
 
 
 def test_bad_handles_are_refused_in_a_sentence() -> None:
@@ -402,3 +404,18 @@ def test_bad_handles_are_refused_in_a_sentence() -> None:
     with pytest.raises(reflines.InvalidInput, match="positive"):
         lines.measure([], solver, line_step=0.0)
     assert reflines.LineHandles(other).read_theta(np.zeros((0, 2))).shape == (0,)
+
+
+@pytest.mark.parametrize("triangles", [np.array([2**32 + 3]), np.array([1.5])])
+def test_numbers_of_triangles_that_are_none_are_refused(triangles: Array) -> None:
+    with pytest.raises(reflines.InvalidInput, match="32 bits|whole numbers"):
+        reflines.Handle(triangles=triangles)
+
+
+def test_a_pin_where_nothing_can_be_seen_weighs_nothing() -> None:
+    V, F = sample_panels.panel(16)
+    V[:, 2] -= 6 * np.maximum(V[:, 0] - 0.4, 0.0)
+    solver = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LINE)
+    lines, start = reflines.LineHandles(solver), middle(solver)
+    pin = reflines.Handle(triangles=np.flatnonzero(~solver.active)[:3])
+    assert solver.solve(lines.build([pull(lines, start, start + across(solver, 0.02)), pin])).converged

@@ -13,7 +13,7 @@ namespace reflines {
 enum class SeamKind : signed char {
   kBorder,  // an edge between a triangle of the region and one outside, or one of another sheet within reach
   kCrease,  // a crease within the region
-  kOpen,    // an edge of the region with nothing on its other side, which cannot be judged
+  kOpen,    // an edge of the region with nothing, or several triangles, on its other side, which cannot be judged
 };
 
 struct CheckOptions {

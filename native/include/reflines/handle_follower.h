@@ -17,7 +17,7 @@ namespace reflines {
 class HandleFollower {
  public:
   // Takes the optimizer of the region at the start, whose heights stay, and the handles' lines there, of the same
-  // region; both outlive it.
+  // region; both outlive it. Throws InvalidInput where they are of another.
   HandleFollower(const ShapeOptimizer& start, const LineHandles& lines);
   ~HandleFollower();
 

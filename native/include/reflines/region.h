@@ -13,7 +13,7 @@ struct Region {
   // Faces are those that triangles were cut from (see ShapeOptions::face_of_triangle); one counts where any of its
   // triangles does.
   int silhouettes = 0;                // faces left out, seen at less than 12 degrees: |n.v| < 0.2
-  int turned_away = 0;                // faces left out, n.v < 0
+  int turned_away = 0;                // faces left out, turned away: n.v <= -0.2
   int unused_pieces = 0;              // pieces without a free vertex
   int creases = 0;                    // edges held as creases
   int marked_creases = 0;             // those of them that were marked

@@ -242,7 +242,11 @@ Vector HandleFollower::Window::meet(const std::vector<FollowedPlace>& places) {
   return c;
 }
 
-HandleFollower::HandleFollower(const ShapeOptimizer& start, const LineHandles& lines) : start_(start), lines_(lines) {}
+HandleFollower::HandleFollower(const ShapeOptimizer& start, const LineHandles& lines) : start_(start), lines_(lines) {
+  const RegionField& field = lines.field();
+  if (field.F.rows() == start.triangle_count() && field.xy == start.xy() && field.family < start.family_count()) return;
+  throw InvalidInput("The handles' lines are those of another region; make them for the optimizer at the start.");
+}
 
 HandleFollower::~HandleFollower() = default;
 

@@ -39,11 +39,19 @@ int find_nearest(const Positions& V, const std::vector<int>& by_x, const IndexVe
   return best;
 }
 
+void check(const MirrorPlane& plane, double tolerance) {
+  if (plane.normal.isZero(0)) throw InvalidInput("The mirror plane's normal has length 0: give its direction.");
+  if (!plane.normal.allFinite() || !plane.point.allFinite()) {
+    throw InvalidInput("The mirror plane has a coordinate that is not a finite number: give its point and normal.");
+  }
+  if (!(tolerance >= 0)) throw InvalidInput("The tolerance of mirror images must be 0 or a positive length.");
+}
+
 }  // namespace
 
 IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double tolerance) {
-  if (plane.normal.norm() == 0) throw InvalidInput("The mirror plane's normal has length 0: give its direction.");
-  const Vector3 normal = plane.normal.normalized();
+  check(plane, tolerance);
+  const Vector3 normal = plane.normal.stableNormalized();
   const Vector side = (V.rowwise() - plane.point.transpose()) * normal;
   std::vector<int> by_x(V.rows());
   std::iota(by_x.begin(), by_x.end(), 0);

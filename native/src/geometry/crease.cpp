@@ -9,6 +9,7 @@
 
 #include "base/union_find.h"
 #include "geometry/bend_contrast.h"
+#include "reflines/errors.h"
 
 namespace reflines {
 namespace {
@@ -131,6 +132,7 @@ EdgeMask marked_edges(const Triangles& F, const CreaseOptions& options) {
 
 EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& neighbors,
                       const CreaseOptions& options) {
+  if (!(options.angle >= 0)) throw InvalidInput("The crease angle must be 0 or a positive number, in radians.");
   if (options.rule == CreaseRule::kNone) return EdgeMask::Constant(F.rows(), 3, false);
   const EdgeMask marked = marked_edges(F, options) && neighbors.array() >= 0;
   return options.rule == CreaseRule::kMarked ? marked : marked || find_bent_edges(V, F, neighbors, options.angle);

@@ -48,7 +48,7 @@ struct HeightField {
   std::vector<int> piece;         // #T: 0 .. piece_count - 1
   int piece_count = 0;
   Mask silhouette;       // of the region's triangles: left out, |n.v| < kSilhouette
-  Mask turned_away;      // of the region's triangles: left out, n.v < 0, turned away or folded over
+  Mask turned_away;      // of the region's triangles: left out, n.v <= -kSilhouette, turned away or folded over
   int crease_count = 0;  // edges that are creases
   int marked_count = 0;  // marked edges among the creases
   bool closed = false;   // the region has no border edge

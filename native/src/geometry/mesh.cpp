@@ -171,10 +171,11 @@ Mask find_unusable(const Positions& V, const Triangles& F) {
 Triangles edge_neighbors(const Triangles& F) {
   Triangles neighbors = Triangles::Constant(F.rows(), 3, -1);
   const std::vector<HalfEdge> edges = sort_half_edges(F);
-  for (size_t k = 1; k < edges.size(); ++k) {
-    if (!same_edge(edges[k], edges[k - 1])) continue;
-    neighbors(edges[k].triangle, edges[k].corner) = edges[k - 1].triangle;
-    neighbors(edges[k - 1].triangle, edges[k - 1].corner) = edges[k].triangle;
+  for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && same_edge(edges[begin], edges[end])) ++end;
+    if (end - begin != 2) continue;
+    neighbors(edges[begin].triangle, edges[begin].corner) = edges[begin + 1].triangle;
+    neighbors(edges[begin + 1].triangle, edges[begin + 1].corner) = edges[begin].triangle;
   }
   return neighbors;
 }
@@ -201,27 +202,6 @@ Incidence vertex_triangles(const Triangles& F, int vertex_count) {
     for (int i = 0; i < 3; ++i) result.items[next[F(t, i)]++] = t;
   }
   return result;
-}
-
-std::vector<std::vector<int>> border_loops(const Triangles& F, const Triangles& neighbors) {
-  std::multimap<int, int> next;  // a vertex where two loops touch has two successors
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) < 0) next.emplace(F(t, (i + 1) % 3), F(t, (i + 2) % 3));
-    }
-  }
-  std::vector<std::vector<int>> loops;
-  while (!next.empty()) {
-    std::vector<int> loop;
-    for (auto edge = next.begin(); edge != next.end();) {
-      const int to = edge->second;
-      loop.push_back(edge->first);
-      next.erase(edge);
-      edge = next.find(to);
-    }
-    loops.push_back(std::move(loop));
-  }
-  return loops;
 }
 
 int count_doubled_vertices(const Positions& V) {

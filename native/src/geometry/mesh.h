@@ -31,8 +31,8 @@ void check_surface(const Positions& V, const Triangles& F);
 // right one.
 Mask find_unusable(const Positions& V, const Triangles& F);
 
-// Returns the triangle across the edge opposite each corner (#F x 3), -1 on the border. F must have passed
-// check_surface.
+// Returns the triangle across the edge opposite each corner (#F x 3); -1 on the border, and at an edge of three
+// triangles and more, where none is the one across.
 Triangles edge_neighbors(const Triangles& F);
 
 // Returns the vertices of edges with one triangle (#V).
@@ -40,10 +40,6 @@ Mask find_border_vertices(const Triangles& F, int vertex_count);
 
 // Returns for every vertex 0 .. vertex_count - 1 the triangles that touch it, ascending.
 Incidence vertex_triangles(const Triangles& F, int vertex_count);
-
-// Returns the border of F as closed loops of vertices, each in the order of its triangles' orientation; empty for a
-// closed surface.
-std::vector<std::vector<int>> border_loops(const Triangles& F, const Triangles& neighbors);
 
 // Returns how many vertices of V (#V x 3) lie exactly on an earlier one, as in meshes whose faces were not joined.
 int count_doubled_vertices(const Positions& V);

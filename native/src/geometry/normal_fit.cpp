@@ -108,6 +108,7 @@ void NormalFit::fit(const Positions& V, const Positions& area_normals, int v) {
   Vector weight(K - 1);
   double size = 0;
   for (int k = 1; k < K; ++k) size = std::max(size, (V.row(stencil_.items[stencil_.begin(v) + k]) - V.row(v)).norm());
+  if (size == 0) return;  // all lie on v
   for (int k = 1; k < K; ++k) {
     const Vector3 d = (V.row(stencil_.items[stencil_.begin(v) + k]) - V.row(v)).transpose() / size;
     const double x = d.dot(fit.e1), y = d.dot(fit.e2);

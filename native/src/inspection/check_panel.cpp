@@ -58,6 +58,7 @@ void check_input(const Positions& before, const Positions& after, const Triangle
   check_mark(options.angle, "angle");
   check_mark(options.curvature, "curvature");
   check_mark(options.reach, "reach");
+  if (options.deviation >= 0 || !std::isfinite(options.deviation)) check_mark(options.deviation, "deviation");
 }
 
 struct Sides {

@@ -18,6 +18,9 @@ Quadratic reflected_component(const Vector3& b, const Vector3& c) {
           2 * b.x() * c.x() - dot, 2 * (b.x() * c.y() + b.y() * c.x()),  2 * b.y() * c.y() - dot};
 }
 
+// Returns the argument in (-pi, pi]: with an imaginary part of -0 atan2 would give -pi.
+double angle_of(const std::complex<double>& w) { return std::atan2(w.imag() + 0.0, w.real()); }
+
 }  // namespace
 
 double wrap_angle(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
@@ -38,9 +41,12 @@ ReflectionFunction::ReflectionFunction(const ImagePlane& frame, const Vector3& v
   cqq_ = {r2.cqq, r1.cqq};
 }
 
-double ReflectionFunction::theta(double p, double q) const {
-  const Complex value = w(p, q);
-  return std::atan2(value.imag(), value.real());
+double ReflectionFunction::theta(double p, double q) const { return angle_of(w(p, q)); }
+
+double ReflectionFunction::theta(const Vector3& normal) const {
+  const Vector3 n = normal.stableNormalized();
+  return angle_of(n.z() * n.z() * c0_ - n.z() * (n.x() * cp_ + n.y() * cq_) + n.x() * n.x() * cpp_ +
+                  n.x() * n.y() * cpq_ + n.y() * n.y() * cqq_);
 }
 
 double ReflectionFunction::visibility(double p, double q) const {

@@ -31,6 +31,9 @@ class ReflectionFunction {
 
   double theta(double p, double q) const;  // radians in (-pi, pi]
 
+  // Returns theta of a normal in the frame, of any length but 0; pi where it is perpendicular to the view.
+  double theta(const Vector3& normal) const;
+
   // Returns the sine of the angle between the reflected ray and the lines, in [0, 1]: theta is undefined where it is 0.
   double visibility(double p, double q) const;
 

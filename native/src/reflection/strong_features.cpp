@@ -57,10 +57,6 @@ double find_strong_size(const PlaneVectors& gradient, const Vector& area, double
   return std::max(kStrong * weighted_median(gradient.rowwise().norm(), area), kLeast / diagonal);
 }
 
-Vector measure_response(const PlaneVectors& gradient, const Vector& area, double diagonal) {
-  return measure_response(gradient, find_strong_size(gradient, area, diagonal));
-}
-
 Vector measure_response(const PlaneVectors& gradient, double strong) {
   const Vector size = gradient.rowwise().norm();
   const Vector x = (size.array() / strong - kOrdinary).cwiseMax(0.0).cwiseMin(1.0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 #include "geometry/height_field.h"
@@ -55,6 +56,9 @@ constexpr double kLeastGain = 0.3, kLeastSquareGain = 0.1, kVisible = 0.3;
 // the first: with creases found anew twice as much was left of ripples round a scoop, whose own bends went.
 // Below a cage the first is taken everywhere: with all of them a clean door moved by 0.8 mm instead of 0.4.
 constexpr double kStretches[] = {1.0, 2.0, 4.0, 8.0};
+
+// An infinite limit becomes this, since a vertex with a share of 0 stays: infinity times 0 is no number.
+constexpr double kNoLimit = std::numeric_limits<double>::max();
 
 constexpr double kTurned = std::numbers::pi / 4;
 constexpr int kRetries = 3;
@@ -131,7 +135,7 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
                 choose_length(options, surface.positions()), kLineSmoother) {
   report_.region = surface.optimizer().region();
   report_.length = choose_length(options, surface.positions());
-  report_.limit = options.limit > 0 ? options.limit : kAutomaticLimit * report_.length;
+  report_.limit = options.limit > 0 ? std::min(options.limit, kNoLimit) : kAutomaticLimit * report_.length;
   const MoveLimit& share = options.limit_share;
   range_ = MoveLimit::within(report_.limit, static_cast<int>(surface.control_positions().rows()));
   if (share.exists()) range_ = {report_.limit * share.lowest, report_.limit * share.highest};

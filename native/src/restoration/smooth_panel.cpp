@@ -140,7 +140,9 @@ SmoothPanelResult smooth_cage_panel(const Cage& cage, const Positions& V, const 
     set_restoration_rules(options, kCageProximity, own.shape);
     CageControlledSurface surface(cage, V, view_direction,
                                   make_families(view_direction, line_direction, options.lights), own);
-    return Restoration(surface, options).run();
+    SmoothPanelOptions with_partners = options;
+    with_partners.limit_share = intersect_limits(options.limit_share, cage_options.partner);
+    return Restoration(surface, with_partners).run();
   });
 }
 

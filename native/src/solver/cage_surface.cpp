@@ -108,6 +108,17 @@ void cut_faces(const Subdivision& whole, const Mask& region, const std::vector<i
   surface.quadrature_weight.conservativeResize(count);
 }
 
+// Returns the positions of the vertices in faces; the others may be anywhere.
+Positions positions_in_faces(const Cage& cage, const Positions& V) {
+  Mask in_face = Mask::Constant(V.rows(), false);
+  for (const int v : cage.face_vertices) in_face(v) = true;
+  std::vector<int> used;
+  for (int v = 0; v < in_face.size(); ++v) {
+    if (in_face(v)) used.push_back(v);
+  }
+  return V(used, Eigen::all);
+}
+
 }  // namespace
 
 CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector3& view, const CageOptions& options) {
@@ -133,7 +144,9 @@ CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector
   cut_faces(whole, region, number, surface);
   if (!options.sparse || options.subdivision.level < kSparseLevel) surface.quadrature_weight.resize(0);
   surface.B = build_cage_unknowns(held, options.partner);
-  const Vector heights = (V.rowwise() - V.colwise().mean()) * view.normalized();
+  // A vertex in no face, a thousand kilometres away, would take five digits from heights around the mean of all.
+  const Positions in_faces = positions_in_faces(cage, V);
+  const Vector heights = (V.rowwise() - in_faces.colwise().mean()) * view.normalized();
   surface.start.resize(surface.B.cols());
   for (int k = 0; k < surface.start.size(); ++k) {
     surface.start(k) = heights(SparseMatrix::InnerIterator(surface.B, k).row());

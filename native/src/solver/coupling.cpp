@@ -15,10 +15,12 @@ void check_size(const SparseMatrix& B, const Vector& start, int vertex_count) {
                      " unknowns; hand over one row a vertex, one column an unknown.");
 }
 
+// Returns true where an unknown moves a vertex that stays. One that lies on no piece, as on the side of a body that is
+// turned away, stays, too: an unknown that moved nothing else had an empty column, and one that moved both carried it
+// beyond its limit.
 bool moves_held_vertex(const SparseMatrix& B, const HeightField& field, int unknown) {
   for (SparseMatrix::InnerIterator it(B, unknown); it; ++it) {
-    const VertexRole role = field.role[it.row()];
-    if (role == VertexRole::kFixed || role == VertexRole::kClamped) return true;
+    if (field.role[it.row()] != VertexRole::kFree) return true;
   }
   return false;
 }

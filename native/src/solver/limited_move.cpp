@@ -23,6 +23,16 @@ bool lies_within(const Eigen::RowVector3d& way, const Vector3& view, const MoveR
          length >= range.lowest * shrink;
 }
 
+// The number of steps by the smallest difference that there is. Near zero those are so small that millions of millions
+// of them are no move at all.
+constexpr int kSmallSteps = 64;
+
+// Returns a number nearer to `end` by a rounding of that.
+double approach(double from, double end) {
+  const double step = std::numeric_limits<double>::epsilon() * std::abs(end);
+  return std::abs(end - from) <= step ? end : from + std::copysign(step, end - from);
+}
+
 }  // namespace
 
 void check(const MoveLimit& limit, int vertex_count) {
@@ -51,8 +61,9 @@ double move_height(double height, double move, const MoveRange& range) {
 
 Eigen::RowVector3d move_point(const Eigen::RowVector3d& p, double move, const Vector3& view, const MoveRange& range) {
   Eigen::RowVector3d moved = p + move * view.transpose();
-  while (!lies_within(moved - p, view, range)) {
-    for (int i = 0; i < 3; ++i) moved(i) = std::nextafter(moved(i), p(i));
+  for (int step = 0; !lies_within(moved - p, view, range); ++step) {
+    for (int i = 0; i < 3; ++i)
+      moved(i) = step < kSmallSteps ? std::nextafter(moved(i), p(i)) : approach(moved(i), p(i));
   }
   return moved;
 }

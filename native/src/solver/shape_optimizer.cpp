@@ -68,6 +68,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   check_surface(V, F);
   check_quadrature_weight(options.quadrature_weight, F.rows());
   check_face_of_triangle(face_of_triangle_, F.rows());
+  check_proximity(options.proximity);
   check_symmetry(options, V.rows());
   box_ = find_bounding_box(V, F);
   enter(0.2, "dividing into height fields");
@@ -179,6 +180,7 @@ double ShapeOptimizer::energy(const std::vector<Target>& targets) {
   const std::vector<Target> all = with_border(targets);
   double sum = 0;
   for (const auto& piece : pieces_->pieces()) {
+    if (piece->size() == 0) continue;  // as solves do
     piece->set_targets(all);
     sum += piece->energy();
   }
@@ -339,6 +341,7 @@ void ShapeOptimizer::reset() {
 const Vector& ShapeOptimizer::unknowns() const { return pieces_->pieces().front()->unknowns(); }
 
 void ShapeOptimizer::rest_at(const Vector& unknowns) {
+  pieces_->set_limit(MoveLimit::none());  // the shape is a new start, and the last solve's limit was for another one
   forget_lines();
   pieces_->pieces().front()->rest_at(unknowns);
 }

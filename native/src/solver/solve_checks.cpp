@@ -1,5 +1,6 @@
 #include "solver/solve_checks.h"
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -30,6 +31,11 @@ void check_face_of_triangle(const IndexVector& face, Eigen::Index triangles) {
   if (face.size() == 0 || face.size() == triangles) return;
   throw InvalidInput("There are " + std::to_string(face.size()) + " faces for " + std::to_string(triangles) +
                      " triangles; give the one that each was cut from, or none.");
+}
+
+void check_proximity(double proximity) {
+  if (std::isfinite(proximity)) return;
+  throw InvalidInput("The proximity is not a finite number; give 0 or more, or -1 for the usual one.");
 }
 
 void check_surroundings(const Surroundings& around, Eigen::Index vertices) {

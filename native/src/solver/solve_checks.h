@@ -15,6 +15,9 @@ void check_quadrature_weight(const Vector& weight, Eigen::Index triangles);
 // Throws InvalidInput unless the list of faces is empty or has one for each of the triangles.
 void check_face_of_triangle(const IndexVector& face, Eigen::Index triangles);
 
+// Throws InvalidInput where the weight of the pull to the start is not a finite number; negative ones are automatic.
+void check_proximity(double proximity);
+
 // Throws InvalidInput where the triangles around a region of `vertices` name one that there is not, or a coordinate is
 // not finite.
 void check_surroundings(const Surroundings& around, Eigen::Index vertices);

@@ -41,9 +41,11 @@ std::string call(const Handle& handle, int number) {
 
 void check(const Handle& handle, int number, Eigen::Index triangles) {
   const bool pin = handle.kind == HandleKind::kPin;
-  if (!handle.points.allFinite() || !handle.centre.allFinite() || !std::isfinite(handle.value + handle.radius)) {
-    throw InvalidInput(call(handle, number) +
-                       " has a position, value or radius that is not a finite number; place it again.");
+  // Lengths are needed, whose squares have to be finite, too.
+  if (!std::isfinite(handle.points.squaredNorm() + handle.centre.squaredNorm() + handle.value + handle.radius)) {
+    throw InvalidInput(
+        call(handle, number) +
+        " has a position, value or radius that is not a finite number, or a position too far away; place it again.");
   }
   if (handle.points.rows() == 0 && !(pin && handle.triangles.size() > 0)) {
     throw InvalidInput(call(handle, number) + " has no point; give one, or several for a curve.");
@@ -51,10 +53,9 @@ void check(const Handle& handle, int number, Eigen::Index triangles) {
   if (!pin && !(handle.radius > 0)) {
     throw InvalidInput(call(handle, number) + " has no radius; give the length within which lines may follow it.");
   }
-  if (pin && handle.triangles.size() > 0 &&
-      (handle.triangles.minCoeff() < 0 || handle.triangles.maxCoeff() >= triangles)) {
+  if (handle.triangles.size() > 0 && (handle.triangles.minCoeff() < 0 || handle.triangles.maxCoeff() >= triangles)) {
     throw InvalidInput(call(handle, number) + " names a triangle that is none of the region's " +
-                       std::to_string(triangles) + "; pin it again.");
+                       std::to_string(triangles) + "; place it again.");
   }
 }
 
@@ -261,6 +262,7 @@ void LineHandles::weight_places(const std::vector<Handle>& handles, const Places
     // A pinned area weighs as the places that it has room for.
     const double room = handles[k].triangles.size() > 0 ? area / std::pow(kPlaceEdges * mean_edge(*field_), 2) : 0.0;
     const double count = std::max({1.0, static_cast<double>(places[k].size()), room});
+    if (area == 0) continue;  // none of its triangles can be seen
     for (const int t : around) weight(t) = std::max(weight(t), kPlaceWeight * value_scale_ * count / area);
   }
 }

@@ -52,6 +52,17 @@ TEST(SmoothModesTest, AFreeBorderMovesToo) {
   EXPECT_GT(sums.minCoeff(), 0.5);
 }
 
+// The two halves of a body across the corners of its box: a grid over that box had thousands of times their splines.
+TEST(SmoothModesTest, ThereAreNoneForHalvesFarApart) {
+  const HeightField near = flat_square(Border::kFree);
+  HeightField far = near;
+  far.xy.bottomRows(far.xy.rows() / 2).array() += 1e5;
+  EXPECT_GT(build_spline_basis(near, 4.0).count, 0);
+  EXPECT_EQ(build_spline_basis(far, 4.0).count, 0);
+  far.xy.bottomRows(far.xy.rows() / 2).array() += 1e12;  // more cells than an int counts
+  EXPECT_EQ(build_spline_basis(far, 4.0).count, 0);
+}
+
 // P^T g . c = g . P c.
 TEST(SmoothModesTest, PullingBackIsTheTransposeOfMoving) {
   const SplineBasis modes = build_spline_basis(flat_square(Border::kFree), 4.0);

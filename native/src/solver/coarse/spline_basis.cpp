@@ -13,11 +13,16 @@ constexpr double kSmallestSupport = 0.03;
 // The number of samples along a cell's side. Nine a cell are eighteen equations for each spline.
 constexpr int kSamplesAlong = 3;
 
+// The number of splines for each vertex above which there is no basis: where the region is far smaller than the box
+// around it, as two mirror halves of a car's corners are, the grid is nearly empty, and takes gigabytes.
+constexpr double kMostSplines = 4.0;
+
 KnotGrid build_grid(const HeightField& field, double spacing) {
   KnotGrid grid;
   grid.step = spacing * std::sqrt(field.area.sum() / std::max(1, field.vertex_count()));
   grid.origin = field.xy.colwise().minCoeff();
   const Vector2 cells = (field.xy.colwise().maxCoeff().transpose() - grid.origin) / grid.step;
+  if (!((cells.x() + 4) * (cells.y() + 4) <= kMostSplines * field.vertex_count())) return grid;
   grid.columns = static_cast<int>(cells.x()) + 4;
   grid.rows = static_cast<int>(cells.y()) + 4;
   return grid;
@@ -96,6 +101,7 @@ void add_cells(const HeightField& field, SplineBasis& modes) {
 SplineBasis build_spline_basis(const HeightField& field, double spacing) {
   SplineBasis modes;
   modes.grid = build_grid(field, spacing);
+  if (modes.grid.columns == 0) return modes;
   number_splines(field, spacing * spacing, modes);
   modes.places = collect_free_places(field);
   if (modes.count > 0) add_cells(field, modes);
