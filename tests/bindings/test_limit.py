@@ -262,14 +262,14 @@ def test_a_cancelled_limited_solve_can_be_followed_by_another():
 
 @pytest.mark.parametrize("share", [0.3, 0.1, 0.03, 0.01])
 def test_rounds_that_change_few_of_many_contacts_take_no_factorization(share):
-    """A factorization for each round made these 11, 14, 10 and 11."""
+    """A factorization for each round made these 11, 14, 10 and 11, and those without relaxation before them 7."""
     positions, triangles = ripples(60, amplitude=1e-3)
     positions[:, 2] += np.random.default_rng(1).normal(0, 1e-4, len(positions))
     largest = made(positions, triangles).solve(reflines.smooth(made(positions, triangles), length=0.5)).largest_move
     solver = made(positions, triangles)
     report = solver.solve(reflines.smooth(solver, length=0.5), limit=share * largest)
     assert report.converged and report.limited_share > 0.05
-    assert report.factorizations <= 8
+    assert report.factorizations <= 4
 
 
 def test_a_drag_of_the_target_makes_few_factors():

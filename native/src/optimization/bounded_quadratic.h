@@ -25,8 +25,9 @@ struct QuadraticModel {
 //
 // Others are found by the primal-dual active set method, a semismooth Newton method (Hintermueller, Ito and Kunisch,
 // SIAM J. Optim. 13, 2003): solve with the held unknowns at their bounds, hold those that violate a bound, release
-// those with a multiplier of the wrong sign. Its first rounds change thousands of unknowns and take a factorization
-// each, the later ones change few and take the factor before them, bordered. Where the set of many changes slowly, as
+// those with a multiplier of the wrong sign. Its first rounds would change thousands of unknowns, and take a
+// factorization each: ProjectedRelaxation changes most of these before. The later ones change few and take the factor
+// before them, bordered. Where the set of many changes slowly, as
 // on a smooth surface that leaves its bound row by row, InteriorPoint estimates it anew.
 class BoundedQuadratic {
  public:
