@@ -25,11 +25,12 @@ def ball(around: int = 8, down: int = 8) -> tuple[Array, Array, Array]:
     V = np.stack([np.outer(np.sin(polar), np.cos(turn)), np.outer(np.sin(polar), np.sin(turn)),
                   np.repeat(np.cos(polar)[:, None], around, axis=1)], axis=2).reshape(-1, 3)
     north, south, last = len(V), len(V) + 1, (down - 2) * around
-    faces = [[row * around + k, (row + 1) * around + k, (row + 1) * around + (k + 1) % around, row * around + (k + 1) % around]
-             for row in range(down - 2) for k in range(around)]
+    faces = [[row + k, row + around + k, row + around + (k + 1) % around, row + (k + 1) % around]
+             for row in range(0, last, around) for k in range(around)]
     faces += [[north, k, (k + 1) % around] for k in range(around)]
     faces += [[south, last + (k + 1) % around, last + k] for k in range(around)]
-    return np.vstack([V, [[0, 0, 1], [0, 0, -1]]]), np.cumsum([0] + [len(face) for face in faces]), np.concatenate(faces)
+    offsets = np.cumsum([0] + [len(face) for face in faces])
+    return np.vstack([V, [[0, 0, 1], [0, 0, -1]]]), offsets, np.concatenate(faces)
 
 
 def roof() -> tuple[Array, Array, Array]:

@@ -87,5 +87,5 @@ def test_an_edge_with_several_triangles_beside_it_cannot_be_judged(first: bool) 
     W = np.vstack([V, V[edge[:1]] + [0.0, 0.0, 0.2]])
     faces, mask = (np.vstack([fin, F]), np.r_[False, region]) if first else (np.vstack([F, fin]), np.r_[region, False])
     finned = reflines.check(W, W, faces, mask)
-    assert [kind for kind, ends in zip(finned.kind, finned.edges) if set(ends) == set(edge)] == ["open"]
+    assert [kind for kind, ends in zip(finned.kind, finned.edges, strict=True) if set(ends) == set(edge)] == ["open"]
     assert list(finned.kind).count("border") == list(plain.kind).count("border") - 1

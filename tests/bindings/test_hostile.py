@@ -188,7 +188,8 @@ def test_options_that_are_no_numbers_are_refused(options: dict, said: str) -> No
 
 @pytest.mark.parametrize(("options", "said"), [
     ({"normal": (0, 0, 0)}, "length 0"), ({"normal": (np.nan, 0, 0)}, "not a finite"),
-    ({"point": (np.inf, 0, 0)}, "not a finite"), ({"tolerance": np.nan}, "tolerance"), ({"tolerance": -1.0}, "tolerance"),
+    ({"point": (np.inf, 0, 0)}, "not a finite"), ({"tolerance": np.nan}, "tolerance"),
+    ({"tolerance": -1.0}, "tolerance"),
 ])
 def test_mirror_planes_that_are_none_are_refused(options: dict, said: str) -> None:
     with pytest.raises(reflines.InvalidInput, match=said):
@@ -197,7 +198,8 @@ def test_mirror_planes_that_are_none_are_refused(options: dict, said: str) -> No
 
 def test_the_normal_of_a_mirror_plane_may_be_of_any_length() -> None:
     V = panel(4, jitter=0.0)[0]
-    pairs = [reflines.mirror_pairs(V, point=(0, 0, 0), normal=(size, 0, 0), tolerance=1e-6) for size in (1.0, 1e200, 1e-200)]
+    pairs = [reflines.mirror_pairs(V, point=(0, 0, 0), normal=(size, 0, 0), tolerance=1e-6)
+             for size in (1.0, 1e200, 1e-200)]
     assert (pairs[0] >= 0).any() and np.array_equal(pairs[0], pairs[1]) and np.array_equal(pairs[0], pairs[2])
 
 
