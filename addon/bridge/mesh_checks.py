@@ -1,4 +1,6 @@
 """Refuses meshes that cannot be solved or written, each in one sentence."""
+from enum import Enum, auto
+
 import bpy
 import numpy as np
 
@@ -6,9 +8,15 @@ from ..model.refusal import Refusal
 from . import baked_keys, compat
 
 
-def refuse_unusable(ob: bpy.types.Object, key: str, *, shared: bool = False) -> None:
-    """Refuses objects whose mesh cannot be written: linked, shared (unless `shared` is given), with locked or missing
-    shape keys, or of no extent.
+class Purpose(Enum):
+    """A purpose that a mesh is read for; it decides what is refused."""
+    WRITE = auto()         # to be written in the mode it is in
+    WRITE_SHARED = auto()  # in Object Mode also where other objects share it
+    WRITE_EDITED = auto()  # by a run that came from Edit Mode, so as there: also where it is shared, or has shape keys
+
+
+def refuse_unusable(ob: bpy.types.Object, key: str, purpose: Purpose) -> None:
+    """Refuses objects whose mesh cannot be written: linked, shared, with locked or missing shape keys, or of no extent.
     """
     mesh, keys = ob.data, ob.data.shape_keys
     if ob.library is not None or mesh.library is not None:
@@ -16,14 +24,15 @@ def refuse_unusable(ob: bpy.types.Object, key: str, *, shared: bool = False) -> 
     if mesh.override_library is not None:
         raise Refusal(f"The mesh of {ob.name} is linked from another file and overridden here, which keeps no moved "
                       "vertices: make it local")
-    if ob.mode != 'EDIT' and keys is not None and not key and not baked_keys.has_only_baked_keys(ob):
+    edited = ob.mode == 'EDIT' or purpose is Purpose.WRITE_EDITED
+    if not edited and keys is not None and not key and not baked_keys.has_only_baked_keys(ob):
         raise Refusal(f"{ob.name} has shape keys: enter Edit Mode on the key that is to be changed, "
                       "or choose the result Shape Key")
     if key and keys is not None and not keys.use_relative:
         raise Refusal(f"{ob.name} has absolute shape keys, which cannot be mixed: choose the result Mesh in Edit Mode")
     refuse_mixed_keys(ob, key)
     others = mesh.users - mesh.use_fake_user - 1
-    if ob.mode != 'EDIT' and others > 0 and not shared:
+    if not edited and others > 0 and purpose is not Purpose.WRITE_SHARED:
         raise Refusal(f"{ob.name} shares its mesh with {others} other objects: "
                       "make it single-user, or work in Edit Mode")
     written = keys and (keys.key_blocks.get(key) or (None if key else ob.active_shape_key))

@@ -8,6 +8,7 @@ from ..model import cage
 from ..model.cage import Cage, CagePatch
 from ..model.refusal import Refusal
 from . import compat, modifiers, read_mesh, read_patch
+from .mesh_checks import Purpose
 
 # Levels the surface is sampled at. Shapes differ from those solved at 4 by 1.9 % of the move at 3 and 8.5 % at 2 when a
 # noisy cage is smoothed, by 0.3 % and 1.4 % when a clean one gets denser lines; at 1 by 29 % and 3.4 %.
@@ -15,9 +16,9 @@ FINEST, COARSEST = 3, 2
 
 
 def gather_cage_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
-                or_all: bool = False, shared: bool = False) -> CagePatch:
+                or_all: bool = False, purpose: Purpose = Purpose.WRITE) -> CagePatch:
     """Gathers the region of a cage; the parameters are those of read_patch.gather_mesh_patch."""
-    patch = read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, shared=shared)
+    patch = read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, purpose=purpose)
     local = read_mesh.read_coordinates(ob, key) if local is None else local
     *below, modifier = modifiers.find_cage_modifiers(ob)
     mirror = find_followed_mirror(ob.name, below)

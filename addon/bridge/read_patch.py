@@ -9,17 +9,18 @@ from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
 from . import (border_segments, mesh_checks, read_creases, read_limit_share, read_mesh, read_mirror, read_surroundings,
                region_faces)
+from .mesh_checks import Purpose
 
 
 def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
-                      or_all: bool = False, shared: bool = False, reach: float = 0.0) -> Patch:
+                      or_all: bool = False, purpose: Purpose = Purpose.WRITE, reach: float = 0.0) -> Patch:
     """Gathers the region: the selected faces in Edit Mode, the stored region in Object Mode.
 
     `local` (#vertices x 3, object space) replaces the coordinates of the mesh. With `or_all` all visible faces are
-    taken where no region is stored; with `shared` the mesh may belong to other objects too. `reach` is that of
-    the surroundings, see read_surroundings, relative to the diagonal of what is solved.
+    taken where no region is stored. `reach` is that of the surroundings, see read_surroundings, relative to the
+    diagonal of what is solved.
     """
-    mesh_checks.refuse_unusable(ob, key, shared=shared)
+    mesh_checks.refuse_unusable(ob, key, purpose)
     if ob.mode == 'EDIT':
         ob.update_from_editmode()
     faces = choose_faces(ob, or_all=or_all)

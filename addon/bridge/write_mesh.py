@@ -28,17 +28,31 @@ class EditVertices:
         return self.vertices
 
 
-def write_solution(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> None:
+def write_solution(ob: bpy.types.Object, patch: Patch, positions: np.ndarray, *, edited: bool = False) -> None:
     """Writes world positions (#V x 3) of the patch, into the shape key of the patch if it has one.
 
-    That key can only be made in Object Mode, so this leaves Edit Mode unless the key is the one being edited.
+    That key can only be made in Object Mode, so this leaves Edit Mode unless the key is the one being edited. With
+    `edited` the run came from Edit Mode into Object Mode; the active key is then written as there.
     """
+    if edited and not patch.key and ob.mode == 'OBJECT' and ob.data.shape_keys is not None:
+        write_active_key(ob, patch, positions)
+        return
     if patch.key and not shape_keys.is_result_key_edited(ob):
         if ob.mode == 'EDIT':
             bpy.ops.object.mode_set(mode='OBJECT')
         shape_keys.open_result_key(ob)
     old = patch.round_start_positions() if ob.mode == 'EDIT' else read_mesh.read_patch_positions(ob, patch)
     write_positions(ob, patch, patch.to_object_space(positions), old)
+
+
+def write_active_key(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> None:
+    """Writes world positions into the active shape key from Object Mode. Edit Mode does so, since Blender then moves
+    the keys that are relative to it along.
+    """
+    bpy.ops.object.mode_set(mode='EDIT')
+    old = read_mesh.read_shown_coordinates(ob)[patch.index]
+    write_positions(ob, patch, patch.to_object_space(positions), old)
+    bpy.ops.object.mode_set(mode='OBJECT')
 
 
 def write_positions(ob: bpy.types.Object, patch: Patch, new: np.ndarray, old: np.ndarray,

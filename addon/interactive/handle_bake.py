@@ -6,6 +6,7 @@ import numpy as np
 
 from .. import native
 from ..bridge import baked_keys, facing, gather, handle_keys, read_mesh, shape_keys
+from ..bridge.mesh_checks import Purpose
 from ..model import bake_frames, line_run
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -75,7 +76,8 @@ class HandleBake:
         handle_keys.set_frame(scene, self.frame)
         try:
             handles = ob.reflection_lines.handles.read(ob.data)
-            patch = gather.gather_patch(ob, run.solve_for, run.result, self.start, shared=self.mode == 'EDIT')
+            purpose = Purpose.WRITE_SHARED if self.mode == 'EDIT' else Purpose.WRITE
+            patch = gather.gather_patch(ob, run.solve_for, run.result, self.start, purpose=purpose)
             build, seen = self.lines.build(scene, ob, patch, handles), facing.read_patch_view(scene, patch)
         except Refusal as refusal:
             raise Refusal(f"Frame {self.frame:g}: {refusal}") from refusal

@@ -7,6 +7,7 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..bridge import read_checked, read_mesh, read_patch
+from ..bridge.mesh_checks import Purpose
 from ..model import check_table
 from ..model.check_table import TableRow
 from ..model.patch import Patch
@@ -57,7 +58,7 @@ hold them against the marks; without a run the selected faces as they are"""
             score = report.score_before, report.score_after
             return last.patch, last.positions, check_table.describe_solve(score, report.largest_move,
                                                                           report.automatic_limit or None)
-        patch = read_patch.gather_mesh_patch(ob, or_all=True, shared=True)
+        patch = read_patch.gather_mesh_patch(ob, or_all=True, purpose=Purpose.WRITE_SHARED)
         return patch, patch.V, []
 
 

@@ -38,7 +38,7 @@ has its lines. Select that mesh, then the cage"""
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
         return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), or_all=True,
-                                   shared=self.shared)
+                                   purpose=self.choose_purpose())
 
     def solve(self, context: bpy.types.Context, ob: bpy.types.Object) -> Solution:
         if not modifiers.is_cage(ob):

@@ -43,7 +43,7 @@ before that run, unless the mesh has been changed since"""
             bpy.ops.object.mode_set(mode='OBJECT')
         difference = run.difference(ob.data)
         try:
-            self.run(ob, run, shared=mode == 'EDIT')
+            self.run(ob, run, edited=mode == 'EDIT')
         except (RuntimeError, Refusal) as error:  # Blender raises the errors that an operator reports
             if mode != 'OBJECT':
                 bpy.ops.object.mode_set(mode=mode)
@@ -56,7 +56,7 @@ before that run, unless the mesh has been changed since"""
         self.report({'INFO'}, f"{ob.reflection_lines.report.headline()} ({ob.name})")
         return {'FINISHED'}
 
-    def run(self, ob: bpy.types.Object, run: bpy.types.PropertyGroup, *, shared: bool) -> None:
+    def run(self, ob: bpy.types.Object, run: bpy.types.PropertyGroup, *, edited: bool) -> None:
         """Runs the tool of the stored run. Name and settings come from the file, so only tools that solve are run."""
         kind = getattr(bpy.types, run.operator, None)
         if not isinstance(kind, type) or not issubclass(kind, SolveTool):
@@ -64,7 +64,7 @@ before that run, unless the mesh has been changed since"""
         tool = getattr(bpy.ops.reflines, run.operator.split("_OT_")[1])
         changed = {name: getattr(self, name) for name in ("border", "limit") if getattr(self, name)}
         try:
-            settings = {**json.loads(run.settings), **changed, "anew": True, "shared": shared}
+            settings = {**json.loads(run.settings), **changed, "anew": True, "edited": edited}
             tool('EXEC_DEFAULT', **settings)
         except (TypeError, ValueError, RecursionError) as error:
             raise Refusal(f"{ob.name}: the stored settings of {kind.bl_label} cannot be used: run it again") from error

@@ -5,6 +5,7 @@ from bpy.props import BoolProperty
 
 from ..bridge import (facing, gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, view_and_light,
                       write_mesh)
+from ..bridge.mesh_checks import Purpose
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -16,7 +17,7 @@ from ..ui.tool_properties import border_property
 # Settings of the scene for all tools that have none of their own.
 SHARED = {"border", "solve_for", "result", "lights", "limit"}
 LOST_START = ("The run began with the mesh as it is now: the shape before the last run is not known, since the mesh "
-              "was changed, undone, renamed or duplicated after it")
+              "was changed, undone, renamed or duplicated after it, or another shape key is edited")
 
 
 def is_ready(operator: type[bpy.types.Operator], context: bpy.types.Context, *, needs_faces: bool = True) -> bool:
@@ -42,8 +43,8 @@ class SolveTool:
     solve_for: solve_for_property(options={'SKIP_SAVE'})
     result: result_property(options={'SKIP_SAVE'})
     anew: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Begin with the shape before the last run")
-    shared: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Also in Object Mode change a mesh that other "
-                         "objects share, as Edit Mode does")
+    edited: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Also in Object Mode change what Edit Mode does: "
+                         "a mesh that other objects share, and the active shape key")
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         """Returns the scene's settings, which stand for those not given."""
@@ -87,7 +88,7 @@ class SolveTool:
             region_faces.keep_region(bpy.data.objects[solution.patch.name], solution.patch)
         for solution in solutions:
             ob = bpy.data.objects[solution.patch.name]
-            write_mesh.write_solution(ob, solution.patch, solution.positions)
+            write_mesh.write_solution(ob, solution.patch, solution.positions, edited=self.edited)
             self.record_solution(ob, solution)
         return {'FINISHED'}
 
@@ -117,8 +118,11 @@ class SolveTool:
         return optimizer_cache.solve_with_cache(patch, seen, settings, build)
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
-        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), shared=self.shared,
-                                   reach=self.choose_reach())
+        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), reach=self.choose_reach(),
+                                   purpose=self.choose_purpose())
+
+    def choose_purpose(self) -> Purpose:
+        return Purpose.WRITE_EDITED if self.edited else Purpose.WRITE
 
     def choose_reach(self) -> float:
         """Returns how far the faces beside the region are read, in its diagonals; 0: some rings of them."""

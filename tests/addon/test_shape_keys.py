@@ -257,6 +257,60 @@ def test_resolve_from_edit_mode_is_one_undo_step(panel) -> None:
     assert again.mode == 'EDIT' and np.array_equal(scenes.positions(again), before)
 
 
+def edits_a_key(ob: bpy.types.Object, name: str) -> None:
+    """In Edit Mode; the key Low is a dent beside the basis, and High one beside Low."""
+    scenes.object_mode()
+    for key in (ob.shape_key_add(name=new, from_mix=False) for new in ("Basis", "Low", "High")):
+        key.data[140].co.z -= 0.002 * len(key.name)
+    ob.data.shape_keys.key_blocks["High"].relative_key = ob.data.shape_keys.key_blocks["Low"]
+    ob.active_shape_key_index = ob.data.shape_keys.key_blocks.find(name)
+    scenes.edit_inner(ob)
+
+
+def shapes(ob: bpy.types.Object) -> dict[str, bytes]:
+    ob.update_from_editmode()
+    return {key.name: shape(ob, key.name).tobytes() for key in ob.data.shape_keys.key_blocks}
+
+
+@pytest.mark.parametrize("name", ["Basis", "Low", "High"])
+def test_resolve_in_edit_mode_changes_keys_as_a_run_there(panel, name) -> None:
+    """Blender moves the keys that are relative to the edited one along with it."""
+    edits_a_key(panel, name)
+    scenes.smooth(length=0.3)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border='free') == {'FINISHED'}
+    assert panel.mode == 'EDIT' and "mesh as it is now" not in panel.reflection_lines.report.notes
+    resolved = shapes(panel)
+    ob = another()
+    edits_a_key(ob, name)
+    before = shapes(ob)
+    scenes.smooth(length=0.3, border='free')
+    for each, other in shapes(ob).items():
+        assert np.allclose(np.frombuffer(resolved[each], np.float32), np.frombuffer(other, np.float32), atol=3e-7)
+    assert resolved[name] == shapes(ob)[name] != before[name]
+
+
+def test_resolve_in_edit_mode_on_another_key_begins_with_that(panel) -> None:
+    edits_a_key(panel, "Low")
+    scenes.smooth(length=0.3)
+    scenes.object_mode()
+    edited = shapes(panel)["Low"]
+    panel.active_shape_key_index = 2
+    scenes.edit(panel)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert "another shape key is edited" in panel.reflection_lines.report.notes
+    assert shapes(panel)["Low"] == edited
+
+
+def test_a_refused_resolve_in_edit_mode_leaves_every_key(panel) -> None:
+    edits_a_key(panel, "Low")
+    scenes.smooth(length=0.3)
+    before = shapes(panel)
+    bpy.context.scene.reflection_lines.light.rotation_euler = (0.0, 0.0, 0.0)
+    with pytest.raises(RuntimeError, match="parallel"):
+        bpy.ops.reflines.resolve('EXEC_DEFAULT', True)
+    assert panel.mode == 'EDIT' and shapes(panel) == before
+
+
 def changed_by_hand(ob: bpy.types.Object) -> None:
     ob.data.vertices[140].co.z += 0.01
 
