@@ -34,9 +34,15 @@ def forget_changed(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> N
     """Forgets the checks of meshes that have changed; a new selection or attribute is told as a change, too."""
     for update in depsgraph.updates if _checks else ():
         if isinstance(update.id, bpy.types.Object) and update.is_updated_geometry and update.id.name in _checks:
-            shape = read_mesh.read_shown_coordinates(update.id.original)
-            if not np.array_equal(shape, _checks[update.id.name].shape):
+            if not has_shape(update.id.original, _checks[update.id.name].shape):
                 del _checks[update.id.name]
+
+
+def has_shape(ob: bpy.types.Object, shape: np.ndarray) -> bool:
+    """Returns whether an object is still a mesh with these coordinates: it may have been converted, or another one has
+    got its name.
+    """
+    return ob.type == 'MESH' and np.array_equal(read_mesh.read_shown_coordinates(ob), shape)
 
 
 @bpy.app.handlers.persistent

@@ -41,7 +41,9 @@ def note_undo(*_: object) -> None:
     """
     for ob in bpy.data.objects:
         last = solve_history.find_last_solve(ob.name)
-        if last is None or ob.mode != 'EDIT' or last.patch.key and not shape_keys.is_result_key_edited(ob):
+        if last is None or ob.type != 'MESH' or ob.mode != 'EDIT':  # it may have been converted since
+            continue
+        if last.patch.key and not shape_keys.is_result_key_edited(ob):
             continue
         solve_history.mark_undone(ob, undone=read_mesh.is_undone(ob, last.patch, last.positions))
 
