@@ -38,6 +38,11 @@ def refuse_unusable(ob: bpy.types.Object, key: str, purpose: Purpose) -> None:
     written = keys and (keys.key_blocks.get(key) or (None if key else ob.active_shape_key))
     if written and compat.is_shape_locked(written):
         raise Refusal(f"The shape key {written.name} of {ob.name} is locked: unlock it, or choose another")
+    refuse_flat(ob)
+
+
+def refuse_flat(ob: bpy.types.Object) -> None:
+    """Refuses objects of no extent, and those whose transform is no number."""
     scale = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
     if not np.isfinite(scale).all() or np.linalg.matrix_rank(scale) < 3:
         raise Refusal(f"{ob.name} is scaled to nothing in one direction: give it a scale other than zero")

@@ -1,4 +1,6 @@
 """Reads what a check compares: the mesh, or the surface of its cage, before and after the last solve."""
+from dataclasses import replace
+
 import bpy
 import numpy as np
 
@@ -16,6 +18,22 @@ def read_checked_surface(ob: bpy.types.Object, patch: Patch, positions: np.ndarr
         ob.update_from_editmode()
     return build_cage_surface(patch, positions) if isinstance(patch, CagePatch) else read_mesh_surface(
         ob, patch, positions)
+
+
+def follow_object(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> tuple[Patch, np.ndarray, float]:
+    """Takes a patch and its solved positions to where the object is now; returns with them the factor by which the
+    object was scaled since along the move.
+    """
+    matrix = np.array(ob.matrix_world, dtype=np.float64)
+    if np.array_equal(matrix, patch.matrix):
+        return patch, positions, 1.0
+    change = matrix @ np.linalg.inv(patch.matrix)
+    V, after = (points @ change[:3, :3].T + change[:3, 3] for points in (patch.V, positions))
+    before, now = (float(np.linalg.norm(move, axis=1).max()) for move in (positions - patch.V, after - V))
+    moved = replace(patch, matrix=matrix, V=V)
+    if isinstance(moved, CagePatch):
+        moved = replace(moved, cage=replace(moved.cage, V=moved.cage.V @ change[:3, :3].T + change[:3, 3]))
+    return moved, after, now / before if before else 1.0
 
 
 def read_mesh_surface(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> CheckedSurface:

@@ -6,7 +6,7 @@ import numpy as np
 from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..bridge import read_checked, read_mesh, read_patch
+from ..bridge import mesh_checks, read_checked, read_mesh, read_patch
 from ..bridge.mesh_checks import Purpose
 from ..model import check_table
 from ..model.check_table import TableRow
@@ -54,10 +54,12 @@ hold them against the marks; without a run the selected faces as they are"""
             ob.update_from_editmode()
         last = solve_history.find_last_solve(ob.name)
         if last is not None and read_mesh.read_shape_before(ob, last.patch, last.positions) is not None:
+            mesh_checks.refuse_flat(ob)
+            patch, positions, growth = read_checked.follow_object(ob, last.patch, last.positions)
             report = ob.reflection_lines.report
             score = report.score_before, report.score_after
-            return last.patch, last.positions, check_table.describe_solve(score, report.largest_move,
-                                                                          report.automatic_limit or None)
+            return patch, positions, check_table.describe_solve(score, growth * report.largest_move,
+                                                                growth * report.automatic_limit or None)
         patch = read_patch.gather_mesh_patch(ob, or_all=True, purpose=Purpose.WRITE_SHARED)
         return patch, patch.V, []
 

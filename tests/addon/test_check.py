@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import scenes
+from reflection_lines.state import last_checks
 
 
 def rows(ob: bpy.types.Object) -> dict[str, bpy.types.PropertyGroup]:
@@ -73,6 +74,42 @@ def test_after_a_change_the_shape_is_checked_as_it_is() -> None:
     scenes.object_mode()
     ob.data.vertices[144].co.z += 0.01
     assert "wobble of the lines" not in check(ob)
+
+
+def find_distance(some: np.ndarray, others: np.ndarray) -> float:
+    """Finds the largest distance of an edge's middle from the next of the others; their order is any."""
+    apart = some.mean(axis=1)[:, np.newaxis] - others.mean(axis=1)
+    return float(np.linalg.norm(apart, axis=2).min(axis=1).max())
+
+
+@pytest.mark.parametrize("kind", ["mesh", "cage"])
+@pytest.mark.parametrize("scale", [1.0, 1000.0, -2.0])
+def test_an_object_that_moved_since_is_checked_where_it_is(kind: str, scale: float) -> None:
+    ob = scenes.panel()
+    if kind == "cage":
+        ob.modifiers.new("Subdivision", 'SUBSURF').levels = 1
+    scenes.look_from_above()
+    scenes.edit_inner(ob, margin=2)
+    assert scenes.smooth(length=0.6) == {'FINISHED'}
+    scenes.object_mode()
+    there = {name: (row.unit, row.after, row.mark) for name, row in check(ob).items()}
+    drawn = last_checks.find_check(ob.name).segments
+    ob.location, ob.rotation_euler, ob.scale = (0.0, 0.0, 3.0), (0.3, 0.0, 0.0), (scale, abs(scale), abs(scale))
+    bpy.context.view_layer.update()
+    bpy.context.scene.reflection_lines.marks.gap = 1.0
+    for name, row in check(ob).items():
+        unit, after, mark = there[name]
+        factor = abs(scale) if unit == "length" else 1.0
+        assert row.after == pytest.approx(factor * after, rel=1e-3, abs=1e-6 * abs(scale))
+        assert name == "border gap" or row.mark < 0.0 or row.mark == pytest.approx(mark * factor)
+    assert find_distance(last_checks.find_check(ob.name).segments, drawn) < 1e-5
+
+
+def test_an_object_scaled_to_nothing_since_is_refused() -> None:
+    ob = solved_panel(length=0.6)
+    ob.scale.z = 0.0
+    with pytest.raises(RuntimeError, match="scaled to nothing"):
+        bpy.ops.reflines.check('EXEC_DEFAULT', True)
 
 
 def test_a_cage_is_checked_on_its_surface() -> None:
