@@ -12,15 +12,18 @@ class Purpose(Enum):
     """A purpose that a mesh is read for; it decides what is refused."""
     WRITE = auto()         # to be written in the mode it is in
     WRITE_SHARED = auto()  # in Object Mode also where other objects share it
+    READ = auto()          # to be measured only
     WRITE_EDITED = auto()  # by a run that came from Edit Mode, so as there: also where it is shared, or has shape keys
 
 
 def refuse_unusable(ob: bpy.types.Object, key: str, purpose: Purpose) -> None:
     """Refuses objects whose mesh cannot be written: linked, shared, with locked or missing shape keys, or of no extent.
     """
+    refuse_flat(ob)
+    if purpose is Purpose.READ:
+        return
+    refuse_linked(ob)
     mesh, keys = ob.data, ob.data.shape_keys
-    if ob.library is not None or mesh.library is not None:
-        raise Refusal(f"{ob.name} is linked from another file and cannot be changed here: make it local")
     if mesh.override_library is not None:
         raise Refusal(f"The mesh of {ob.name} is linked from another file and overridden here, which keeps no moved "
                       "vertices: make it local")
@@ -31,14 +34,29 @@ def refuse_unusable(ob: bpy.types.Object, key: str, purpose: Purpose) -> None:
     if key and keys is not None and not keys.use_relative:
         raise Refusal(f"{ob.name} has absolute shape keys, which cannot be mixed: choose the result Mesh in Edit Mode")
     refuse_mixed_keys(ob, key)
-    others = mesh.users - mesh.use_fake_user - 1
-    if not edited and others > 0 and purpose is not Purpose.WRITE_SHARED:
-        raise Refusal(f"{ob.name} shares its mesh with {others} other objects: "
+    others = count_sharers(ob) if not edited and purpose is not Purpose.WRITE_SHARED else 0
+    if others:
+        raise Refusal(f"{ob.name} shares its mesh with {others} other object{'s' if others > 1 else ''}: "
                       "make it single-user, or work in Edit Mode")
     written = keys and (keys.key_blocks.get(key) or (None if key else ob.active_shape_key))
     if written and compat.is_shape_locked(written):
         raise Refusal(f"The shape key {written.name} of {ob.name} is locked: unlock it, or choose another")
-    refuse_flat(ob)
+
+
+def refuse_linked(ob: bpy.types.Object) -> None:
+    """Refuses an object or its mesh that belongs to another file."""
+    if ob.library is not None:
+        raise Refusal(f"{ob.name} is linked from another file and cannot be changed here: make it local")
+    if ob.data.library is not None:
+        raise Refusal(f"The mesh of {ob.name} is linked from another file and cannot be changed here: make it local")
+
+
+def count_sharers(ob: bpy.types.Object) -> int:
+    """Counts the other objects with the same mesh. A deleted one, kept only by a property that points at it, is none.
+    """
+    if ob.data.users - ob.data.use_fake_user < 2:
+        return 0
+    return sum(other.data == ob.data and other != ob and len(other.users_collection) > 0 for other in bpy.data.objects)
 
 
 def refuse_flat(ob: bpy.types.Object) -> None:

@@ -47,13 +47,13 @@ def find_shape_points(ob: bpy.types.Object, key: str = "") -> bpy.types.bpy_prop
     """Returns the points of the shape that tools change.
 
     In Edit Mode that is the active shape key, since the mesh keeps the basis; in Object Mode the key of this name where
-    there is one, else the active one; without shape keys the mesh's vertices.
+    there is one, else the active one, of an object that has none the first; without shape keys the mesh's vertices.
     """
     keys = ob.data.shape_keys
     if keys is None:
         return ob.data.vertices
     own = keys.key_blocks.get(key) if key and ob.mode != 'EDIT' else None
-    return (own or ob.active_shape_key).data
+    return (own or ob.active_shape_key or keys.reference_key).data
 
 
 def read_triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:

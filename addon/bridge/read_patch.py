@@ -8,7 +8,7 @@ from ..model.patch import Patch, compute_bounds
 from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
 from . import (border_segments, mesh_checks, read_creases, read_limit_share, read_mesh, read_mirror, read_surroundings,
-               region_faces)
+               region_faces, scene_objects)
 from .mesh_checks import Purpose
 
 
@@ -62,7 +62,8 @@ def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:
     else:
         faces = region_faces.read_stored_region(mesh)
     if not faces.any():
-        raise Refusal(region_faces.describe_missing_region(ob.name))
+        raise Refusal(scene_objects.describe_empty_selection([ob]) if ob.mode == 'EDIT'
+                      else region_faces.describe_missing_region(ob))
     return faces
 
 

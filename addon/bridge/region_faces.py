@@ -16,9 +16,12 @@ def has_stored_region(mesh: bpy.types.Mesh) -> bool:
     return attribute is not None and attribute.domain == 'FACE' and attribute.data_type == 'INT'
 
 
-def describe_missing_region(name: str) -> str:
-    """Says that the mesh of an object has no region from a run before."""
-    return f"{name} has no stored region: select the faces of the panel in Edit Mode and run the tool there once"
+def describe_missing_region(ob: bpy.types.Object) -> str:
+    """Says, in Object Mode, that the mesh of an object has no region from a run before, or none that is visible."""
+    hidden = int(read_region_values(ob.data).sum())
+    if hidden:
+        return f"The {hidden} faces of the stored region of {ob.name} are hidden: show them in Edit Mode"
+    return f"{ob.name} has no stored region: select the faces of the panel in Edit Mode and run the tool there once"
 
 
 def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -28,11 +31,16 @@ def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def read_stored_region(mesh: bpy.types.Mesh) -> np.ndarray:
     """Reads the stored region in Object Mode: #faces, bool; hidden faces are never part of it."""
+    return read_visible_faces(mesh) & read_region_values(mesh)
+
+
+def read_region_values(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Reads in Object Mode which faces are stored as the region, also hidden ones: #faces, bool."""
     if not has_stored_region(mesh):
         return np.zeros(len(mesh.polygons), dtype=bool)
     values = np.empty(len(mesh.polygons), dtype=np.int32)
     mesh.attributes[ATTRIBUTE].data.foreach_get("value", values)
-    return read_visible_faces(mesh) & (values != 0)
+    return values != 0
 
 
 def read_visible_faces(mesh: bpy.types.Mesh) -> np.ndarray:

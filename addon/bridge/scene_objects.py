@@ -61,7 +61,7 @@ def describe_empty_selection(editing: list[bpy.types.Object]) -> str:
 def explain_missing_region(context: bpy.types.Context, ob: bpy.types.Object) -> str:
     """Says why there are no faces that a tool could work on; empty where there are."""
     if ob.mode != 'EDIT':
-        return "" if region_faces.has_stored_region(ob.data) else region_faces.describe_missing_region(ob.name)
+        return "" if region_faces.has_stored_region(ob.data) else region_faces.describe_missing_region(ob)
     if ob.data.total_face_sel > 0:
         return ""
     editing = list_edited_meshes(context)

@@ -60,7 +60,7 @@ hold them against the marks; without a run the selected faces as they are"""
             score = report.score_before, report.score_after
             return patch, positions, check_table.describe_solve(score, growth * report.largest_move,
                                                                 growth * report.automatic_limit or None)
-        patch = read_patch.gather_mesh_patch(ob, or_all=True, purpose=Purpose.WRITE_SHARED)
+        patch = read_patch.gather_mesh_patch(ob, or_all=True, purpose=Purpose.READ)
         return patch, patch.V, []
 
 
@@ -92,7 +92,7 @@ class REFLINES_OT_export_check(ExportHelper, bpy.types.Operator):
         return ob is not None and ob.type == 'MESH' and len(ob.reflection_lines.check.rows) > 0
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        ob, path = context.view_layer.objects.active, Path(self.filepath)
+        ob, path = context.view_layer.objects.active, Path(bpy.path.abspath(self.filepath))
         rows = ob.reflection_lines.check.to_rows()
         kinds = {".json": check_table.format_json(ob.name, rows), ".csv": check_table.format_csv(rows)}
         try:

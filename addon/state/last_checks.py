@@ -33,9 +33,9 @@ def find_check(name: str) -> DrawnCheck | None:
 def forget_changed(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Forgets the checks of meshes that have changed; a new selection or attribute is told as a change, too."""
     for update in depsgraph.updates if _checks else ():
-        if isinstance(update.id, bpy.types.Object) and update.is_updated_geometry and update.id.name in _checks:
-            if not has_shape(update.id.original, _checks[update.id.name].shape):
-                del _checks[update.id.name]
+        check = _checks.get(update.id.name) if isinstance(update.id, bpy.types.Object) else None
+        if check is not None and update.is_updated_geometry and not has_shape(update.id.original, check.shape):
+            del _checks[update.id.name]
 
 
 def has_shape(ob: bpy.types.Object, shape: np.ndarray) -> bool:

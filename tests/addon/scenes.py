@@ -91,7 +91,8 @@ def positions(ob: bpy.types.Object) -> np.ndarray:
     """#V x 3 float32 as stored, in either mode; of the active shape key where there are keys."""
     if ob.mode == 'EDIT':
         ob.update_from_editmode()
-    points = ob.data.vertices if ob.data.shape_keys is None else ob.active_shape_key.data
+    keys = ob.data.shape_keys
+    points = ob.data.vertices if keys is None else (ob.active_shape_key or keys.reference_key).data
     values = np.empty(3 * len(points), dtype=np.float32)
     points.foreach_get("co", values)
     return values.reshape(-1, 3)

@@ -245,8 +245,37 @@ def test_a_shared_mesh_in_object_mode() -> None:
     ob = edited(nothing)
     scenes.smooth(strength=0.0)
     scenes.object_mode()
-    bpy.data.objects.new("Twin", ob.data)
-    refused(ob, "shares its mesh with 1 other objects: make it single-user")
+    twins = [bpy.data.objects.new(name, ob.data) for name in ("Twin", "Third")]
+    for twin in twins:
+        bpy.context.collection.objects.link(twin)
+    refused(ob, "shares its mesh with 2 other objects: make it single-user")
+    bpy.data.objects.remove(twins[0])
+    refused(ob, "shares its mesh with 1 other object: make it single-user")
+
+
+def test_a_mesh_shared_with_a_deleted_object_is_not_shared() -> None:
+    """A warp lattice goes on pointing at it, which keeps it."""
+    gone = edited(nothing)
+    scenes.smooth(strength=0.0)
+    bpy.ops.reflines.add_warp_lattice()
+    scenes.object_mode()
+    ob = gone.copy()
+    bpy.context.collection.objects.link(ob)
+    bpy.ops.object.select_all(action='DESELECT')
+    scenes.activate(gone)
+    bpy.ops.object.delete()
+    assert ob.data.users == 2
+    scenes.activate(ob)
+    assert scenes.smooth(length=0.5) == {'FINISHED'}
+
+
+def test_a_hidden_region() -> None:
+    ob = edited(nothing)
+    scenes.select_faces(ob, scenes.inner())
+    scenes.smooth(strength=0.0)
+    bpy.ops.mesh.hide()
+    scenes.object_mode()
+    refused(ob, "The 196 faces of the stored region of Panel are hidden: show them in Edit Mode")
 
 
 def linked(tmp_path: Path) -> bpy.types.Object:
@@ -267,6 +296,15 @@ def test_a_linked_object(tmp_path) -> None:
     scenes.activate(ob)
     scenes.look_from_above()
     refused(ob, "Panel is linked from another file")
+
+
+def test_a_linked_mesh(tmp_path) -> None:
+    ob = linked(tmp_path)
+    own = bpy.data.objects.new("Own", ob.data)
+    bpy.context.collection.objects.link(own)
+    scenes.activate(own)
+    scenes.look_from_above()
+    refused(own, "The mesh of Own is linked from another file")
 
 
 def test_an_overridden_mesh(tmp_path) -> None:

@@ -150,10 +150,39 @@ def test_files_that_cannot_be_written_are_told(tmp_path: Path, name: str, said: 
     assert not list(tmp_path.iterdir())
 
 
+def test_a_file_beside_the_blend_file(tmp_path: Path) -> None:
+    ob = scenes.panel()
+    scenes.edit_inner(ob)
+    check(ob)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "panel.blend"))
+    assert bpy.ops.reflines.export_check(filepath="//table.csv") == {'FINISHED'}
+    assert (tmp_path / "table.csv").is_file()
+
+
+@pytest.mark.parametrize("kind", ["object", "mesh"])
+def test_what_cannot_be_changed_can_be_checked(tmp_path: Path, kind: str) -> None:
+    ob = solved_panel(length=0.6)
+    scenes.object_mode()
+    ob.shape_key_add(name="Basis")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        wanted.objects = ["Panel"]
+    ob = wanted.objects[0] if kind == "object" else bpy.data.objects.new("Own", wanted.objects[0].data)
+    bpy.context.collection.objects.link(ob)
+    scenes.activate(ob)
+    assert "border angle" in check(ob)
+
+
 def test_no_faces_are_refused_in_a_sentence() -> None:
     ob = scenes.panel()
+    scenes.look_from_above()
+    scenes.edit_inner(ob)
+    scenes.smooth(strength=0.0)
+    scenes.object_mode()
+    ob.data.vertices[140].co.z += 0.01
     scenes.edit(ob)
     scenes.select_faces(ob, lambda _: False)
-    with pytest.raises(RuntimeError, match="select the faces of the panel"):
+    with pytest.raises(RuntimeError, match="No faces are selected: select the faces of the panel"):
         bpy.ops.reflines.check()
     assert not len(ob.reflection_lines.check.rows)
