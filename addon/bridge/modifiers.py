@@ -7,8 +7,8 @@ SHADING_ONLY = {'WEIGHTED_NORMAL', 'NORMAL_EDIT', 'EDGE_SPLIT', 'DATA_TRANSFER',
 # Geometry nodes that only set smooth shading, as Blender's own Smooth by Angle does.
 SHADING_ONLY_NODES = {'NodeGroupInput', 'NodeReroute', 'GeometryNodeSetShadeSmooth', 'GeometryNodeSetMeshNormal'}
 DEFORMING = {'ARMATURE', 'CAST', 'CLOTH', 'CORRECTIVE_SMOOTH', 'CURVE', 'DISPLACE', 'HOOK', 'LAPLACIANDEFORM',
-             'LAPLACIANSMOOTH', 'LATTICE', 'MESH_CACHE', 'MESH_DEFORM', 'MESH_SEQUENCE_CACHE', 'SHRINKWRAP',
-             'SIMPLE_DEFORM', 'SMOOTH', 'SOFT_BODY', 'SURFACE_DEFORM', 'WARP', 'WAVE'}
+             'LAPLACIANSMOOTH', 'LATTICE', 'MESH_CACHE', 'MESH_DEFORM', 'MESH_SEQUENCE_CACHE', 'MULTIRES', 'NODES',
+             'OCEAN', 'SHRINKWRAP', 'SIMPLE_DEFORM', 'SMOOTH', 'SOFT_BODY', 'SURFACE_DEFORM', 'WARP', 'WAVE'}
 OUTSIDE = -1.0  # the offset of a Solidify whose outer side is the surface itself
 
 
@@ -72,7 +72,7 @@ def describe_unsolved_modifiers(ob: bpy.types.Object, solve_for: str) -> tuple[s
     if solve_for == 'CAGE' and levels:
         said.append(f"The modifier {makers[-1].name} follows {levels[-1]}, so the mesh was solved as if it were not "
                     f"subdivided: move {levels[-1]} to the end, or hide what follows it, to solve for the cage")
-    deforming = [modifier.name for modifier in makers if modifier.type in DEFORMING]
+    deforming = [each.name for each in makers if each.type in DEFORMING and not is_shading_only(each)]
     if deforming:
         said.append(f"The mesh was solved as it is without the modifier {', '.join(deforming)}, which moves what is "
                     "shown: hide or apply it to judge the lines")

@@ -282,6 +282,18 @@ def test_a_deforming_modifier_is_named() -> None:
     assert "without the modifier Bend, which moves what is shown" in ob.reflection_lines.report.notes
 
 
+@pytest.mark.parametrize(("node", "named"), [('GeometryNodeSetPosition', True), ('GeometryNodeSetShadeSmooth', False)])
+def test_geometry_nodes_are_named_where_they_do_more_than_shade(node, named) -> None:
+    ob = scenes.panel(cells=CELLS)
+    scenes.look_from_above()
+    add_nodes(ob, node)
+    ob.modifiers.new("Thickness", 'SOLIDIFY')
+    scenes.edit_inner(ob, CELLS)
+    scenes.smooth()
+    said = f"without the modifier {ob.modifiers[0].name}, which moves what is shown"
+    assert (said in ob.reflection_lines.report.notes) == named
+
+
 def test_simple_subdivision_is_refused_in_words() -> None:
     subdivided(subdivision_type='SIMPLE')
     with pytest.raises(RuntimeError, match="Simple"):
