@@ -1,7 +1,10 @@
 """Symmetric regions stay so to the last bit; the seam of a Mirror modifier stays in its plane and does not kink."""
+from math import radians
+
 import bpy
 import numpy as np
 import pytest
+from mathutils import Matrix
 
 import scenes
 
@@ -78,6 +81,49 @@ def test_lit_unevenly_the_seam_and_its_tangents_stay(border) -> None:
     assert scenes.smooth(border=border, length=0.5) == {'FINISHED'}
     assert np.abs(columns(ob) - before).max() > 5e-4
     assert np.array_equal(columns(ob)[:, :2], before[:, :2])
+
+
+def about_an_empty(ob: bpy.types.Object, transform: str) -> None:
+    """Moves the half away from its own origin, and lets the modifier mirror it about an empty where that was."""
+    empty = bpy.data.objects.new("Middle", None)
+    bpy.context.collection.objects.link(empty)
+    empty.matrix_world = scenes.TRANSFORMS[transform]
+    turn = Matrix.Rotation(radians(90.0), 4, 'Z')  # the plane is that of the empty's own axis Y
+    empty.matrix_world @= turn
+    ob.modifiers["Mirror"].mirror_object = empty
+    ob.modifiers["Mirror"].use_axis = (False, True, False)
+    ob.data.transform(Matrix.Translation((0.7, -0.2, 0.3)))
+    ob.matrix_world = scenes.TRANSFORMS[transform] @ Matrix.Translation((-0.7, 0.2, -0.3))
+    bpy.context.view_layer.update()
+
+
+@pytest.mark.parametrize("transform", ["none", "moved", "turned", "scaled unevenly"])
+def test_the_seam_of_a_mirror_about_an_object_stays(transform) -> None:
+    ob = half()
+    about_an_empty(ob, transform)
+    axes = np.array(ob.matrix_world)[:3, :3]
+    bpy.ops.reflines.add_view_camera(direction=axes @ (0.5, 0.0, 1.0))
+    bpy.ops.reflines.add_light_direction(direction=axes @ (0.0, 1.0, 0.1))
+    edit_half(ob)
+    before = columns(ob)
+    assert scenes.smooth(border='free', length=0.5) == {'FINISHED'}
+    assert np.abs(columns(ob) - before).max() > 1e-4
+    assert np.array_equal(columns(ob)[:, :2], before[:, :2])
+
+
+def test_the_seams_of_all_mirrors_stay() -> None:
+    ob = half()
+    for vertex in ob.data.vertices:
+        vertex.co.y += 1.0
+    ob.modifiers.new("Front", 'MIRROR').use_axis = (False, True, False)
+    seen(UNEVEN)
+    scenes.edit(ob)
+    bpy.ops.mesh.select_all(action='SELECT')
+    before = columns(ob)
+    assert scenes.smooth(border='free', length=0.5) == {'FINISHED'}
+    after = columns(ob)
+    assert np.abs(after - before).max() > 5e-4
+    assert np.array_equal(after[:, 0], before[:, 0]) and np.array_equal(after[0], before[0])
 
 
 @pytest.mark.parametrize("transform", ["none", "moved", "turned"])
