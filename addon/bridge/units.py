@@ -9,6 +9,12 @@ SHORT_NAMES = {'KILOMETERS': "km", 'METERS': "m", 'CENTIMETERS': "cm", 'MILLIMET
 DEFAULT_UNITS = {'METRIC': "m", 'IMPERIAL': "ft"}
 
 
+def read_unit_length(scene: bpy.types.Scene) -> float:
+    """Returns how many metres a Blender unit is; 1 in a scene without units."""
+    units = scene.unit_settings
+    return 1.0 if units.system == 'NONE' else units.scale_length
+
+
 def format_length(value: float, scene: bpy.types.Scene, precision: int = 4) -> str:
     """Formats a length in Blender units by the scene's unit settings."""
     units = scene.unit_settings

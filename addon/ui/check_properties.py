@@ -10,13 +10,24 @@ from ..model.check_table import TableRow
 NO_MARK = -1.0
 
 
+GAP = 2e-5  # metres
+
+
 class ReflinesMarks(bpy.types.PropertyGroup):
-    gap: FloatProperty(name="Gap", unit='LENGTH', default=2e-5, min=0.0, soft_max=0.01, precision=6,
+    """The pass marks. The gap is stored in metres, so that it is the same in scenes of any unit."""
+    gap_in_metres: FloatProperty(name="Gap in Metres", default=GAP, min=0.0, options={'HIDDEN'})
+    gap: FloatProperty(name="Gap", unit='LENGTH', default=GAP, min=0.0, soft_max=0.01, precision=6, options=set(),
+                       get=lambda self: self.gap_in_metres / units.read_unit_length(self.id_data),
+                       set=lambda self, value: self.store_gap(value),
                        description="Largest gap to a neighbouring sheet")
     angle: FloatProperty(name="Angle", default=0.1, min=0.0, soft_max=10.0, precision=3,
                          description="Largest angle between the normals of both sides, degrees")
     curvature: FloatProperty(name="Curvature", subtype='PERCENTAGE', default=5.0, min=0.0, soft_max=100.0, precision=1,
                              description="Largest difference of the curvatures across the border, of the larger one")
+
+    def store_gap(self, value: float) -> None:
+        """Stores a gap that is given in Blender units."""
+        self.gap_in_metres = value * units.read_unit_length(self.id_data)
 
 
 class ReflinesCheckRow(bpy.types.PropertyGroup):

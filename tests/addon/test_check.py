@@ -69,6 +69,29 @@ def test_the_marks_of_the_scene_decide() -> None:
     assert check(ob)["border curvature"].passes
 
 
+@pytest.mark.parametrize(("system", "unit"), [('METRIC', 1.0), ('METRIC', 1e-3), ('IMPERIAL', 0.0254),
+                                              ('NONE', 1e-3)])
+def test_the_mark_of_the_gap_is_a_length_in_any_unit(system: str, unit: float) -> None:
+    """Two hundredths of a millimetre pass at a gap of half of that, and not at twice as much."""
+    scene, marks = bpy.context.scene, bpy.context.scene.reflection_lines.marks
+    scene.unit_settings.system, scene.unit_settings.scale_length = system, unit
+    metre = 1.0 if system == 'NONE' else 1.0 / unit
+    assert marks.gap == pytest.approx(2e-5 * metre)
+    steps = metre * np.linspace(0.0, 4e-3, 5)
+    grid = [(x, y, 0.0) for y in steps for x in steps]
+    faces = [(5 * j + i, 5 * j + i + 1, 5 * j + i + 6, 5 * j + i + 5) for j in range(4) for i in range(4)]
+    for gap, passes in ((1e-5, True), (4e-5, False)):
+        beside = [(x + metre * (4e-3 + gap), y, z) for x, y, z in grid]
+        ob = scenes.linked("Sheets", grid + beside, faces + [tuple(25 + i for i in face) for face in faces])
+        scenes.edit(ob)
+        scenes.select_faces(ob, lambda face: face < 16)
+        assert check(ob)["border gap"].passes == passes
+        scenes.object_mode()
+        bpy.data.objects.remove(ob)
+    marks.gap = 5e-5 * metre
+    assert marks.gap == pytest.approx(5e-5 * metre)
+
+
 def test_after_a_change_the_shape_is_checked_as_it_is() -> None:
     ob = solved_panel(length=0.6)
     scenes.object_mode()
