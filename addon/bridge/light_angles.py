@@ -38,13 +38,17 @@ def turn_light(camera: bpy.types.Object | None, light: bpy.types.Object, turn: f
 
 
 def point_light(camera: bpy.types.Object | None, light: bpy.types.Object, direction: Vector) -> None:
-    """Turns the light to a direction in the axes of the picture."""
-    if not direction.length > 0.0:
+    """Turns the light to a direction in the axes of the picture. Its own transform is turned, below those of its
+    parents: behind an uneven scale of theirs a turn of the whole would shear it, and a negative scale of its own
+    points its axis the other way.
+    """
+    own = light.matrix_basis.to_3x3()
+    above = light.matrix_world.to_3x3() @ own.inverted_safe()
+    wanted = above.inverted_safe() @ read_picture_axes(camera) @ direction
+    if not wanted.length > 0.0:
         return
-    place, rotation, scale = light.matrix_world.decompose()
-    wanted = read_picture_axes(camera) @ direction
-    rotation = (rotation @ Vector((0.0, 0.0, 1.0))).rotation_difference(wanted) @ rotation
-    light.matrix_world = Matrix.LocRotScale(place, rotation, scale)
+    turn = own.col[2].rotation_difference(wanted).to_matrix()
+    light.matrix_world = Matrix.Translation(light.matrix_world.translation) @ (above @ turn @ own).to_4x4()
 
 
 def find_turn_at(camera: bpy.types.Object | None, region: bpy.types.Region, region_3d: bpy.types.RegionView3D,

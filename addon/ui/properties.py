@@ -241,15 +241,19 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
                             description="The view that the reflection lines are judged from")
     light: PointerProperty(name="Light Direction", type=bpy.types.Object, poll=is_empty,
                            description="An empty whose local Z axis is the direction of the line lights")
-    light_turn: FloatProperty(name="Turn", subtype='ANGLE', get=lambda self: self.read_light_angles()[0],
+    # The light's own rotation can be keyed; keys of what is read from it would be followed a frame late.
+    light_turn: FloatProperty(name="Turn", subtype='ANGLE', options=set(),
+                              get=lambda self: self.read_light_angles()[0],
                               set=lambda self, value: self.turn_light(value, self.light_tilt),
                               description="Of the light in the view camera's picture, counter-clockwise from the "
                               "horizontal")
-    light_tilt: FloatProperty(name="Tilt", subtype='ANGLE', min=-light_angles.TILT_LIMIT, max=light_angles.TILT_LIMIT,
+    light_tilt: FloatProperty(name="Tilt", subtype='ANGLE', options=set(), min=-light_angles.TILT_LIMIT,
+                              max=light_angles.TILT_LIMIT,
                               get=lambda self: self.read_light_angles()[1],
                               set=lambda self, value: self.turn_light(self.light_turn, value),
                               description="Of the light out of the picture, towards the viewer")
-    light_dial: FloatVectorProperty(name="Light", subtype='DIRECTION', get=lambda self: self.read_light_dial(),
+    light_dial: FloatVectorProperty(name="Light", subtype='DIRECTION', options=set(),
+                                    get=lambda self: self.read_light_dial(),
                                     set=lambda self, value: self.point_light(value),
                                     description="Drag the ball to turn the light, in any mode: as the view camera sees "
                                     "it, right, up, and towards the viewer")

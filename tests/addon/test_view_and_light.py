@@ -88,6 +88,44 @@ def test_undo_takes_camera_and_light_away() -> None:
     assert not bpy.data.cameras
 
 
+def below(scale: tuple[float, float, float]) -> None:
+    """Puts the light below a parent that is turned and has this scale."""
+    parent = bpy.data.objects.new("Parent", None)
+    bpy.context.collection.objects.link(parent)
+    parent.scale, parent.rotation_euler = scale, (0.2, 0.1, 0.6)
+    settings().light.parent = parent
+
+
+LIGHTS = {"plain": lambda: None,
+          "mirrored along": lambda: setattr(settings().light, "scale", (1.0, 1.0, -1.0)),
+          "mirrored across": lambda: setattr(settings().light, "scale", (-1.0, 1.0, 1.0)),
+          "mirrored in all": lambda: setattr(settings().light, "scale", (-1.0, -1.0, -1.0)),
+          "turned by its delta": lambda: setattr(settings().light, "delta_rotation_euler", (0.3, 0.2, 0.1)),
+          "below an uneven scale": lambda: below((2.0, 0.5, 1.0)),
+          "below a mirror": lambda: below((1.0, 3.0, -1.0))}
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_a_light_is_turned_to_what_was_set(light) -> None:
+    scenes.panel()
+    scenes.look_from_above()
+    LIGHTS[light]()
+    bpy.context.view_layer.update()
+    place = settings().light.matrix_world.translation.to_tuple()
+    for turn, tilt in ((0.3, 0.0), (1.0, 0.2), (-2.5, -0.7)):
+        settings().light_turn, settings().light_tilt = turn, tilt
+        assert (settings().light_turn, settings().light_tilt) == pytest.approx((turn, tilt), abs=1e-4)
+        axis = np.cos(tilt) * np.cos(turn), np.cos(tilt) * np.sin(turn), np.sin(tilt)
+        assert axis_z(settings().light) == pytest.approx(axis, abs=1e-4)
+    assert settings().light.matrix_world.translation.to_tuple() == pytest.approx(place, abs=1e-5)
+
+
+def test_what_is_read_from_the_light_cannot_be_keyed() -> None:
+    """Its own rotation can; keys of its turn in the picture would be followed by no frame but the present one."""
+    for name in ("light_turn", "light_tilt", "light_dial"):
+        assert not settings().bl_rna.properties[name].is_animatable
+
+
 def from_another_file(tmp_path: Path, what: str, name: str) -> object:
     """A data-block of the present file, linked into a fresh one."""
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"))
