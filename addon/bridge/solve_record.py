@@ -53,7 +53,7 @@ def decode_solve(ob: bpy.types.Object, text: str) -> tuple[Patch, np.ndarray, np
     index, local, key = stored["index"], stored["local"].astype(np.float64), str(stored["key"])
     matrix = stored["matrix"]
     V = local @ matrix[:3, :3].T + matrix[:3, 3]
-    patch = Patch(ob.name, stored["faces"], index, local, V, stored["F"],
+    patch = Patch(ob.name_full, stored["faces"], index, local, V, stored["F"],
                   read_mesh.find_face_of_triangles(ob.data, stored["faces"]), matrix, key, None, AUTOMATIC,
                   np.full(len(index), border.UNSET), NOTHING_AROUND, None)
     move = read_mesh.read_coordinates(ob, key)[index] - local

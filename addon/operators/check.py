@@ -44,7 +44,7 @@ hold them against the marks; without a run the selected faces as they are"""
             return {'CANCELLED'}
         stored = ob.reflection_lines.check
         stored.fill([*found.rows, *own], len(found.passes), int((~found.passes).sum()))
-        last_checks.remember_check(ob.name, build_drawn(ob, found))
+        last_checks.remember_check(ob.name_full, build_drawn(ob, found))
         self.report({'INFO'}, f"{ob.name}: {stored.headline()}")
         return {'FINISHED'}
 
@@ -52,7 +52,7 @@ hold them against the marks; without a run the selected faces as they are"""
         """Returns the patch, its positions now, and the lines of the table that tell of the last run."""
         if ob.mode == 'EDIT':
             ob.update_from_editmode()
-        last = solve_history.find_last_solve(ob.name)
+        last = solve_history.find_last_solve(ob.name_full)
         if last is not None and read_mesh.read_shape_before(ob, last.patch, last.positions) is not None:
             mesh_checks.refuse_flat(ob)
             patch, positions, growth = read_checked.follow_object(ob, last.patch, last.positions)

@@ -143,7 +143,7 @@ class SolveTool:
         """
         if self.result == 'SHAPE_KEY':
             return shape_keys.read_original_shape(ob)
-        last = solve_history.find_last_solve(ob.name)
+        last = solve_history.find_last_solve(ob.name_full)
         return None if last is None else read_mesh.read_shape_before(ob, last.patch, last.positions)
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:

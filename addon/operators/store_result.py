@@ -22,13 +22,13 @@ mesh's vertices, for shaders, modifiers and other programs"""
     def poll(cls, context: bpy.types.Context) -> bool:
         ob = context.view_layer.objects.active
         cls.poll_message_set("Make a panel active that is as a tool left it")
-        return ob is not None and ob.type == 'MESH' and solve_history.find_last_solve(ob.name) is not None
+        return ob is not None and ob.type == 'MESH' and solve_history.find_last_solve(ob.name_full) is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = context.view_layer.objects.active
         if ob.mode == 'EDIT':
             ob.update_from_editmode()
-        solution = solve_history.find_last_solve(ob.name)
+        solution = solve_history.find_last_solve(ob.name_full)
         values = {f"reflines_{name}": each for name, each in solve.compute_vertex_values(solution).items()}
         try:
             self.refuse_unfit(ob, solution, values)

@@ -40,6 +40,7 @@ class Uploaded:
 @dataclass
 class ShownObject:
     """The batches and the state of drawing of one object."""
+    address: tuple[str, str | None]  # name and library, by which Blender finds it
     kind: tuple = ()              # mode, content, solve and kind of surface when it was read
     stale: bool = True            # the surface may have changed since it was uploaded
     topology: Topology | None = None
@@ -54,7 +55,7 @@ class DrawCache:
     """The data of all viewports. Shader and textures are kept: Blender 5.2 crashes when a texture dies after its
     shader.
     """
-    shown: dict[str, ShownObject] = field(default_factory=dict)
+    shown: dict[str, ShownObject] = field(default_factory=dict)  # by full names, as fits, limits and uniforms
     fits: FittedNormals = field(default_factory=FittedNormals)
     limits: LimitSurfaces = field(default_factory=LimitSurfaces)
     shader: gpu.types.GPUShader | None = None
@@ -73,7 +74,7 @@ def count_batch_builds() -> int:
 
 
 def list_kept_names() -> set[str]:
-    """Returns the names of the objects of which anything is kept."""
+    """Returns the full names of the objects of which anything is kept."""
     fits, limits = _cache.fits, _cache.limits
     every = (*_cache.shown, *_cache.uniforms, *fits.done, *fits.wanted, *fits.started, *limits.kept)
     return {name.removeprefix(BEFORE).removeprefix(AFTER) for name in every}
@@ -105,16 +106,22 @@ def draw_objects(context: bpy.types.Context, settings: bpy.types.PropertyGroup) 
         values = stripe_scene.build_uniforms(context, ob)
         if values is None:
             continue
-        shown = _cache.shown.setdefault(ob.name, ShownObject())
+        shown = _cache.shown.setdefault(ob.name_full, ShownObject(find_address(ob)))
         shown.drawn = time.monotonic()
         refresh_object(shown, ob, settings, context.evaluated_depsgraph_get())
         middle = view_region.find_view_middle(context.area)[0] - context.region.x if shown.after is not None else 0
-        for name, uploaded, side in ((ob.name, shown.surface, -1.0), (AFTER + ob.name, shown.after, 1.0)):
+        for name, uploaded, side in ((ob.name_full, shown.surface, -1.0),
+                                     (AFTER + ob.name_full, shown.after, 1.0)):
             if uploaded is not None and uploaded.batch is not None:
                 draw_batch(name, uploaded.batch, stripes.keep_side(values, side * middle), find_texture(settings))
         if shown.cage is not None:
             _cache.dots = _cache.dots or draw_cage.compile_dots()
             draw_cage.CagePainter(context, ob, _cache.dots).draw(shown.cage)
+
+
+def find_address(ob: bpy.types.Object) -> tuple[str, str | None]:
+    """Returns name and library, by which an object is found beside a linked one of the same name."""
+    return ob.name, None if ob.library is None else ob.library.filepath
 
 
 def drop_unseen_objects() -> None:
@@ -123,7 +130,7 @@ def drop_unseen_objects() -> None:
     """
     late = time.monotonic() - UNSEEN_TIME
     for name in [name for name, shown in _cache.shown.items()
-                 if shown.drawn < late or bpy.data.objects.get(name) is None]:
+                 if shown.drawn < late or bpy.data.objects.get(shown.address) is None]:
         del _cache.shown[name]
         for kept in (name, AFTER + name):
             _cache.uniforms.pop(kept, None)
@@ -134,7 +141,7 @@ def drop_unseen_objects() -> None:
 
 def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
             depsgraph: bpy.types.Depsgraph) -> None:
-    solution = solve_history.find_last_solve(ob.name) if stripe_scene.needs_solution(settings) else None
+    solution = solve_history.find_last_solve(ob.name_full) if stripe_scene.needs_solution(settings) else None
     solve_for = settings.id_data.reflection_lines.solve_for
     with_cage = settings.cage_on_top and ob.mode == 'EDIT' and draw_cage.read_kind(ob)
     kind = (ob.mode, stripe_scene.identify_content(ob, settings), id(solution), solve_for, with_cage)
@@ -142,7 +149,7 @@ def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types
         return
     read = read_limit_surface(ob, settings) or viewport_surface.read_viewport_surface(ob, depsgraph, shown.topology)
     changed = solution is not None and not solve_maps.is_current(solution, read.V, len(ob.data.vertices))
-    solve_history.mark_changed(ob.name, changed=changed)
+    solve_history.mark_changed(ob.name_full, changed=changed)
     if changed:
         solution = None
     shown.surface.take(build_arrays(ob, settings, read, solution))
@@ -159,7 +166,7 @@ def read_limit_surface(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) 
     """Returns the limit surface of a cage where the cage is solved for, else None."""
     wanted = settings.id_data.reflection_lines.solve_for == 'CAGE' and native.STATE.usable
     read = viewport_cage.read_viewport_cage(ob) if wanted else None
-    return None if read is None else _cache.limits.update_surface(ob.name, *read)
+    return None if read is None else _cache.limits.update_surface(ob.name_full, *read)
 
 
 def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: Surface,
@@ -170,7 +177,7 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
         return make(solution, settings.map_range) if solution is not None else NOTHING
     if settings.before and solution is not None:
         V, F, old = solve_maps.build_shape_before(solution, read.V, read.F, len(ob.data.vertices))
-        shaded = _cache.fits.update_shaded(BEFORE + ob.name, old, F)
+        shaded = _cache.fits.update_shaded(BEFORE + ob.name_full, old, F)
         return V[shaded.vertex], shaded.F, shaded.normals
     return build_shape_arrays(ob, settings, read)
 
@@ -179,7 +186,7 @@ def build_shape_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
                        read: Surface) -> tuple[np.ndarray, ...]:
     """Builds the arrays of the surface as it is now."""
     build = build_part_arrays if stripe_scene.is_part_only(ob, settings) else build_whole_arrays
-    return build(ob.name, read)
+    return build(ob.name_full, read)
 
 
 def build_whole_arrays(name: str, read: Surface) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -279,9 +286,9 @@ def note_changes(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None
     """
     any_update = scene.reflection_lines.stripes.scope == 'SELECTION'
     for update in depsgraph.updates:
-        if isinstance(update.id, bpy.types.Object) and update.id.name in _cache.shown:
-            if update.is_updated_geometry or any_update or update.id.mode == 'SCULPT':
-                _cache.shown[update.id.name].stale = True
+        shown = _cache.shown.get(update.id.original.name_full) if isinstance(update.id, bpy.types.Object) else None
+        if shown is not None:
+            shown.stale |= update.is_updated_geometry or any_update or update.id.mode == 'SCULPT'
         elif isinstance(update.id, bpy.types.Mesh) and update.id.original.is_editmode:
             note_mesh_changed(update.id.name)
         elif any_update:
@@ -290,8 +297,8 @@ def note_changes(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None
 
 def note_mesh_changed(name: str) -> None:
     """Marks the objects that show an edited mesh as stale: a selection changes the cage that is drawn."""
-    for shown_name, shown in _cache.shown.items():
-        ob = bpy.data.objects.get(shown_name)
+    for shown in _cache.shown.values():
+        ob = bpy.data.objects.get(shown.address)
         shown.stale |= ob is not None and ob.data is not None and ob.data.name == name
 
 

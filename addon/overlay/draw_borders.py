@@ -55,7 +55,7 @@ def draw_borders() -> None:
     if not (context.scene.reflection_lines.show_borders and context.space_data.overlay.show_overlays):
         return
     for ob in find_objects(context):
-        key = ob.name, ob.mode
+        key = ob.name_full, ob.mode
         if key not in _cache.shown:
             _cache.shown[key] = build_borders(ob)
         surface_lines.draw_lines(context, ob, _cache.shown[key])

@@ -31,7 +31,7 @@ def find_drawn(context: bpy.types.Context) -> tuple[bpy.types.Object, DrawnCheck
     ob = context.view_layer.objects.active
     if ob is None or not context.space_data.overlay.show_overlays or not ob.visible_get(viewport=context.space_data):
         return None
-    check = last_checks.find_check(ob.name)
+    check = last_checks.find_check(ob.name_full)
     return None if check is None else (ob, check)
 
 

@@ -37,7 +37,7 @@ class FittedSurface:
 
 @dataclass
 class FitJob:
-    """A surface to fit for the object with this name, and the fit to start from."""
+    """A surface to fit for the object with this full name, and the fit to start from."""
     name: str
     V: np.ndarray
     F: np.ndarray

@@ -19,7 +19,7 @@ def find_full_value(context: bpy.types.Context, settings: bpy.types.PropertyGrou
     if not settings.show or settings.mode not in stripe_scene.MAPS or not context.space_data.overlay.show_overlays:
         return None
     for ob in shown_objects.find_shown_objects(context, settings):
-        solution = solve_history.find_last_solve(ob.name)
+        solution = solve_history.find_last_solve(ob.name_full)
         if solution is not None:
             values = solve_maps.compute_values(solution, settings.mode)
             return settings.map_range or float(np.abs(values).max(initial=0.0))
@@ -41,7 +41,7 @@ def draw_legend() -> None:
     context = bpy.context
     settings = context.scene.reflection_lines.stripes
     if settings.show and stripe_scene.is_split(settings) and context.space_data.overlay.show_overlays \
-            and any(solve_history.find_last_solve(ob.name) is not None
+            and any(solve_history.find_last_solve(ob.name_full) is not None
                     for ob in shown_objects.find_shown_objects(context, settings)):
         draw_sides(context)
     full = find_full_value(context, settings)

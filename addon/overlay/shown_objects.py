@@ -43,8 +43,8 @@ def find_objects_in_scope(context: bpy.types.Context, settings: bpy.types.Proper
     if settings.scope == 'VISIBLE':
         return [ob for ob in layer.objects if ob.visible_get(viewport=context.space_data)]
     if settings.scope == 'COLLECTION':
-        wanted = set() if settings.collection is None else {ob.name for ob in settings.collection.all_objects}
-        return [ob for ob in layer.objects if ob.name in wanted]
+        wanted = set() if settings.collection is None else set(settings.collection.all_objects)
+        return [ob for ob in layer.objects if ob in wanted]
     if settings.scope == 'SELECTION':
         editing = [ob for ob in layer.objects if ob.mode == 'EDIT']
         return editing or [ob for ob in layer.objects if ob.select_get()]

@@ -17,7 +17,7 @@ class DrawnCheck:
     shape: np.ndarray     # #vertices x 3 float32: the whole mesh, of which alone all this is true
 
 
-_checks: dict[str, DrawnCheck] = {}  # by the name of the object
+_checks: dict[str, DrawnCheck] = {}  # by the full name of the object
 
 
 def remember_check(name: str, check: DrawnCheck) -> None:
@@ -25,7 +25,7 @@ def remember_check(name: str, check: DrawnCheck) -> None:
 
 
 def find_check(name: str) -> DrawnCheck | None:
-    """Returns the last check of the object with this name, None where there is none of its present shape."""
+    """Returns the last check of the object with this full name, None where there is none of its present shape."""
     return _checks.get(name)
 
 
@@ -33,9 +33,10 @@ def find_check(name: str) -> DrawnCheck | None:
 def forget_changed(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Forgets the checks of meshes that have changed; a new selection or attribute is told as a change, too."""
     for update in depsgraph.updates if _checks else ():
-        check = _checks.get(update.id.name) if isinstance(update.id, bpy.types.Object) else None
-        if check is not None and update.is_updated_geometry and not has_shape(update.id.original, check.shape):
-            del _checks[update.id.name]
+        ob = update.id.original
+        check = _checks.get(ob.name_full) if isinstance(ob, bpy.types.Object) else None
+        if check is not None and update.is_updated_geometry and not has_shape(ob, check.shape):
+            del _checks[ob.name_full]
 
 
 def has_shape(ob: bpy.types.Object, shape: np.ndarray) -> bool:

@@ -12,8 +12,8 @@ from . import solve_history
 @persistent
 def save_solves(*_: object) -> None:
     """Writes the last solve of every object into its properties, before the file is saved."""
-    for ob in bpy.data.objects:
-        stored, last = ob.reflection_lines, solve_history.find_last_solve(ob.name)
+    for ob in (each for each in bpy.data.objects if each.library is None):
+        stored, last = ob.reflection_lines, solve_history.find_last_solve(ob.name_full)
         if ob.type != 'MESH' or last is None and not stored.last:
             continue
         if ob.mode == 'EDIT':
@@ -40,7 +40,7 @@ def note_undo(*_: object) -> None:
     undone.
     """
     for ob in bpy.data.objects:
-        last = solve_history.find_last_solve(ob.name)
+        last = solve_history.find_last_solve(ob.name_full)
         if last is None or ob.type != 'MESH' or ob.mode != 'EDIT':  # it may have been converted since
             continue
         if last.patch.key and not shape_keys.is_result_key_edited(ob):

@@ -1,12 +1,15 @@
-"""The solve history: the last solve of each object, and whether undo took it back."""
+"""The solve history: the last solve of each object, and whether undo took it back.
+
+Objects go by their full names, which tell those of this file from linked ones.
+"""
 import bpy
 
 from ..model.solution import LastSolve
 
-_solves: dict[str, LastSolve] = {}  # by the name of the object
-_undone: dict[str, float] = {}      # by the name of the object: the run time in the report of the solve taken back
+_solves: dict[str, LastSolve] = {}  # by the full name of the object
+_undone: dict[str, float] = {}      # by the full name of the object: the run time in the report of the solve taken back
 
-_changed: set[str] = set()          # names of objects whose mesh is no longer as their last solve left it
+_changed: set[str] = set()          # full names of objects whose mesh is no longer as their last solve left it
 
 
 def remember_solve(last: LastSolve) -> None:
@@ -15,7 +18,7 @@ def remember_solve(last: LastSolve) -> None:
 
 
 def find_last_solve(name: str) -> LastSolve | None:
-    """Returns the last solve of the object with this name, None where there is none."""
+    """Returns the last solve of the object with this full name, None where there is none."""
     return _solves.get(name)
 
 
@@ -29,20 +32,20 @@ def mark_changed(name: str, *, changed: bool) -> None:
 
 def is_changed(ob: bpy.types.Object) -> bool:
     """Returns whether an object's mesh was no longer as its last solve left it when that was last drawn."""
-    return ob.name in _changed or is_undone(ob)
+    return ob.name_full in _changed or is_undone(ob)
 
 
 def mark_undone(ob: bpy.types.Object, *, undone: bool) -> None:
     """Records whether undo took back the solve that the object's report describes."""
-    _undone.pop(ob.name, None)
+    _undone.pop(ob.name_full, None)
     if undone:
-        _undone[ob.name] = ob.reflection_lines.report.seconds
+        _undone[ob.name_full] = ob.reflection_lines.report.seconds
 
 
 def is_undone(ob: bpy.types.Object) -> bool:
     """Returns whether undo took back the solve that the object's report describes; a later report has another run time.
     """
-    return _undone.get(ob.name) == ob.reflection_lines.report.seconds
+    return _undone.get(ob.name_full) == ob.reflection_lines.report.seconds
 
 
 @bpy.app.handlers.persistent

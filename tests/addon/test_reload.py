@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import scenes
+from reflection_lines.state import solve_history
 
 
 def reloaded(tmp_path: Path) -> bpy.types.Object:
@@ -76,6 +77,30 @@ def test_another_object_may_have_got_the_name_of_a_solved_one(panel, tmp_path) -
     bpy.context.collection.objects.link(bpy.data.objects.new("Panel", None))
     again = reloaded(tmp_path)
     assert again.type == 'EMPTY' and again.reflection_lines.last == ""
+
+
+def link_the_saved_panel(path: Path) -> bpy.types.Object:
+    with bpy.data.libraries.load(str(path), link=True) as (_, wanted):
+        wanted.objects = ["Panel"]
+    bpy.context.collection.objects.link(wanted.objects[0])
+    return wanted.objects[0]
+
+
+def test_a_linked_object_of_the_same_name_has_its_own_last_solve(panel, tmp_path) -> None:
+    scenes.object_mode()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"), copy=True)
+    scenes.edit(panel)
+    scenes.smooth(length=0.9)
+    scenes.object_mode()
+    expected = stored(panel)
+    link_the_saved_panel(tmp_path / "library.blend")
+    reloaded(tmp_path)
+    own, linked = sorted((ob for ob in bpy.data.objects if ob.name == "Panel"), key=lambda ob: ob.library is not None)
+    for name, values in stored(own).items():
+        assert np.allclose(values, expected[name], rtol=1e-4, atol=1e-6)
+    found = solve_history.find_last_solve(linked.name_full)
+    assert len(found.positions) == 225
+    assert np.abs(found.positions - solve_history.find_last_solve(own.name_full).positions).max() > 1e-5
 
 
 def test_a_mesh_changed_since_has_no_last_solve(panel, tmp_path) -> None:

@@ -147,7 +147,7 @@ def stripes_rebuilt(driver: window.Window) -> Generator[float, None, list[float]
         yield 0.2
     ob, settings = bpy.context.view_layer.objects.active, bpy.context.scene.reflection_lines.stripes
     settings.show = False
-    shown = draw.ShownObject()
+    shown = draw.ShownObject(draw.find_address(ob))
 
     def measure() -> None:
         shown.stale, start = True, time.thread_time()

@@ -1,9 +1,12 @@
 """Stripes stay on the panel while light or camera is active, in Sculpt Mode and in every scope; else they say why."""
 import sys
+import tempfile
 from collections.abc import Generator
+from pathlib import Path
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 import scenes
 import window
@@ -124,6 +127,34 @@ def test_all_visible_and_empty_scopes(driver: window.Window) -> Steps:
     assert explained(driver) == "One: hidden in this view"
 
 
+def test_a_linked_object_of_the_same_name_has_its_own_stripes(driver: window.Window) -> Steps:
+    ob = flat_panel(driver, "Same")
+    driver.region_3d().view_distance = 5.0
+    one = yield from count(driver)
+    draw = sys.modules["reflection_lines"].overlay.draw
+    with tempfile.TemporaryDirectory() as folder:
+        library = str(Path(folder) / "library.blend")
+        bpy.data.libraries.write(library, {ob})
+        with bpy.data.libraries.load(library, link=True) as (_, wanted):
+            wanted.objects = ["Same"]
+        beside = bpy.data.collections.new("Beside")
+        bpy.context.scene.collection.children.link(beside)
+        beside.objects.link(wanted.objects[0])
+        ob.data.transform(Matrix.Translation((2.5, 0.0, 0.0)))
+        ob.data.update()
+        settings().stripes.scope = 'VISIBLE'
+        both = yield from count(driver)
+        assert 1.8 * one < both < 2.2 * one, (one, both)
+        built = draw.count_batch_builds()
+        for _ in range(3):
+            yield from count(driver)
+        assert draw.count_batch_builds() == built
+        bpy.data.objects.remove(wanted.objects[0])
+        assert (yield from count(driver)) < 1.2 * one
+        assert draw.list_kept_names() == {"Same"}
+    settings().stripes.scope = 'OBJECT'
+
+
 def test_the_overlay_switch_hides_them(driver: window.Window) -> Steps:
     flat_panel(driver, "Overlays")
     overlay = driver.area().spaces.active.overlay
@@ -201,5 +232,6 @@ def test_stripes_follow_a_stroke_in_sculpt_mode(driver: window.Window) -> Steps:
 window.run(test_stripes_stay_while_light_camera_or_nothing_is_active,
            test_after_opening_a_file_stripes_are_on_what_was_solved, test_a_map_of_a_mesh_that_has_changed_says_so,
            test_stripes_follow_a_shape_key_that_is_played, test_all_visible_and_empty_scopes,
+           test_a_linked_object_of_the_same_name_has_its_own_stripes,
            test_the_overlay_switch_hides_them, test_what_is_missing_is_said,
            test_stripes_follow_a_stroke_in_sculpt_mode)
