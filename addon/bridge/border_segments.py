@@ -3,7 +3,7 @@
 It is an integer: 0 where the tool's own border holds, else one more than the native code. Blender fills new vertices
 with zeros.
 """
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import bmesh
@@ -56,29 +56,36 @@ def read_object_values(mesh: bpy.types.Mesh) -> np.ndarray:
     return values
 
 
-def set_selected_border(ob: bpy.types.Object, name: str) -> int:
-    """Sets the border of the selected vertices in Edit Mode, or takes their own away for an empty name. With faces
-    selected by faces, it is that of their rim. Returns how many vertices these are.
+def set_selected_borders(objects: Sequence[bpy.types.Object], name: str) -> list[int]:
+    """Sets the border of the selected vertices of objects in Edit Mode, of faces that of their rim; returns how many
+    vertices of each object that are. Refuses before anything is set.
     """
-    vertex_attributes.refuse_taken_attribute(ob, ATTRIBUTE, 'INT')
-    edit = bmesh.from_edit_mesh(ob.data)
+    for ob in objects:
+        vertex_attributes.refuse_taken_attribute(ob, ATTRIBUTE, 'INT')
+    if not any(True for ob in objects for _ in list_chosen(bmesh.from_edit_mesh(ob.data))):
+        raise Refusal("The selected faces have no rim, since they are all of a closed body: select edges or vertices "
+                      "of the panel's border")
+    return [set_selected_border(ob.data, name) for ob in objects]
+
+
+def set_selected_border(mesh: bpy.types.Mesh, name: str) -> int:
+    edit = bmesh.from_edit_mesh(mesh)
     layers = edit.verts.layers.int
     layer = layers.get(ATTRIBUTE) or layers.new(ATTRIBUTE)
-    chosen = list(list_rim(edit) if edit.select_mode == {'FACE'} else list_selected(edit))
+    chosen = set(list_chosen(edit))  # after the layer, which makes references to vertices invalid
     for vertex in chosen:
         vertex[layer] = border.CODES.get(name, border.UNSET) + 1
-    bmesh.update_edit_mesh(ob.data, loop_triangles=False, destructive=False)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
     return len(chosen)
 
 
-def list_selected(edit: bmesh.types.BMesh) -> Iterator[bmesh.types.BMVert]:
-    return (vertex for vertex in edit.verts if vertex.select and not vertex.hide)
-
-
-def list_rim(edit: bmesh.types.BMesh) -> set[bmesh.types.BMVert]:
-    """Lists the vertices of edges with exactly one selected face."""
+def list_chosen(edit: bmesh.types.BMesh) -> Iterator[bmesh.types.BMVert]:
+    """Lists the selected vertices, where faces are selected those of edges with exactly one selected face; some twice.
+    """
+    if edit.select_mode != {'FACE'}:
+        return (vertex for vertex in edit.verts if vertex.select and not vertex.hide)
     rim = (edge for edge in edit.edges if edge.select and sum(face.select for face in edge.link_faces) == 1)
-    return {vertex for edge in rim for vertex in edge.verts}
+    return (vertex for edge in rim for vertex in edge.verts)
 
 
 def read_border_edges(ob: bpy.types.Object) -> BorderEdges | None:

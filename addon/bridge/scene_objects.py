@@ -51,6 +51,16 @@ def list_edited_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
     return list({ob.data: ob for ob in context.view_layer.objects if ob.mode == 'EDIT' and ob.type == 'MESH'}.values())
 
 
+def has_edited_selection(context: bpy.types.Context, count: str) -> bool:
+    """Returns whether the active mesh is in Edit Mode and one of the edited meshes has a selection; `count` is the
+    property of a mesh that tells of how many elements.
+    """
+    ob = context.view_layer.objects.active
+    if ob is None or ob.type != 'MESH' or ob.mode != 'EDIT':
+        return False
+    return getattr(ob.data, count) > 0 or any(getattr(each.data, count) > 0 for each in list_edited_meshes(context))
+
+
 def describe_empty_selection(editing: list[bpy.types.Object]) -> str:
     """Says that none of the edited meshes has a selected face."""
     loose = sum(ob.data.total_vert_sel for ob in editing)

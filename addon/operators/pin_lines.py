@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import BoolProperty
 
-from ..bridge import pinned_faces
+from ..bridge import pinned_faces, scene_objects
 
 
 class REFLINES_OT_pin_lines(bpy.types.Operator):
@@ -20,14 +20,15 @@ class REFLINES_OT_pin_lines(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = context.view_layer.objects.active
         cls.poll_message_set("Select faces of a panel in Edit Mode")
-        return ob is not None and ob.type == 'MESH' and ob.mode == 'EDIT' and ob.data.total_face_sel > 0
+        return scene_objects.has_edited_selection(context, "total_face_sel")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        ob = context.view_layer.objects.active
-        count = pinned_faces.pin_selected_faces(ob.data, pinned=not self.unpin)
-        self.report({'INFO'}, f"{ob.name}: the lines on {count} faces are {'no longer ' if self.unpin else ''}pinned")
+        done = 'no longer pinned' if self.unpin else 'pinned'
+        for ob in scene_objects.list_edited_meshes(context):
+            if ob.data.total_face_sel > 0:
+                count = pinned_faces.pin_selected_faces(ob.data, pinned=not self.unpin)
+                self.report({'INFO'}, f"{ob.name}: the lines on {count} faces are {done}")
         return {'FINISHED'}
 
 

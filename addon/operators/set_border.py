@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import EnumProperty
 
-from ..bridge import border_segments
+from ..bridge import border_segments, scene_objects
 from ..model.refusal import Refusal
 from ..ui.tool_properties import BORDERS
 
@@ -26,19 +26,18 @@ of selected faces it is set at their rim"""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = context.view_layer.objects.active
         cls.poll_message_set("Select edges or vertices of a panel's border in Edit Mode")
-        return ob is not None and ob.type == 'MESH' and ob.mode == 'EDIT' and ob.data.total_vert_sel > 0
+        return scene_objects.has_edited_selection(context, "total_vert_sel")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        objects = [ob for ob in scene_objects.list_edited_meshes(context) if ob.data.total_vert_sel > 0]
         try:
-            counts = {ob.name: border_segments.set_selected_border(ob, self.border)
-                      for ob in context.objects_in_mode_unique_data if ob.type == 'MESH'}
+            counts = border_segments.set_selected_borders(objects, self.border)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
         label = next(item[1] for item in (*BORDERS, UNSET) if item[0] == self.border)
-        told = (f"{name}: {count} vertices" for name, count in counts.items() if count)
+        told = (f"{ob.name}: {count} vertices" for ob, count in zip(objects, counts, strict=True) if count)
         self.report({'INFO'}, f"Border {label}, {'; '.join(told)}")
         return {'FINISHED'}
 

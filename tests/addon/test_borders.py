@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import scenes
+from reflection_lines.bridge import pinned_faces
 
 ROW = 17  # vertices of a row of the panel
 
@@ -133,6 +134,60 @@ def test_of_faces_the_rim_is_set() -> None:
     scenes.select_faces(ob, scenes.inner(margin=2))
     assert bpy.ops.reflines.set_border(border='clamped') == {'FINISHED'}
     assert np.count_nonzero(stored(ob)) == 4 * 12
+
+
+def test_all_of_a_closed_body_has_no_rim() -> None:
+    bpy.ops.mesh.primitive_cube_add()
+    scenes.edit(bpy.context.object)
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    bpy.ops.mesh.select_all(action='SELECT')
+    before = scenes.fingerprint(bpy.context.object)
+    with pytest.raises(RuntimeError, match="The selected faces have no rim, since they are all of a closed body"):
+        bpy.ops.reflines.set_border(border='clamped')
+    assert scenes.fingerprint(bpy.context.object) == before
+
+
+def two_edited() -> tuple[bpy.types.Object, bpy.types.Object]:
+    """Two panels in Edit Mode; the second is active, the first has a selection alone."""
+    first, second = scenes.panel("First"), scenes.panel("Second")
+    scenes.edit(first, second)
+    select_vertices(second, [])
+    scenes.select_faces(first, scenes.inner(margin=2))
+    return first, second
+
+
+def test_borders_of_all_edited_meshes_are_set() -> None:
+    first, second = two_edited()
+    assert bpy.ops.reflines.set_border(border='clamped') == {'FINISHED'}
+    assert np.count_nonzero(stored(first)) == first.data.total_vert_sel > 100
+    assert "reflines_border" not in bmesh.from_edit_mesh(second.data).verts.layers.int
+
+
+def test_lines_of_all_edited_meshes_are_pinned() -> None:
+    first, second = two_edited()
+    assert bpy.ops.reflines.pin_lines() == {'FINISHED'}
+    assert np.count_nonzero(pinned_faces.read_pinned_faces(first)) == 12 * 12
+    scenes.select_faces(second, lambda face: face < 5)
+    assert bpy.ops.reflines.pin_lines() == {'FINISHED'}
+    assert np.count_nonzero(pinned_faces.read_pinned_faces(second)) == 5
+
+
+def test_a_refused_border_is_set_on_no_mesh() -> None:
+    for taken in ("First", "Second"):
+        first, second = two_edited()
+        scenes.object_mode()
+        bpy.data.objects[taken].data.attributes.new("reflines_border", 'FLOAT', 'POINT')
+        scenes.edit(first, second)
+        bpy.ops.mesh.select_all(action='SELECT')
+        before = [scenes.fingerprint(ob) for ob in (first, second)]
+        with pytest.raises(RuntimeError, match="has another attribute reflines_border"):
+            bpy.ops.reflines.set_border(border='fixed')
+        assert [scenes.fingerprint(ob) for ob in (first, second)] == before
+        for ob in (first, second):
+            assert "reflines_border" not in bmesh.from_edit_mesh(ob.data).verts.layers.int
+        scenes.object_mode()
+        for ob in (first, second):
+            bpy.data.objects.remove(ob)
 
 
 def test_other_segments_make_another_optimizer() -> None:
