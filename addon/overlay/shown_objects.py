@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 
-from ..bridge import view_and_light
+from ..bridge import scene_objects, view_and_light
 from ..model.refusal import Refusal
 from ..state import last_panels, solve_history
 from . import stripe_scene, stripes
@@ -27,14 +27,15 @@ def find_panels(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -
 
 def find_meshes_in_scope(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> list[bpy.types.Object]:
     """Returns the meshes in scope, with the warped mesh in the place of a lattice."""
-    found = dict.fromkeys(follow_lattice_to_mesh(ob) for ob in find_objects_in_scope(context, settings))
+    found = dict.fromkeys(follow_lattice_to_mesh(context, ob) for ob in find_objects_in_scope(context, settings))
     return [ob for ob in found if ob is not None and ob.type == 'MESH']
 
 
-def follow_lattice_to_mesh(ob: bpy.types.Object | None) -> bpy.types.Object | None:
-    """Returns the mesh that a warp lattice belongs to, else the object itself."""
-    warps = ob is not None and ob.type == 'LATTICE' and ob.reflection_lines.panel is not None
-    return ob.reflection_lines.panel if warps else ob
+def follow_lattice_to_mesh(context: bpy.types.Context, ob: bpy.types.Object | None) -> bpy.types.Object | None:
+    """Returns the mesh that a warp lattice belongs to, else the object itself; a lattice can outlive its mesh."""
+    panel = ob.reflection_lines.panel if ob is not None and ob.type == 'LATTICE' else None
+    there = panel is not None and scene_objects.contains_object(context.view_layer.objects, panel)
+    return panel if there else ob
 
 
 def find_objects_in_scope(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> list[bpy.types.Object]:

@@ -155,6 +155,23 @@ def test_a_linked_object_of_the_same_name_has_its_own_stripes(driver: window.Win
     settings().stripes.scope = 'OBJECT'
 
 
+def test_the_lattice_of_a_deleted_panel_shows_no_panel(driver: window.Window) -> Steps:
+    ob = flat_panel(driver, "Gone")
+    with driver.override():
+        scenes.edit_inner(ob, CELLS)
+        bpy.ops.reflines.add_warp_lattice()
+        scenes.object_mode()
+        lattice = settings().warp.lattice
+        bpy.ops.object.select_all(action='DESELECT')
+        scenes.activate(ob)
+        bpy.ops.object.delete()
+        scenes.activate(lattice)
+    driver.redraw()
+    yield 0.3
+    assert lattice.reflection_lines.panel is not None
+    assert explained(driver) == "Nothing to show: make the panel's mesh active"
+
+
 def test_the_overlay_switch_hides_them(driver: window.Window) -> Steps:
     flat_panel(driver, "Overlays")
     overlay = driver.area().spaces.active.overlay
@@ -233,5 +250,6 @@ window.run(test_stripes_stay_while_light_camera_or_nothing_is_active,
            test_after_opening_a_file_stripes_are_on_what_was_solved, test_a_map_of_a_mesh_that_has_changed_says_so,
            test_stripes_follow_a_shape_key_that_is_played, test_all_visible_and_empty_scopes,
            test_a_linked_object_of_the_same_name_has_its_own_stripes,
+           test_the_lattice_of_a_deleted_panel_shows_no_panel,
            test_the_overlay_switch_hides_them, test_what_is_missing_is_said,
            test_stripes_follow_a_stroke_in_sculpt_mode)
