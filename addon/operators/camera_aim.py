@@ -1,10 +1,14 @@
 """The base of operators that aim a view camera at the panel, as the 3D view looks at it."""
 import bpy
+import numpy as np
 from bpy.props import FloatVectorProperty
+from mathutils import Matrix
 
-from ..bridge import scene_objects, view_camera
+from ..bridge import light_angles, scene_objects, view_camera
 from ..model.refusal import Refusal
 from ..state import last_panels
+
+HELD_TOLERANCE = 1e-4  # of axes, and of places relative to the coordinates: matrices are of single precision
 
 
 class CameraAim:
@@ -27,12 +31,28 @@ class CameraAim:
         ob = last_panels.find_panel(context)
         try:
             points = view_camera.read_framed_points(ob)
+            frame = view_camera.choose_frame(context, ob, self.direction)
+            if camera is not None:
+                refuse_held_camera(context, camera, Matrix.Translation(points.mean(axis=0)) @ frame.to_4x4())
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
-        frame = view_camera.choose_frame(context, ob, self.direction)
         camera = camera or view_camera.add_camera(scene_objects.find_editable_collection(context))
         view_camera.aim_camera(context, camera, frame, points)
         context.scene.reflection_lines.camera = camera
         ob.reflection_lines.keep_view(context.scene)
         return {'FINISHED'}
+
+
+def refuse_held_camera(context: bpy.types.Context, camera: bpy.types.Object, wanted: Matrix) -> None:
+    """Refuses a camera that does not go where it is put, as below a constraint or an uneven scale; leaves it as it was.
+    """
+    before = light_angles.read_transform(camera)
+    camera.matrix_world = wanted
+    context.view_layer.update()
+    apart, size = np.abs(np.array(camera.matrix_world - wanted)), max(1.0, *np.abs(wanted.translation))
+    light_angles.restore_transform(camera, before)
+    context.view_layer.update()
+    if apart[:3, :3].max() > HELD_TOLERANCE or apart[:3, 3].max() > HELD_TOLERANCE * size:
+        raise Refusal(f"{camera.name} cannot be turned to this view, since a constraint, or the scale of its parent, "
+                      "holds it: take that away, or press Add View Camera")

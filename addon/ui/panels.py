@@ -53,12 +53,20 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
             column.operator("reflines.use_panel_view", icon='LOOP_BACK')
         if settings.is_perspective():
             draw_paragraph(column, context, "Perspective camera: its direction to the panel's centre is used", 'INFO')
+        self.draw_unfollowed(column, context, settings.camera)
         column = layout.column()
         column.prop(settings, "light", text="", icon='EMPTY_SINGLE_ARROW')
+        self.draw_unfollowed(column, context, settings.light)
         if not settings.present(settings.light):
             column.operator("reflines.add_light_direction", icon='ADD')
         else:
             self.draw_light(column, settings)
+
+    def draw_unfollowed(self, layout: bpy.types.UILayout, context: bpy.types.Context,
+                        ob: bpy.types.Object | None) -> None:
+        said = context.scene.reflection_lines.describe_unfollowed(ob)
+        if said:
+            draw_paragraph(layout, context, said, 'ERROR')
 
     def draw_light(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
         row = layout.row()

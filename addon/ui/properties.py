@@ -301,6 +301,13 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
         return (f"{ob.name} is in the scene {scenes[0].name}, not in this one: link it to this scene (Object > "
                 "Link/Transfer Data), or pick another")
 
+    def describe_unfollowed(self, ob: bpy.types.Object | None) -> str:
+        """Returns, as a sentence, that Blender does not follow an object's transform; empty where it does."""
+        if not self.present(ob) or not (ob.hide_viewport or all(each.hide_viewport for each in ob.users_collection)):
+            return ""
+        return (f"{ob.name} is disabled in viewports (the monitor icon in the Outliner), so Blender does not follow "
+                "its transform: enable it, and hide it by the eye")
+
     def present(self, ob: bpy.types.Object | None) -> bool:
         """Returns whether the object is in the scene: properties may still point at deleted ones."""
         return ob is not None and scene_objects.contains_object(self.id_data.objects, ob)

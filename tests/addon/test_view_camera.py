@@ -46,6 +46,70 @@ def test_the_view_camera_is_turned_and_frames_the_panel(direction, kind) -> None
     assert is_framed(np.array([ob.matrix_world @ Vector(corner) for corner in ob.bound_box]))
 
 
+def track(camera: bpy.types.Object, other: bpy.types.Object) -> None:
+    camera.constraints.new('TRACK_TO').target = other
+
+
+def put_below(camera: bpy.types.Object, other: bpy.types.Object) -> None:
+    camera.parent = other
+
+
+@pytest.mark.parametrize("hold", [track, put_below])
+def test_a_camera_that_cannot_be_turned_is_refused_and_stays(hold) -> None:
+    scenes.panel()
+    scenes.look_from_above()
+    other = bpy.data.objects.new("Other", None)
+    bpy.context.collection.objects.link(other)
+    other.location, other.scale, other.rotation_euler = (9.0, 0.0, 0.0), (2.0, 0.5, 3.0), (0.3, 0.4, 0.5)
+    camera = settings().camera
+    hold(camera, other)
+    bpy.context.view_layer.update()
+    before = [tuple(row) for row in (*camera.matrix_world, *camera.matrix_basis)], camera.data.ortho_scale
+    with pytest.raises(RuntimeError, match="View Camera cannot be turned to this view, since a constraint"):
+        bpy.ops.reflines.camera_from_view(direction=(1.0, 0.3, 1.0))
+    assert ([tuple(row) for row in (*camera.matrix_world, *camera.matrix_basis)], camera.data.ortho_scale) == before
+
+
+def test_a_camera_below_an_even_scale_is_turned() -> None:
+    ob = scenes.panel()
+    scenes.look_from_above()
+    other = bpy.data.objects.new("Other", None)
+    bpy.context.collection.objects.link(other)
+    other.location, other.scale, other.rotation_euler = (9.0, 0.0, 0.0), (2.0, 2.0, 2.0), (0.3, 0.4, 0.5)
+    settings().camera.parent = other
+    assert bpy.ops.reflines.camera_from_view(direction=(1.0, 0.3, 1.0)) == {'FINISHED'}
+    bpy.context.view_layer.update()
+    assert axis_z(settings().camera) == pytest.approx(np.array([1.0, 0.3, 1.0]) / np.sqrt(2.09), abs=1e-4)
+    assert is_framed(scenes.world(ob))
+
+
+def hide_by_the_collection(ob: bpy.types.Object) -> None:
+    hidden = bpy.data.collections.new("Rig")
+    bpy.context.scene.collection.children.link(hidden)
+    for collection in ob.users_collection:
+        collection.objects.unlink(ob)
+    hidden.objects.link(ob)
+    hidden.hide_viewport = True
+
+
+@pytest.mark.parametrize("hide", [lambda ob: setattr(ob, "hide_viewport", True), hide_by_the_collection])
+@pytest.mark.parametrize("name", ["camera", "light"])
+def test_a_view_that_blender_does_not_follow_is_told(name, hide) -> None:
+    """Its matrix stays as it was when it was disabled."""
+    scenes.panel()
+    scenes.look_from_above()
+    ob = getattr(settings(), name)
+    assert settings().describe_unfollowed(ob) == ""
+    hide(ob)
+    bpy.context.view_layer.update()
+    before = axis_z(ob)
+    ob.rotation_euler.y += 0.5
+    bpy.context.view_layer.update()
+    assert np.array_equal(axis_z(ob), before)
+    assert f"{ob.name} is disabled in viewports" in settings().describe_unfollowed(ob)
+    ob.hide_set(False)
+
+
 def test_in_edit_mode_the_selection_is_framed() -> None:
     ob = scenes.panel()
     scenes.edit(ob)

@@ -68,6 +68,8 @@ def test_panels_with_view_light_and_result(driver: window.Window) -> Steps:
 def test_panels_with_a_perspective_camera_and_notes(driver: window.Window) -> Steps:
     bpy.context.scene.reflection_lines.camera.data.type = 'PERSP'
     bpy.data.objects["Panel"].reflection_lines.report.notes = "3 faces turn away from the view.\nAnother sentence."
+    bpy.context.scene.reflection_lines.light.hide_viewport = True
+    assert bpy.context.scene.reflection_lines.describe_unfollowed(bpy.context.scene.reflection_lines.light)
     yield from all_panels_draw(driver)
 
 
