@@ -21,12 +21,19 @@ def find_editable_collection(context: bpy.types.Context) -> bpy.types.Collection
     return context.scene.collection if foreign else active
 
 
+def read_active_object(context: bpy.types.Context) -> bpy.types.Object | None:
+    """Returns the active object: of an override of the context where a script has given one, else of the view layer,
+    which alone is known where there is no window.
+    """
+    return getattr(context, "active_object", None) or context.view_layer.objects.active
+
+
 def find_active_object(context: bpy.types.Context) -> bpy.types.Object | None:
     """Returns the active object; for a warp lattice in Object Mode the mesh that it warps.
 
     In Edit Mode a lattice stands for itself: undo would take back the lattice only, and not the mesh.
     """
-    ob = context.view_layer.objects.active
+    ob = read_active_object(context)
     if ob is None or ob.type != 'LATTICE' or ob.mode != 'OBJECT':
         return ob
     panel = ob.reflection_lines.panel  # a deleted object can still be pointed at
@@ -55,7 +62,7 @@ def has_edited_selection(context: bpy.types.Context, count: str) -> bool:
     """Returns whether the active mesh is in Edit Mode and one of the edited meshes has a selection; `count` is the
     property of a mesh that tells of how many elements.
     """
-    ob = context.view_layer.objects.active
+    ob = read_active_object(context)
     if ob is None or ob.type != 'MESH' or ob.mode != 'EDIT':
         return False
     return getattr(ob.data, count) > 0 or any(getattr(each.data, count) > 0 for each in list_edited_meshes(context))

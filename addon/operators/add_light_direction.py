@@ -22,7 +22,7 @@ Turn the arrow to turn the reflection lines; it must not point along the view"""
         settings = context.scene.reflection_lines
         frame = self.choose_frame(context, settings)
         direction = Vector(self.direction) if any(self.direction) else frame.col[0]
-        center, size = view_and_light.measure_extent(context.view_layer.objects.active)
+        center, size = view_and_light.measure_extent(scene_objects.read_active_object(context))
         arrow = bpy.data.objects.new("Light Direction", None)
         arrow.empty_display_type = 'SINGLE_ARROW'
         arrow.empty_display_size = 0.3 * size

@@ -6,7 +6,7 @@ import numpy as np
 from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..bridge import mesh_checks, read_checked, read_mesh, read_patch
+from ..bridge import mesh_checks, read_checked, read_mesh, read_patch, scene_objects
 from ..bridge.mesh_checks import Purpose
 from ..model import check_table
 from ..model.check_table import TableRow
@@ -27,12 +27,12 @@ hold them against the marks; without a run the selected faces as they are"""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = context.view_layer.objects.active
+        ob = scene_objects.read_active_object(context)
         cls.poll_message_set("Make a panel's mesh active, in Edit Mode or Object Mode")
         return ob is not None and ob.type == 'MESH' and ob.mode in {'EDIT', 'OBJECT'}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        ob, settings = context.view_layer.objects.active, context.scene.reflection_lines.marks
+        ob, settings = scene_objects.read_active_object(context), context.scene.reflection_lines.marks
         try:
             patch, positions, own = self.find_subject(ob)
             marks = panel_check.Marks(settings.gap, settings.angle, settings.curvature, find_limit(own))
@@ -87,12 +87,12 @@ class REFLINES_OT_export_check(ExportHelper, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = context.view_layer.objects.active
+        ob = scene_objects.read_active_object(context)
         cls.poll_message_set("Make a panel active that was checked")
         return ob is not None and ob.type == 'MESH' and len(ob.reflection_lines.check.rows) > 0
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        ob, path = context.view_layer.objects.active, Path(bpy.path.abspath(self.filepath))
+        ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
         rows = ob.reflection_lines.check.to_rows()
         kinds = {".json": check_table.format_json(ob.name, rows), ".csv": check_table.format_csv(rows)}
         try:

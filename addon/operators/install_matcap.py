@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 
-from ..bridge import matcap, view_and_light
+from ..bridge import matcap, scene_objects, view_and_light
 from ..model.refusal import Refusal
 
 
@@ -24,7 +24,7 @@ the view: the stripes over the mesh are the finer judge"""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reflection_lines
-        center = np.array(view_and_light.measure_extent(context.view_layer.objects.active)[0])
+        center = np.array(view_and_light.measure_extent(scene_objects.read_active_object(context))[0])
         try:
             seen = view_and_light.read_scene_view(context.scene, center)
             up = np.array(settings.camera.matrix_world, dtype=np.float64)[:3, 1]

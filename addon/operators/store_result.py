@@ -4,7 +4,7 @@ from collections.abc import Iterable
 import bpy
 import numpy as np
 
-from ..bridge import read_mesh, vertex_attributes
+from ..bridge import read_mesh, scene_objects, vertex_attributes
 from ..model.refusal import Refusal
 from ..model.solution import LastSolve
 from ..solver import solve
@@ -20,12 +20,12 @@ mesh's vertices, for shaders, modifiers and other programs"""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = context.view_layer.objects.active
+        ob = scene_objects.read_active_object(context)
         cls.poll_message_set("Make a panel active that is as a tool left it")
         return ob is not None and ob.type == 'MESH' and solve_history.find_last_solve(ob.name_full) is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        ob = context.view_layer.objects.active
+        ob = scene_objects.read_active_object(context)
         if ob.mode == 'EDIT':
             ob.update_from_editmode()
         solution = solve_history.find_last_solve(ob.name_full)

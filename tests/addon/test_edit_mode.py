@@ -73,6 +73,32 @@ def test_a_result_that_was_undone_is_marked() -> None:
     assert not shown.is_undone(bpy.data.objects["Panel"])
 
 
+def two_solved_panels() -> list[bpy.types.Object]:
+    """In Object Mode, each with a region; the second is active."""
+    objects = [scenes.panel("Left"), scenes.panel("Right")]
+    scenes.look_from_above()
+    scenes.edit(*objects)
+    for ob in objects:
+        scenes.select_faces(ob, scenes.inner())
+    scenes.smooth(strength=0.0)
+    scenes.object_mode()
+    return objects
+
+
+def test_a_script_may_override_the_active_object() -> None:
+    left, right = two_solved_panels()
+    scenes.activate(right)
+    before = [scenes.fingerprint(ob) for ob in (left, right)]
+    with bpy.context.temp_override(active_object=left, object=left, selected_objects=[left]):
+        assert bpy.ops.reflines.smooth('EXEC_DEFAULT', True, length=0.5) == {'FINISHED'}
+        assert bpy.ops.reflines.check('EXEC_DEFAULT', True) == {'FINISHED'}
+        assert bpy.ops.reflines.store_result('EXEC_DEFAULT', True) == {'FINISHED'}
+        assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border='free') == {'FINISHED'}
+    assert scenes.fingerprint(left) != before[0] and scenes.fingerprint(right) == before[1]
+    assert len(left.reflection_lines.check.rows) and not len(right.reflection_lines.check.rows)
+    assert "reflines_deviation" in left.data.attributes
+
+
 def keyed_panel() -> bpy.types.Object:
     ob = scenes.panel()
     scenes.look_from_above()
