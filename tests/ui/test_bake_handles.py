@@ -52,18 +52,22 @@ def key_by_hand(driver: window.Window) -> Steps:
     assert keys_of_place() == wanted, "no field of the panel has keyed the place"
 
 
-def keyed(driver: window.Window) -> Generator[float, None, list[np.ndarray]]:
-    """A line pulled by hand, its handle keyed in frames 1 and 11; returns the shapes of both."""
+def keyed(driver: window.Window, *, by_hand: bool = False) -> Generator[float, None, list[np.ndarray]]:
+    """A line pulled by hand, its handle keyed in frames 1 and 11, by hand or by a script; returns the shapes of both.
+    """
     yield from start(driver)
     yield from pull(driver, MIDDLE, UP)
     yield from applied(driver)
-    if hasattr(bpy.types.VIEW3D_PT_reflines_handles, "bl_parent_id"):
+    if by_hand and hasattr(bpy.types.VIEW3D_PT_reflines_handles, "bl_parent_id"):
         yield from raise_panel(driver)
     scene, shapes = bpy.context.scene, []
     for frame, way in ((1, 0.0), (11, -0.04)):
         scene.frame_set(frame)
         kept().place[1] += way
-        yield from key_by_hand(driver)
+        if by_hand:
+            yield from key_by_hand(driver)
+        else:
+            kept().keyframe_insert("place")
         with driver.override():
             assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
         shapes.append(shown(driver))
@@ -89,7 +93,7 @@ def baked(ob: bpy.types.Object) -> list[str]:
 
 
 def test_a_handle_is_keyed_baked_and_played(driver: window.Window) -> Steps:
-    first, last = yield from keyed(driver)
+    first, last = yield from keyed(driver, by_hand=True)
     ob, scene = bpy.context.view_layer.objects.active, bpy.context.scene
     scene.frame_set(4)
     scene.reflection_lines.bake.step = 2
