@@ -175,10 +175,12 @@ def test_bad_handles_are_refused_in_a_sentence() -> None:
 
 def test_lines_of_another_region_are_refused() -> None:
     session = Session()
-    other = reflines.ShapeOptimizer(*mesh("regular"), view_direction=(0, 0, 1), line_direction=(0, 1, 0))
-    for start, lines in ((session.start, reflines.LineHandles(other)), (other, session.lines)):
-        with pytest.raises(reflines.InvalidInput, match="another region"):
-            reflines.HandleFollower(start, lines)
+    V, F = region("irregular")
+    for other in (mesh("regular"), (np.vstack([V, V[:1]]), F), (V + [0.1, 0.0, 0.0], F)):
+        optimizer = reflines.ShapeOptimizer(*other, view_direction=(0, 0, 1), line_direction=(0.3, 1, 0))
+        for start, lines in ((session.start, reflines.LineHandles(optimizer)), (optimizer, session.lines)):
+            with pytest.raises(reflines.InvalidInput, match="another region"):
+                reflines.HandleFollower(start, lines)
 
 
 def test_one_follower_is_used_by_one_thread_at_a_time() -> None:

@@ -272,6 +272,21 @@ def test_rounds_that_change_few_of_many_contacts_take_no_factorization(share):
     assert report.factorizations <= 4
 
 
+@pytest.mark.parametrize("share", [0.15, 0.17])
+def test_active_sets_that_follow_each_other_in_a_ring_are_left(share):
+    """Without, these went on to the last round of each step, and ended after 99 factorizations unconverged."""
+    positions, triangles = panel(24)
+    positions[:, 2] += np.random.default_rng(1).normal(0, 3e-4, len(positions))
+    largest = made(positions, triangles, border="free").solve(turned(positions, triangles)).largest_move
+    report = made(positions, triangles, border="free").solve(turned(positions, triangles), limit=share * largest)
+    assert report.converged, report.message
+    assert report.factorizations <= 15
+
+
+def turned(positions, triangles):
+    return reflines.turn(made(positions, triangles, border="free"), angle=0.1)
+
+
 def test_a_drag_of_the_target_makes_few_factors():
     positions, triangles = ripples(40)
     solver = made(positions, triangles)

@@ -244,7 +244,9 @@ Vector HandleFollower::Window::meet(const std::vector<FollowedPlace>& places) {
 
 HandleFollower::HandleFollower(const ShapeOptimizer& start, const LineHandles& lines) : start_(start), lines_(lines) {
   const RegionField& field = lines.field();
-  if (field.F.rows() == start.triangle_count() && field.xy == start.xy() && field.family < start.family_count()) return;
+  const PlanePositions xy = start.xy();
+  const bool same_size = field.F.rows() == start.triangle_count() && field.xy.rows() == xy.rows();
+  if (same_size && field.xy == xy && field.family < start.family_count()) return;
   throw InvalidInput("The handles' lines are those of another region; make them for the optimizer at the start.");
 }
 

@@ -39,15 +39,10 @@ constexpr int kMaxInteriorSteps = 15;
 
 // The sweeps of relaxation before the first factorization, from the free minimum, most of which may be beyond its
 // bounds; and after each whose set changes by more than this share. Over three sizes, four strengths of noise and six
-// limits they save a third to nine tenths of the factorizations where many touch (35 became 8, 18 became 11, and in two
-// of 36 solves 25 became 28 and 27 became 37). Sweeps after rounds that change less saved none.
+// limits they save a third to nine tenths of the factorizations where many touch (35 became 8, 18 became 11, and in
+// three of 72 solves 14 became 18, 25 became 28, and 27 became 37). Sweeps after rounds that change less saved none.
 constexpr int kFirstSweeps = 32, kSweeps = 16;
 constexpr double kManyChanges = 0.2;
-
-// The rounds within which the projected gradient must halve. Active sets may follow each other in a ring, for the
-// matrix of a bent surface is no M-matrix; relaxation, which lowers the energy with each move, leads out of it, with
-// twice as many sweeps each time.
-constexpr int kStalled = 4;
 
 // The part of the projected gradient that the unknowns between their bounds may keep.
 constexpr double kLostDigits = 0.1;
@@ -67,23 +62,20 @@ bool settles_slowly(int changes_before, int changes) {
   return rounds_of_many + std::min(1.0, many) / (1.0 - rate) > kRoundsOfInteriorPoint;
 }
 
-// Follows the projected gradient of the best point, round by round.
-class Stagnation {
+// Finds that active sets follow each other in a ring, by Brent's method (BIT 20, 1980): each is compared with that of
+// the last round whose number is a power of two. There are no rings for an M-matrix, which that of a bent surface is
+// not.
+class Ring {
  public:
-  // Returns true where it has not halved for kStalled rounds, since the last time that this was so.
-  bool observe(double norm) {
-    if (norm <= 0.5 * lowest_) {
-      lowest_ = norm;
-      rounds_ = 0;
-      return false;
-    }
-    rounds_ = (rounds_ + 1) % kStalled;
-    return rounds_ == 0;
+  bool is_closed_by(const Sides& held) {
+    if (held == kept_) return true;
+    if ((++round_ & (round_ - 1)) == 0) kept_ = held;
+    return false;
   }
 
  private:
-  double lowest_ = std::numeric_limits<double>::infinity();
-  int rounds_ = 0;
+  Sides kept_;
+  int round_ = 0;
 };
 
 }  // namespace
@@ -152,13 +144,14 @@ Sides keep_peaks(const SparseMatrix& H, const Bounds& bounds, const Sides& held,
 bool BoundedQuadratic::minimize(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held,
                                 bool& many, Vector& d) {
   best_norm_ = std::numeric_limits<double>::infinity();
+  ProjectedRelaxation relaxation(model, bounds, progress_);
   if (!many) {
     const Search search = search_contacts(model, bounds, wanted, held, d);
     if (search != Search::kTooMany) return search == Search::kFound;
     many = true;
-    if (!is_few(held, bounds)) held = ProjectedRelaxation(model, bounds, progress_).estimate_held(d, kFirstSweeps);
+    if (!is_few(held, bounds)) held = relaxation.estimate_held(d, kFirstSweeps);
   }
-  return settle(model, bounds, wanted, held, d);
+  return settle(model, bounds, wanted, relaxation, held, d);
 }
 
 BoundedQuadratic::Search BoundedQuadratic::search_contacts(const QuadraticModel& model, const Bounds& bounds,
@@ -189,11 +182,10 @@ BoundedQuadratic::Search BoundedQuadratic::search_contacts(const QuadraticModel&
   return Search::kTooMany;
 }
 
-bool BoundedQuadratic::settle(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held,
-                              Vector& d) {
-  ProjectedRelaxation relaxation(model, bounds, progress_);
-  Stagnation stagnation;
-  int changes = 0, slow_rounds = 0, sweeps = kSweeps;
+bool BoundedQuadratic::settle(const QuadraticModel& model, const Bounds& bounds, double wanted,
+                              ProjectedRelaxation& relaxation, Sides& held, Vector& d) {
+  Ring ring;
+  int changes = 0, slow_rounds = 0;
   bool guessed = false;
   for (int round = 0; round < kMaxRounds; ++round) {
     if (cancelled()) return false;
@@ -206,16 +198,13 @@ bool BoundedQuadratic::settle(const QuadraticModel& model, const Bounds& bounds,
     const int changes_before = std::exchange(changes, count_changes(held, next));
     if (changes == 0 && factor_.leaves_out(held)) return true;
     if (changes == 0) factorize(model, held);  // which has the digits that the Schur complement lost
-    if (stagnation.observe(best_norm_)) {
-      next = relaxation.estimate_held(d, sweeps);
-      sweeps *= 2;
-    } else if (!few && changes > std::max<double>(HeldFactor::kMostNewColumns, kManyChanges * count_held(next))) {
-      next = relaxation.estimate_held(trial.d, kSweeps);
-    }
+    const bool in_ring = changes > 0 && ring.is_closed_by(next);
     slow_rounds = round > 0 && !few && settles_slowly(changes_before, changes) ? slow_rounds + 1 : 0;
-    if (slow_rounds >= 2 && !guessed) {
+    if ((slow_rounds >= 2 || in_ring) && !guessed) {
       guessed = true;
       if (!guess_from_inside(model, bounds, std::sqrt(trial.d.squaredNorm() / trial.d.size()), next)) return false;
+    } else if (!few && changes > std::max<double>(HeldFactor::kMostNewColumns, kManyChanges * count_held(next))) {
+      next = relaxation.estimate_held(trial.d, kSweeps);
     }
     held = std::move(next);
   }

@@ -9,6 +9,8 @@
 
 namespace reflines {
 
+class ProjectedRelaxation;
+
 struct QuadraticModel {
   const SparseMatrix& H;  // lower triangle, n x n
   const Vector& gradient;
@@ -27,8 +29,8 @@ struct QuadraticModel {
 // SIAM J. Optim. 13, 2003): solve with the held unknowns at their bounds, hold those that violate a bound, release
 // those with a multiplier of the wrong sign. Its first rounds would change thousands of unknowns, and take a
 // factorization each: ProjectedRelaxation changes most of these before. The later ones change few and take the factor
-// before them, bordered. Where the set of many changes slowly, as
-// on a smooth surface that leaves its bound row by row, InteriorPoint estimates it anew.
+// before them, bordered. Where the set of many changes slowly, as on a smooth surface that leaves its bound row by row,
+// InteriorPoint estimates it anew.
 class BoundedQuadratic {
  public:
   // Takes the factor to use; `counts` collects factorizations and solves. `progress` may be null.
@@ -45,7 +47,8 @@ class BoundedQuadratic {
   Search search_contacts(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, Vector& d);
   void factorize(const QuadraticModel& model, const Sides& held);
   void hold(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
-  bool settle(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, Vector& d);
+  bool settle(const QuadraticModel& model, const Bounds& bounds, double wanted, ProjectedRelaxation& relaxation,
+              Sides& held, Vector& d);
   bool cancelled() const { return progress_ != nullptr && progress_->cancelled(); }
   struct Trial {
     Vector d, gradient;  // of the model at d
