@@ -71,7 +71,7 @@ def test_no_light_ends_less_even_or_it_is_clamped_to_the_bit(border: str, kind: 
 @pytest.mark.parametrize("border", CONTINUED)
 def test_what_would_be_refused_is_clamped_and_said_and_what_is_good_is_kept(border: str, diagonals: str) -> None:
     assert is_said(press(make_panel("bulge", diagonals), border)[1])
-    panel = make_panel("ripples", diagonals)
+    panel = make_panel("dent", diagonals)
     positions, told = press(panel, border)
     assert not is_said(told) and not np.array_equal(positions, press(panel, "clamped")[0])
 

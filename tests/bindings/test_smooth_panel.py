@@ -290,3 +290,17 @@ def test_waves_longer_than_the_length_go_where_the_design_is_plain(cells: int, s
     positions, report = press(flawed, F, symmetric=False)
     assert report.applied
     assert (error(positions, clean, F) < 0.35 * error(flawed, clean, F)).all()
+
+
+def test_the_bow_of_a_small_piece_is_no_dent_of_the_large_one_beside_it() -> None:
+    """A lamp selected with its bonnet was flattened: its bow is as wide as a dent of the whole selection may be."""
+    V, F = make_bonnet()
+    plane, own = grid(16, jitter=0.2)
+    lamp = np.column_stack([0.3 * plane + [0.6, -0.15], np.zeros(len(plane))])
+    x, y = lamp[:, 0] - 0.75, lamp[:, 1]
+    lamp[:, 2] = -0.2 + 0.003 * np.exp(-(x**2 + y**2) / 0.055**2)
+    both = np.concatenate([V, lamp]), np.concatenate([F, own + len(V)]).astype(np.int32)
+    pressed, _ = press(*both)
+    assert np.abs(pressed - both[0])[len(V):].max() < 1e-4
+    alone, report = press(V + np.outer(plant("dents", V), [0, 0, 1]), F)
+    assert report.bumps > 0

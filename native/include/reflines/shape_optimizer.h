@@ -148,6 +148,9 @@ class ShapeOptimizer {
   // without a limit. Throws InvalidInput for numbers that are not finite, and for the surface of a cage.
   void set_move(const Vector& move);
 
+  // Makes the proximity term pull towards these heights along the view (#V) instead of the start, until a reset.
+  void stay_near(const Vector& heights);
+
   void reset();  // restores the heights that the optimizer was built with
 
   // These are for the surface of a cage (see ShapeOptions::B), which is one piece: the indices of the unknowns that can

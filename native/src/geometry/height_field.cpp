@@ -145,7 +145,7 @@ double HeightField::diagonal() const {
   return (high - low).norm();
 }
 
-double HeightField::piece_diagonal() const {
+Vector HeightField::piece_diagonals() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   PlanePositions low = PlanePositions::Constant(piece_count, 2, kInfinity), high = -low;
   for (int t = 0; t < triangle_count(); ++t) {
@@ -154,7 +154,7 @@ double HeightField::piece_diagonal() const {
       high.row(piece[t]) = high.row(piece[t]).cwiseMax(xy.row(v));
     }
   }
-  return (high - low).rowwise().norm().maxCoeff();
+  return (high - low).rowwise().norm();
 }
 
 HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame,

@@ -56,8 +56,9 @@ struct HeightField {
   int vertex_count() const { return static_cast<int>(xy.rows()); }
   int triangle_count() const { return static_cast<int>(F.rows()); }
   bool has_free_vertex(int t) const;
-  double diagonal() const;        // diagonal of the used vertices' bounding box in the image plane
-  double piece_diagonal() const;  // the largest of the pieces'
+  double diagonal() const;         // diagonal of the used vertices' bounding box in the image plane
+  Vector piece_diagonals() const;  // #pieces, likewise
+  double piece_diagonal() const { return piece_diagonals().maxCoeff(); }
 };
 
 // Splits a checked region (see check_surface) at its silhouettes and creases (see crease_edges). Vertices of excluded

@@ -34,6 +34,7 @@ class BumpRemoval {
   CreasePreservingSmoother smoother_;
   PlanePositions centers_;  // #T x 2
   Vector area_;             // #T
+  Vector largest_radius_;   // #T, see HessianSamples
 };
 
 }  // namespace reflines

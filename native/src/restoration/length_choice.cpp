@@ -21,13 +21,17 @@ constexpr double kAveraged = 0.7;
 // of 0.28 degrees on a scoop; the others leave the same.
 constexpr double kSharpness = 4.0;
 
+// The power of a change's weight as a flaw by which its length loses. Of 0, 1, 2 and 4 of a dented spout 0.66 / 0.70,
+// 0.65 / 0.69, 0.64 / 0.68, 0.62 / 0.65 is left; the last harms a clean bonnet by 0.28 instead of 0.24 degrees.
+constexpr double kMistrust = 2.0;
+
 // Returns a share up to a common factor: 1 for the least difference, also where all are 0.
 double compare(double least, double own) { return own > 0 ? std::pow(least / own, kSharpness) : 1.0; }
 
 }  // namespace
 
-Eigen::MatrixXd share_lengths(const std::vector<TriangleFields>& changes, const PlanePositions& centers,
-                              const Vector& area, double length) {
+Eigen::MatrixXd share_lengths(const std::vector<TriangleFields>& changes, const Eigen::MatrixXd& weight,
+                              const PlanePositions& centers, const Vector& area, double length) {
   if (changes.size() == 1) return Eigen::MatrixXd::Ones(area.size(), 1);
   Eigen::MatrixXd result(area.size(), static_cast<Eigen::Index>(changes.size()) - 1);
   double factor = 1.0;
@@ -36,6 +40,7 @@ Eigen::MatrixXd share_lengths(const std::vector<TriangleFields>& changes, const 
   result = DiskMean(centers, area, kAveraged * length).of_columns(result);
   const Vector least = result.rowwise().minCoeff();
   for (Eigen::Index k = 0; k < result.cols(); ++k) result.col(k) = least.binaryExpr(result.col(k), &compare);
+  result.array() *= weight.array().pow(kMistrust);
   return result.array().colwise() / result.rowwise().sum().array();
 }
 

@@ -11,10 +11,11 @@
 
 namespace reflines {
 
-// Weight of staying near the start (see Energy): the lines hardly see a shape that is as long as the panel, and this
-// keeps it where it is. Of 0, 1e5, 1e6, 1e7, with the lines of the clean panel as target: 0, 0.4, 4 and 30 % left of
-// dents, and less harm the higher. A cage has few unknowns, which drift less, and each lifts much surface: of 1e6, 1e5
-// and 1e4, 0.61, 0.50 and 0.48 left of noise in the cage of a roof, and no clean cage moves by more than 0.7 mm.
+// Weight of staying near the start, or the start without what was found to be bumps (see Energy): the lines hardly see
+// a shape that is as long as the panel, and this keeps it where it is. Of 0, 1e5, 1e6, 1e7, with the lines of the clean
+// panel as target: 0, 0.4, 4 and 30 % left of dents, and less harm the higher. A cage has few unknowns, which drift
+// less, and each lifts much surface: of 1e6, 1e5 and 1e4, 0.61, 0.50 and 0.48 left of noise in the cage of a roof, and
+// no clean cage moves by more than 0.7 mm.
 inline constexpr double kMeshProximity = 1e6, kCageProximity = 1e4;
 
 class Restoration {
@@ -49,6 +50,7 @@ class Restoration {
   bool is_any_worse() const;
   std::vector<Target> plan(const Vector& z);
   std::vector<TriangleFields> smooth_further(const Vector& creases, const TriangleFields& fields) const;
+  Eigen::MatrixXd weigh_changes(const std::vector<TriangleFields>& changes) const;
   bool is_held_symmetrically() const;
   Vector average_partners(const Vector& move) const;
   TriangleFields read_fields(const Vector& z);

@@ -211,6 +211,11 @@ void RegionPieces::read_lines(const Vector& heights, const Vector& weight, Targe
   }
 }
 
+void RegionPieces::stay_near(const Vector& heights) {
+  const Vector rise = heights - this->heights();
+  for (const auto& piece : pieces_) piece->stay_near(piece->heights() + rise(piece->vertices()));
+}
+
 void RegionPieces::pull_to(const Vector& heights, const Vector& weight) {
   PieceProblem& piece = *pieces_.front();
   const std::vector<int>& vertex = piece.vertices();

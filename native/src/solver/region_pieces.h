@@ -57,6 +57,7 @@ class RegionPieces {
   void read_lines(const Vector& heights, const Vector& weight, Target& target, Vector& theta) const;
 
   // Pulls the only piece towards heights (#V) with these weights (#V).
+  void stay_near(const Vector& heights);
   void pull_to(const Vector& heights, const Vector& weight);
 
  private:

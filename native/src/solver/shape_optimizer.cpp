@@ -346,6 +346,8 @@ void ShapeOptimizer::rest_at(const Vector& unknowns) {
   pieces_->pieces().front()->rest_at(unknowns);
 }
 
+void ShapeOptimizer::stay_near(const Vector& heights) { pieces_->stay_near(heights); }
+
 void ShapeOptimizer::pull_to(const Vector& heights, const Vector& weight) { pieces_->pull_to(heights, weight); }
 
 void ShapeOptimizer::tell_limit(Report& report) const {

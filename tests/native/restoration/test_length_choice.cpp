@@ -16,6 +16,8 @@ PlanePositions places() {
   return result;
 }
 
+Eigen::MatrixXd flaws() { return Eigen::MatrixXd::Ones(kSide * kSide, 3); }
+
 // Changes of a field (#T x 2) by four lengths; `gone` tells for each place from which length on its flaw is gone: the
 // change then stays, but for a design that is bent the more the longer the length.
 std::vector<TriangleFields> changes_where(const std::vector<int>& gone) {
@@ -35,7 +37,7 @@ TEST(LengthChoice, TakesTheShortestLengthThatTakesTheFlawWhole) {
   const PlanePositions xy = places();
   std::vector<int> gone(xy.rows());
   for (int t = 0; t < xy.rows(); ++t) gone[t] = xy(t, 0) < kSide / 2 ? 0 : 2;
-  const Eigen::MatrixXd share = share_lengths(changes_where(gone), xy, Vector::Ones(xy.rows()), kLength);
+  const Eigen::MatrixXd share = share_lengths(changes_where(gone), flaws(), xy, Vector::Ones(xy.rows()), kLength);
   ASSERT_EQ(share.cols(), 3);
   for (int t = 0; t < xy.rows(); ++t) {
     EXPECT_NEAR(share.row(t).sum(), 1.0, 1e-14);
@@ -50,14 +52,25 @@ TEST(LengthChoice, TakesTheShortestWhereAllLengthsTakeOfTheDesign) {
   const PlanePositions xy = places();
   std::vector<TriangleFields> changes;
   for (int k = 0; k < 4; ++k) changes.push_back(TriangleFields::Constant(xy.rows(), 2, std::pow(2.0, k)));
-  const Eigen::MatrixXd share = share_lengths(changes, xy, Vector::Ones(xy.rows()), kLength);
+  const Eigen::MatrixXd share = share_lengths(changes, flaws(), xy, Vector::Ones(xy.rows()), kLength);
   EXPECT_GT(share.col(0).minCoeff(), 0.999);
+}
+
+TEST(LengthChoice, TakesNoLengthWhoseChangeIsDesign) {
+  const PlanePositions xy = places();
+  const std::vector<TriangleFields> none(4, TriangleFields::Zero(xy.rows(), 2));
+  Eigen::MatrixXd weight = flaws();
+  weight.col(2).setConstant(0.1);
+  const Eigen::MatrixXd share = share_lengths(none, weight, xy, Vector::Ones(xy.rows()), kLength);
+  EXPECT_NEAR(share.rowwise().sum().minCoeff(), 1.0, 1e-14);
+  EXPECT_NEAR(share.col(1).minCoeff(), 1.0 / 2.01, 1e-14);
+  EXPECT_NEAR(share.col(2).maxCoeff(), 0.01 / 2.01, 1e-14);
 }
 
 TEST(LengthChoice, SharesEquallyWhereNothingChanges) {
   const PlanePositions xy = places();
   const std::vector<TriangleFields> none(4, TriangleFields::Zero(xy.rows(), 2));
-  const Eigen::MatrixXd share = share_lengths(none, xy, Vector::Ones(xy.rows()), kLength);
+  const Eigen::MatrixXd share = share_lengths(none, flaws(), xy, Vector::Ones(xy.rows()), kLength);
   EXPECT_NEAR((share.array() - 1.0 / 3.0).abs().maxCoeff(), 0.0, 1e-15);
 }
 
