@@ -293,14 +293,41 @@ def test_waves_longer_than_the_length_go_where_the_design_is_plain(cells: int, s
 
 
 def test_the_bow_of_a_small_piece_is_no_dent_of_the_large_one_beside_it() -> None:
-    """A lamp selected with its bonnet was flattened: its bow is as wide as a dent of the whole selection may be."""
+    """A lamp selected with its bonnet was flattened: its bow is as wide as a dent of the whole selection may be.
+
+    The pull to the start keeps four fifths of it; without, two thirds go.
+    """
     V, F = make_bonnet()
     plane, own = grid(16, jitter=0.2)
     lamp = np.column_stack([0.3 * plane + [0.6, -0.15], np.zeros(len(plane))])
     x, y = lamp[:, 0] - 0.75, lamp[:, 1]
     lamp[:, 2] = -0.2 + 0.003 * np.exp(-(x**2 + y**2) / 0.055**2)
     both = np.concatenate([V, lamp]), np.concatenate([F, own + len(V)]).astype(np.int32)
-    pressed, _ = press(*both)
-    assert np.abs(pressed - both[0])[len(V):].max() < 1e-4
-    alone, report = press(V + np.outer(plant("dents", V), [0, 0, 1]), F)
+    pressed, report = press(*both)
     assert report.bumps > 0
+    assert np.abs(pressed - both[0])[len(V):].max() < 0.25 * 0.003
+
+
+def test_dents_of_several_small_pieces_are_healed() -> None:
+    """Five panels in a row, each with a dent of 7 % of it: the pull to the start left half of it."""
+    plane, own = grid(24, jitter=0.2)
+    x, y = 0.4 * (plane[:, 0] - 0.5), 0.3 * (plane[:, 1] - 0.5)
+    crown = -0.3 * x**2 - 0.2 * y**2
+    dent = -0.0006 * np.exp(-((x - 0.02)**2 + (y + 0.01)**2) / 0.035**2)
+    clean = np.concatenate([np.column_stack([x + 0.45 * k, y, crown]) for k in range(5)])
+    V = clean + np.outer(np.tile(dent, 5), [0, 0, 1])
+    F = np.concatenate([own + k * len(plane) for k in range(5)]).astype(np.int32)
+    pressed, _ = press(V, F)
+    assert (error(pressed, clean, F) < 0.3 * error(V, clean, F)).all()
+
+
+@pytest.mark.parametrize(("amplitude", "wavelength"), [(0.002, 0.2), (0.003, 0.3)])
+def test_flutes_are_design(amplitude: float, wavelength: float) -> None:
+    """Eight times the length takes them away as sixteen times does: with that, they were taken for flaws."""
+    plane, F = grid(48, jitter=0.2)
+    x, y = 1.4 * (plane[:, 0] - 0.5), plane[:, 1] - 0.5
+    V = np.column_stack([x, y, -0.15 * x**2 - 0.1 * y**2 + amplitude * np.cos(2 * np.pi * x / wavelength)])
+    pressed, _ = press(V, F)
+    harm = error(pressed, V, F)
+    print(harm)
+    assert (harm < 0.6).all()

@@ -22,8 +22,8 @@ constexpr double kLeastHeight = 7e-4;
 constexpr double kSteepness = 0.05;
 
 // The largest radius relative to the diagonal of the piece that a bump is on, one of several that were selected
-// together. Half as wide as a bump of 0.18 diagonals is the bow of a lamp on the bonnet of a car, selected whole: it
-// was flattened by 3 per mille of the car's diagonal. On a piece alone the length gives 0.045.
+// together. A bump of 0.18 diagonals was the bow of a lamp on the bonnet of a car, selected whole: without the pull to
+// the start it went by 3 per mille of the car's diagonal. On a piece alone the length gives 0.045.
 constexpr double kLargestShare = 0.09;
 
 constexpr int kRounds = 3;
@@ -79,24 +79,33 @@ TriangleFields BumpRemoval::read_hessians(const Vector& z, Progress* progress) c
   return smoother_.smooth_with(smoother_.find_creases(hessian, progress), hessian);
 }
 
-void BumpRemoval::remove(const std::vector<Bump>& bumps, Vector& move) const {
-  for (Eigen::Index v = 0; v < move.size(); ++v) {
-    for (const Bump& bump : bumps) {
+bool BumpRemoval::is_wide(const Bump& bump) const {
+  Eigen::Index nearest = 0;
+  (centers_.rowwise() - bump.center.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  return bump.radius > largest_radius_(nearest);
+}
+
+void BumpRemoval::remove(const std::vector<Bump>& bumps, Vector& move, Vector& sure) const {
+  for (const Bump& bump : bumps) {
+    const double trust = is_wide(bump) ? 0.0 : bump.explained;
+    for (Eigen::Index v = 0; v < move.size(); ++v) {
       const double distance = (xy_.row(v).transpose() - bump.center).squaredNorm();
-      move(v) -= bump.height * std::exp(-distance / (bump.radius * bump.radius));
+      const double height = bump.height * std::exp(-distance / (bump.radius * bump.radius));
+      move(v) -= height;
+      sure(v) -= trust * height;
     }
   }
 }
 
-int BumpRemoval::remove_all(Vector& move, Progress* progress) const {
+int BumpRemoval::remove_all(Vector& move, Vector& sure, Progress* progress) const {
   const BumpSearchOptions options{kSmallestRadius * length_, kLargestRadius * length_, kLeastHeight * length_,
                                   kSteepness};
   int count = 0;
   std::vector<Bump> removed;
   for (int round = 0; round < kRounds && (round == 0 || !removed.empty()); ++round) {
-    const HessianSamples samples{centers_, area_, read_hessians(z_ + move, progress), largest_radius_};
+    const HessianSamples samples{centers_, area_, read_hessians(z_ + move, progress)};
     removed = find_bumps(samples, seeds_, removed, options, progress);
-    remove(removed, move);
+    remove(removed, move, sure);
     count += static_cast<int>(removed.size());
   }
   return count;

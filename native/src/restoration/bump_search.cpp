@@ -226,10 +226,7 @@ bool is_seen(const Bump& bump, const BumpSearchOptions& options) {
          bump.radius <= 1.001 * options.largest_radius;
 }
 
-bool is_flaw(const Bump& bump, const HessianSamples& samples, const BumpSearchOptions& options) {
-  Eigen::Index nearest = 0;
-  (samples.center.rowwise() - bump.center.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
-  if (bump.radius > samples.largest_radius(nearest)) return false;
+bool is_flaw(const Bump& bump, const BumpSearchOptions& options) {
   const double steepness = std::abs(bump.height) / (options.steepness * bump.radius);
   return bump.explained >= kExplained * std::max(1.0, steepness);
 }
@@ -274,7 +271,7 @@ std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions
     const Bump best = refine(samples, indexes[candidate.scale], options, candidate.bump);
     if (best.explained < kExplained || !is_seen(best, options) || !is_apart(best, found)) continue;
     found.push_back(best);
-    if (is_flaw(best, samples, options)) result.push_back(best);
+    if (is_flaw(best, options)) result.push_back(best);
   }
   return result;
 }

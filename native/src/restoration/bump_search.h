@@ -22,7 +22,6 @@ struct HessianSamples {
   PlanePositions center;   // #T x 2
   Vector area;             // #T, > 0
   TriangleFields hessian;  // #T x 3: f_xx, sqrt(2) f_xy, f_yy
-  Vector largest_radius;   // #T: of bumps that are centred there; wider ones are the shape of what they are on
 };
 
 struct BumpSearchOptions {
@@ -36,10 +35,9 @@ struct BumpSearchOptions {
 // itself (ridges, fillets and scoops are no bumps: their Hessian goes on beyond the disk), planted dents reach 0.4 to
 // 0.9 where a disk of their size is free of strong features. Of a bump that is n times as steep as the options say, n
 // times that share has to be explained, for what a design has pressed into a panel is steep, and has a floor, a rim or
-// a direction of its own; where it is not, the bump is design, and so is what overlaps it; likewise a bump that is too
-// wide for its place. `seeds` (#S x 2): where a bump may be centred. Of bumps that overlap the best is taken. Where
-// `removed` has bumps that an earlier search found, only disks that these overlap are looked at: the surface of the
-// others is as it was. Deterministic; throws Cancelled.
+// a direction of its own; where it is not, the bump is design, and so is what overlaps it. `seeds` (#S x 2): where a
+// bump may be centred. Of bumps that overlap the best is taken. Where `removed` has bumps that an earlier search found,
+// only disks that these overlap are looked at: the surface of the others is as it was. Deterministic; throws Cancelled.
 std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions& seeds,
                              const std::vector<Bump>& removed, const BumpSearchOptions& options, Progress* progress);
 

@@ -78,6 +78,7 @@ class Restoration {
   bool use_smoothing_ = true;                           // false once the lines turn out to have no noise
   bool use_symmetry_ = true, use_bumps_ = true;         // false once they have made the lines less even
   std::optional<Vector> flawless_;                      // #V, see find_flawless; none once it holds no more
+  Vector rest_;                                         // #V, likewise without what is surely a flaw
   std::vector<double> typical_before_, typical_after_;  // medians of the lines' stray, for each light
   IndexVector partner_;                                 // #C, see MirrorEvidence; empty: no symmetry
   MoveLimit range_;                                     // #C, lengths: the limit by each vertex's share of it
