@@ -295,7 +295,7 @@ def test_waves_longer_than_the_length_go_where_the_design_is_plain(cells: int, s
 def test_the_bow_of_a_small_piece_is_no_dent_of_the_large_one_beside_it() -> None:
     """A lamp selected with its bonnet was flattened: its bow is as wide as a dent of the whole selection may be.
 
-    The pull to the start keeps four fifths of it; without, two thirds go.
+    The pull to the start keeps four fifths of it; without, all of it goes.
     """
     V, F = make_bonnet()
     plane, own = grid(16, jitter=0.2)
@@ -321,13 +321,11 @@ def test_dents_of_several_small_pieces_are_healed() -> None:
     assert (error(pressed, clean, F) < 0.3 * error(V, clean, F)).all()
 
 
-@pytest.mark.parametrize(("amplitude", "wavelength"), [(0.002, 0.2), (0.003, 0.3)])
-def test_flutes_are_design(amplitude: float, wavelength: float) -> None:
-    """Eight times the length takes them away as sixteen times does: with that, they were taken for flaws."""
+@pytest.mark.parametrize(("amplitude", "wavelength", "most"), [(0.002, 0.2, 0.6), (0.003, 0.3, 0.3)])
+def test_flutes_are_design(amplitude: float, wavelength: float, most: float) -> None:
+    """Eight times the length takes them away as sixteen times does: with that, harm was 3.5 and 0.45 degrees."""
     plane, F = grid(48, jitter=0.2)
     x, y = 1.4 * (plane[:, 0] - 0.5), plane[:, 1] - 0.5
     V = np.column_stack([x, y, -0.15 * x**2 - 0.1 * y**2 + amplitude * np.cos(2 * np.pi * x / wavelength)])
     pressed, _ = press(V, F)
-    harm = error(pressed, V, F)
-    print(harm)
-    assert (harm < 0.6).all()
+    assert (error(pressed, V, F) < most).all()

@@ -148,7 +148,8 @@ class ShapeOptimizer {
   // without a limit. Throws InvalidInput for numbers that are not finite, and for the surface of a cage.
   void set_move(const Vector& move);
 
-  // Makes the proximity term pull towards these heights along the view (#V) instead of the start, until a reset.
+  // Makes the proximity term pull towards these heights along the view (#V) instead of the start, until a reset. Throws
+  // InvalidInput for numbers that are not finite.
   void stay_near(const Vector& heights);
 
   void reset();  // restores the heights that the optimizer was built with

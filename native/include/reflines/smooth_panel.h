@@ -69,9 +69,9 @@ struct SmoothPanelResult {
 //  1. what one half of a symmetric panel has and the other has not is a flaw (restoration/mirror_evidence.h);
 //  2. so are round dents and bumps with good surface around them (restoration/bump_search.h);
 //  3. the fields of the lines are smoothed up to their creases (restoration/crease_preserving_smoother.h), further than
-//     the length where the flaws are wider (restoration/length_choice.h); where that
-//     changes them much more than elsewhere they are kept, for that is design; and the shape with these lines is solved
-//     for, within the limit; where its rims make a light's lines less even, all moves are scaled down to it instead.
+//     the length where the flaws are wider (restoration/length_choice.h); where that changes them much more than
+//     elsewhere they are kept, for that is design; and the shape with these lines is solved for, within the limit;
+//     where its rims make a light's lines less even, all moves are scaled down to it instead.
 // A result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far the
 // lines stray from their smoothed selves within one length, in degrees, root mean square over the region; the creases
 // are those that start and result have in common. Where it rises in a light by more than 1 %, nothing is applied; where

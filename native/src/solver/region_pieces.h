@@ -56,8 +56,8 @@ class RegionPieces {
   // triangles that depend on an unknown height keep their lines and have weight 0.
   void read_lines(const Vector& heights, const Vector& weight, Target& target, Vector& theta) const;
 
+  void stay_near(const Vector& heights);  // #V, see ShapeOptimizer
   // Pulls the only piece towards heights (#V) with these weights (#V).
-  void stay_near(const Vector& heights);
   void pull_to(const Vector& heights, const Vector& weight);
 
  private:

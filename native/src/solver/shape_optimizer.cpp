@@ -346,7 +346,13 @@ void ShapeOptimizer::rest_at(const Vector& unknowns) {
   pieces_->pieces().front()->rest_at(unknowns);
 }
 
-void ShapeOptimizer::stay_near(const Vector& heights) { pieces_->stay_near(heights); }
+void ShapeOptimizer::stay_near(const Vector& heights) {
+  if (heights.size() != pieces_->vertex_count() || !heights.allFinite()) {
+    throw InvalidInput("The heights to stay near need one finite number for each of the " +
+                       std::to_string(pieces_->vertex_count()) + " vertices.");
+  }
+  pieces_->stay_near(heights);
+}
 
 void ShapeOptimizer::pull_to(const Vector& heights, const Vector& weight) { pieces_->pull_to(heights, weight); }
 

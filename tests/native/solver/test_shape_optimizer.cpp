@@ -1,6 +1,7 @@
 // What a solve costs, in counts: the same on every machine.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 
 #include "reflines/errors.h"
@@ -109,6 +110,22 @@ TEST_F(ShapeOptimizerTest, AFailedSolveChangesNoBitOfTheHeights) {
   runaway.gradient = PlaneVectors::Constant(solver.triangle_count(), 2, 1e6);
   EXPECT_THROW(solver.solve({runaway}), SolverFailure);
   EXPECT_EQ(solver.heights(), before);
+}
+
+TEST_F(ShapeOptimizerTest, StaysNearTheHeightsGivenUntilAReset) {
+  const samples::Mesh bumped = mesh(1.0);
+  ShapeOptions options;
+  options.proximity = 1e12;  // the target has no say beside it
+  ShapeOptimizer solver(bumped.V, bumped.F, Vector3::UnitZ(), {{0, 1, 0.3}}, options);
+  const Vector start = solver.heights(), wanted = optimizer(0.5)->heights();
+  solver.stay_near(wanted);
+  ASSERT_TRUE(solver.solve({target(0.0)}).converged());
+  EXPECT_LT((solver.heights() - wanted).cwiseAbs().maxCoeff(), 1e-3 * 0.03);
+  solver.reset();
+  solver.solve({target(0.0)});
+  EXPECT_LT((solver.heights() - start).cwiseAbs().maxCoeff(), 1e-3 * 0.03);
+  EXPECT_THROW(solver.stay_near(start.head(start.size() - 1)), InvalidInput);
+  EXPECT_THROW(solver.stay_near(Vector::Constant(start.size(), std::nan(""))), InvalidInput);
 }
 
 TEST_F(ShapeOptimizerTest, HandsOutTheMatrixThatASolveFactors) {
