@@ -73,10 +73,12 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
     def choose_press(self) -> AutomaticSmooth | None:
         if self.length or self.directional:
             return None
-        return AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric, self.limit or None, self.fair_border)
+        return AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric, self.limit or None, self.flaw_size,
+                               self.fair_border)
 
     def choose_reach(self) -> float:
-        return FAIR_REACH if self.fair_border and self.choose_press() is not None else 0.0
+        fairs = self.fair_border and self.choose_press() is not None
+        return FAIR_REACH * self.flaw_size if fairs else 0.0
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
         """Records a solution. What the length 0 stands for is known after an automatic press only."""

@@ -21,6 +21,7 @@ class AutomaticSmooth:
     strength: float
     symmetric: bool
     limit: float | None = None  # largest move along the view, world units; None: automatic
+    flaw_size: float = 1.0      # of the automatic length
     fair_border: bool = False   # the border moves, too; see native/include/reflines/smooth_panel.h
 
 

@@ -191,6 +191,8 @@ class SmoothPanelReport:
     bumps: int                 # round dents and bumps that were taken away
     mirrored: int              # vertices of a symmetric panel; 0: it is not symmetric
     held_faces: int            # faces that would have turned by more than 45 degrees and were held instead
+    longer_waves: bool         # waves longer than the flaws were left, which may be flaws, too: a press with twice the flaw_size
+                               # takes them for flaws
     score_before: list[LineScore]  # one for each light, at `length`
     score_after: list[LineScore]
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
@@ -210,7 +212,8 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  face_of_triangle: np.ndarray | None = None,        # #F, as in ShapeOptimizer
                  fair_border: np.ndarray | None = None,             # #V bool: border vertices that move, too, see below
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
-                 length: float | None = None,                       # size of the flaws; None: the diagonal / 14
+                 length: float | None = None,                       # size of the flaws; None: the diagonal / 14 times flaw_size
+                 flaw_size: float = 1.0,
                  strength: float = 1.0,                             # share of the move that is made, 0 to 1
                  limit: float | None = None,                        # largest move along the view; None: length / 20
                  limit_share: np.ndarray | None = None,             # #V x 2 shares of it: lowest -1 to 0, highest 0 to 1
@@ -238,7 +241,7 @@ def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np
                       corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,
                       limit_surface: bool = True,          # Subdivision's `limit`
                       lights: Literal["crossed", "single"] = "crossed", length: float | None = None,
-                      strength: float = 1.0,
+                      flaw_size: float = 1.0, strength: float = 1.0,
                       limit: float | None = None,          # largest move along the view, of the cage and so of its surface
                       limit_share: np.ndarray | None = None,  # #V x 2, of the cage
                       symmetric: bool = True,

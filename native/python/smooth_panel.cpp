@@ -31,12 +31,13 @@ double given(const std::optional<double>& length, const char* name) {
   return length.value_or(0.0);
 }
 
-SmoothPanelOptions options_of(const std::string& lights, const std::optional<double>& length, double strength,
-                              const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
-                              std::shared_ptr<Progress> progress) {
+SmoothPanelOptions options_of(const std::string& lights, const std::optional<double>& length, double flaw_size,
+                              double strength, const std::optional<double>& limit, const Shares& limit_share,
+                              bool symmetric, std::shared_ptr<Progress> progress) {
   SmoothPanelOptions options;
   options.lights = find_named(kLights, lights, "choice of lights");
   options.length = given(length, "The length");
+  options.flaw_size = flaw_size;
   options.strength = strength;
   options.limit = given(limit, "The limit");
   if (limit_share) options.limit_share = {limit_share->col(0), limit_share->col(1)};
@@ -53,10 +54,11 @@ py::object smooth_mesh(const Positions& V, const Indices& F, const Vector3& view
                        const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
                        const std::optional<Indices>& partner, const Around& around,
                        const std::optional<Indices>& face_of_triangle, const std::optional<Mask>& fair_border,
-                       const std::string& lights, const std::optional<double>& length, double strength,
-                       const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
+                       const std::string& lights, const std::optional<double>& length, double flaw_size,
+                       double strength, const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
                        std::shared_ptr<Progress> progress) {
-  SmoothPanelOptions options = options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
+  SmoothPanelOptions options =
+      options_of(lights, length, flaw_size, strength, limit, limit_share, symmetric, std::move(progress));
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   if (partner) options.partner = index_vector(*partner);
@@ -74,11 +76,11 @@ py::object smooth_cage(const Positions& V, const Indices& face_offsets, const In
                        const std::optional<Indices>& image_of, int level, const std::string& scheme,
                        const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness,
                        const Indices& corners, const Numbers& corner_sharpness, bool limit_surface,
-                       const std::string& lights, const std::optional<double>& length, double strength,
-                       const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
+                       const std::string& lights, const std::optional<double>& length, double flaw_size,
+                       double strength, const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
                        std::shared_ptr<Progress> progress) {
   const SmoothPanelOptions options =
-      options_of(lights, length, strength, limit, limit_share, symmetric, std::move(progress));
+      options_of(lights, length, flaw_size, strength, limit, limit_share, symmetric, std::move(progress));
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions cage_options = cage_options_of(region, border, V.rows(), fixed, partner);
@@ -103,6 +105,7 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("bumps", &Told::bumps)
       .def_readonly("mirrored", &Told::mirrored)
       .def_readonly("held_faces", &Told::held_faces)
+      .def_readonly("longer_waves", &Told::longer_waves)
       .def_readonly("score_before", &Told::score_before)
       .def_readonly("score_after", &Told::score_after)
       .def_readonly("unevenness_before", &Told::unevenness_before)
@@ -115,20 +118,20 @@ void bind_smooth_panel(py::module_& module) {
              py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
              py::arg("partner") = py::none(), py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
              py::arg("fair_border") = py::none(), py::arg("lights") = "crossed", py::arg("length") = py::none(),
-             py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
-             py::arg("limit_share") = py::none(), py::arg("symmetric") = defaults.symmetric,
-             py::arg("progress") = py::none());
-  const SubdivisionOptions subdivision;
-  module.def("smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
-             py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),
-             py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
-             py::arg("image_of") = py::none(), py::arg("level") = subdivision.level,
-             py::arg("scheme") = "catmull_clark", py::arg("boundary") = "all", py::arg("creases") = Indices(),
-             py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
-             py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
-             py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("strength") = defaults.strength,
+             py::arg("flaw_size") = defaults.flaw_size, py::arg("strength") = defaults.strength,
              py::arg("limit") = py::none(), py::arg("limit_share") = py::none(),
              py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
+  const SubdivisionOptions subdivision;
+  module.def(
+      "smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"), py::kw_only(),
+      py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),
+      py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
+      py::arg("image_of") = py::none(), py::arg("level") = subdivision.level, py::arg("scheme") = "catmull_clark",
+      py::arg("boundary") = "all", py::arg("creases") = Indices(), py::arg("crease_sharpness") = Numbers(),
+      py::arg("corners") = Indices(), py::arg("corner_sharpness") = Numbers(),
+      py::arg("limit_surface") = subdivision.limit, py::arg("lights") = "crossed", py::arg("length") = py::none(),
+      py::arg("flaw_size") = defaults.flaw_size, py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
+      py::arg("limit_share") = py::none(), py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
 }
 
 }  // namespace reflines

@@ -52,6 +52,7 @@ def expected(ob: bpy.types.Object, **settings: object) -> np.ndarray:
     ({}, {}),
     ({"lights": 'SINGLE', "border": 'fixed'}, {"lights": "single", "border": "fixed"}),
     ({"symmetric": False, "strength": 0.5}, {"symmetric": False, "strength": 0.5}),
+    ({"flaw_size": 2.0}, {"flaw_size": 2.0}),
     ({"limit": 2.0**-10}, {"limit": 2.0**-10})])
 def test_a_press_gives_the_positions_of_the_native_function_to_the_bit(settings: dict, arguments: dict) -> None:
     ob = ready()

@@ -114,6 +114,23 @@ def test_smoothing_brings_the_door_nearer_to_the_clean_one_and_laplacian_smoothi
     assert errors[1] < 0.4 * errors[0] < errors[2]
 
 
+def press_door(flaw_size: float) -> tuple[float, str]:
+    """Returns the share of the door's waves that an automatic press leaves in the lines, and its notes."""
+    panel = opened("door.blend")
+    F, start = region_triangles(panel), positions(panel).astype(float)
+    wanted = line_field(np.column_stack([panel_shapes.door()[2], start[:, 1:]]), F)
+    bpy.ops.reflines.smooth(length=0.0, directional=False, flaw_size=flaw_size)
+    left = [np.linalg.norm(line_field(V, F) - wanted) for V in (positions(panel).astype(float), start)]
+    return left[0] / left[1], panel.reflection_lines.report.notes
+
+
+def test_an_automatic_press_tells_of_the_doors_waves_and_twice_the_size_takes_them() -> None:
+    left, notes = press_door(1.0)
+    assert left > 0.5 and "twice the Size of Flaws" in notes
+    left, notes = press_door(2.0)
+    assert left < 0.5 and "Size of Flaws" not in notes
+
+
 @pytest.mark.parametrize(("name", "shape", "axis"), [("cage_hood.blend", cage_shapes.hood, 2),
                                                      ("cage_fender.blend", cage_shapes.fender, 0)])
 def test_the_cages_lines_come_back_to_the_clean_ones(name: str, shape: Callable, axis: int) -> None:

@@ -30,9 +30,10 @@ struct SmoothPanelOptions {
   // are no faces beside it that can be used it is held all the same, and the report says so. Not for cages.
   Mask fair_border;
   Lights lights = Lights::kCrossed;
-  double length = 0.0;    // size of the flaws, in units of V; 0: the diagonal / 14
-  double strength = 1.0;  // share of the move that is made, 0 to 1
-  double limit = 0.0;     // no vertex moves further along the view, in units of V; 0: length / 20
+  double length = 0.0;     // size of the flaws, in units of V; 0: the diagonal / 14 times flaw_size
+  double flaw_size = 1.0;  // see length; above 0
+  double strength = 1.0;   // share of the move that is made, 0 to 1
+  double limit = 0.0;      // no vertex moves further along the view, in units of V; 0: length / 20
   // Shares of the limit for each vertex (#V, of a cage its own): the lowest moves -1 to 0, the highest 0 to 1. Empty:
   // -1 and 1 everywhere.
   MoveLimit limit_share;
@@ -49,6 +50,7 @@ struct SmoothPanelReport {
   int bumps = 0;                      // round dents and bumps that were taken away
   int mirrored = 0;                   // vertices of a symmetric panel; 0: it is not symmetric
   int held_faces = 0;                 // faces that would have turned by more than 45 degrees and were held instead
+  bool longer_waves = false;          // that may be flaws, too, were left; see restoration/longer_waves.h
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
   Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the

@@ -14,6 +14,7 @@
 #include "restoration/bump_removal.h"
 #include "restoration/flaw_weight.h"
 #include "restoration/length_choice.h"
+#include "restoration/longer_waves.h"
 #include "restoration/mirror_evidence.h"
 
 namespace reflines {
@@ -73,7 +74,7 @@ constexpr double kVisiblyWorse = 1.0001, kSpared = 0.95, kLeastShare = 0.5;
 double diagonal_of(const Positions& V) { return (V.colwise().maxCoeff() - V.colwise().minCoeff()).norm(); }
 
 double choose_length(const SmoothPanelOptions& options, const Positions& V) {
-  return options.length > 0 ? options.length : kAutomaticLength * diagonal_of(V);
+  return options.length > 0 ? options.length : options.flaw_size * kAutomaticLength * diagonal_of(V);
 }
 
 // Projects the axes of the object's space to the image plane: mirror planes are looked for across them.
@@ -114,6 +115,14 @@ double bearable_share(double start, double half, double whole) {
   const double slope = whole * whole - start * start - curve;
   const double rise = (kVisiblyWorse * kVisiblyWorse - 1.0) * start * start;
   return 2.0 * rise / (slope + std::sqrt(std::max(slope * slope + 4.0 * curve * rise, 0.0)));
+}
+
+// Returns the median over area (#F) of how long the rows of each light's two columns are, one number for each light.
+std::vector<double> find_medians(const TriangleFields& fields, const Vector& area) {
+  std::vector<double> result;
+  for (Eigen::Index k = 0; k < fields.cols(); k += 2)
+    result.push_back(weighted_median(fields.middleCols(k, 2).rowwise().norm(), area));
+  return result;
 }
 
 std::string degrees(double value) {
@@ -449,10 +458,9 @@ std::vector<double> Restoration::measure_unevenness(const Vector& z, const Vecto
   const TriangleFields off = fields - smoother_.smooth_with(creases, fields);
   stray = surface_.gather_faces(off.leftCols(2).rowwise().norm());
   const Vector area = surface_.optimizer().area();
+  typical = find_medians(off, area);
   std::vector<double> result;
-  typical.clear();
   for (Eigen::Index k = 0; k < off.cols(); k += 2) {
-    typical.push_back(weighted_median(off.middleCols(k, 2).rowwise().norm(), area));
     const double squared = area.dot(off.middleCols(k, 2).rowwise().squaredNorm()) / area.sum();
     result.push_back(std::sqrt(squared) * report_.length * 180.0 / std::numbers::pi);
   }
@@ -463,9 +471,16 @@ std::vector<double> Restoration::measure_unevenness(const Vector& z, const Vecto
 // result only. By those of the start, a dent of 2 % of the length counted as design, and its healing was refused.
 void Restoration::measure_result(const Vector& move) {
   const Vector z = start_ + surface_.surface_move(move);
-  const Vector creases = smoother_.find_creases(read_fields(z), progress(), creases_).cwiseMax(creases_);
-  report_.unevenness_before = measure_unevenness(start_, creases, stray_before_, typical_before_);
-  report_.unevenness_after = measure_unevenness(z, creases, report_.stray, typical_after_);
+  common_creases_ = smoother_.find_creases(read_fields(z), progress(), creases_).cwiseMax(creases_);
+  report_.unevenness_before = measure_unevenness(start_, common_creases_, stray_before_, typical_before_);
+  report_.unevenness_after = measure_unevenness(z, common_creases_, report_.stray, typical_after_);
+}
+
+// Returns whether the shape that was measured last, with heights z (#V), has waves that are longer than the flaws.
+bool Restoration::keeps_longer_waves(const Vector& z) {
+  const TriangleFields fields = read_fields(z);
+  const TriangleFields off = fields - smoother_.smooth_with(common_creases_, fields, kLongerReach);
+  return has_longer_waves(typical_after_, find_medians(off, surface_.optimizer().area()), report_.length);
 }
 
 // Returns true where some light is more even than at the start, or noise fell.
@@ -505,6 +520,9 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   }
   report_.largest_move = risen.cwiseAbs().maxCoeff();
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
+  // With twice the length clean bonnets and roofs, too, would be told to have waves that are longer.
+  if (report_.length <= kAutomaticLength * diagonal_of(surface_.positions()))
+    report_.longer_waves = keeps_longer_waves(start_ + risen);
   tell();
   return {lift(surface_.control_positions(), move), report_};
 }
@@ -516,6 +534,10 @@ void Restoration::tell() {
   } else if (report_.largest_control_move == 0) {
     report_.messages.push_back(
         "No noise, ripples or dents were found: nothing was changed. Give a Length to smooth more.");
+  }
+  if (report_.longer_waves) {
+    report_.messages.push_back(
+        "Longer waves were left, for they may be design: with twice the Size of Flaws they count as flaws, too.");
   }
   if (!report_.solve.converged()) {
     report_.messages.push_back(

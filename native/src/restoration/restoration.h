@@ -62,6 +62,7 @@ class Restoration {
   std::vector<double> measure_unevenness(const Vector& z, const Vector& creases, Vector& stray,
                                          std::vector<double>& typical);
   void measure_result(const Vector& move);
+  bool keeps_longer_waves(const Vector& z);
   std::vector<LineScore> score(const Vector& z);
   bool has_gain() const;
   int find_worse_light() const;
@@ -75,6 +76,7 @@ class Restoration {
   SmoothPanelReport report_;
   CreasePreservingSmoother smoother_;
   Vector creases_;                                      // weights of the inner edges, of the start
+  Vector common_creases_;                               // likewise, of start and result: those that both have
   bool use_smoothing_ = true;                           // false once the lines turn out to have no noise
   bool use_symmetry_ = true, use_bumps_ = true;         // false once they have made the lines less even
   std::optional<Vector> flawless_;                      // #V, see find_flawless; none once it holds no more
