@@ -126,9 +126,9 @@ def press_door(flaw_size: float) -> tuple[float, str]:
 
 def test_an_automatic_press_tells_of_the_doors_waves_and_twice_the_size_takes_them() -> None:
     left, notes = press_door(1.0)
-    assert left > 0.5 and "twice the Size of Flaws" in notes
+    assert left > 0.5 and "twice the Flaw Size" in notes
     left, notes = press_door(2.0)
-    assert left < 0.5 and "Size of Flaws" not in notes
+    assert left < 0.5 and "Flaw Size" not in notes
 
 
 @pytest.mark.parametrize(("name", "shape", "axis"), [("cage_hood.blend", cage_shapes.hood, 2),

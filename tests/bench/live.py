@@ -48,7 +48,15 @@ def transfer_rows(times: Times) -> list[Row]:
                 f"{max(times['dab_100k']):.0f} ms"),
             *(Row(f"drag_solve_p95_ms_{size}", p95(times[f"step_{size}"]), "ms",
                   f"of the job: target, solve, positions; median {middle(times[f'step_{size}']):.0f} ms of "
-                  f"{len(times[f'step_{size}'])} steps") for size in ("10k", "100k"))]
+                  f"{len(times[f'step_{size}'])} steps") for size in ("10k", "100k")),
+            *(limited_row(times, size) for size in ("10k", "100k"))]
+
+
+def limited_row(times: Times, size: str) -> Row:
+    """Of the same steps within a limit, all but the last few of which would move farther."""
+    free, limited = (statistics.median(times[f"{name}_{size}"]) for name in ("step", "limited_step"))
+    return Row(f"drag_limited_over_free_{size}", limited / free, "",
+               f"{limited:.0f} ms / {free:.0f} ms of the same job, medians of {len(times[f'step_{size}'])} steps")
 
 
 def drag_rows(times: Times, size: str) -> list[Row]:

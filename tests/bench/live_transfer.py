@@ -22,6 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SIZES = {"10k": 99, "100k": 315}  # cells a side
 REPETITIONS = 9
 STEPS = 24
+LIMITED = 0.1  # of the largest move at full strength
 DAB_RADIUS = 0.08  # of a panel of 2 x 2: 500 of 100,000 vertices
 
 Times = dict[str, list[float]]
@@ -59,16 +60,18 @@ def transfer(cells: int) -> Times:
             "apply": [milliseconds(partial(write, ob, patch, move)) for move in moves]}
 
 
-def request(patch: object, strength: float) -> object:
+def request(patch: object, strength: float, limit: float = 0.0) -> object:
     smooth = addon("targets.smooth")
     length = addon("solver.solve").choose_length(patch, 0.0)
     build = partial(smooth.build_smooth_target, settings=smooth.Smooth(length, strength))
-    settings = addon("model.solution").SolveSettings('clamped', length)
+    settings = addon("model.solution").SolveSettings('clamped', length, limit=limit)
     return addon("interactive.solve_job").SolveRequest((build,), (settings,))
 
 
 def solves(cells: int) -> Times:
-    """One from the bare mesh, and those of a drag of the strength, 15 pixels a step."""
+    """One from the bare mesh, and those of a drag of the strength, 15 pixels a step, without a limit that is reached
+    and within a share of the largest move.
+    """
     patch = addon("bridge.read_patch").gather_mesh_patch(fresh_panel(cells))
     cache = addon("state.optimizer_cache")
     view = addon("bridge.view_and_light").read_scene_view(bpy.context.scene, patch.center)
@@ -81,9 +84,14 @@ def solves(cells: int) -> Times:
         return addon("native_call").run_now(job.run(wanted))
 
     ready = milliseconds(partial(serve, first))
-    requests = [request(patch, strength) for strength in np.linspace(0.95, 0.0, STEPS)]
-    steps = [milliseconds(partial(serve, wanted)) for wanted in requests]
-    return {"solve": [solve], "ready": [ready], "step": steps}
+    def drag(limit: float) -> list[float]:
+        return [milliseconds(partial(serve, request(patch, strength, limit)))
+                for strength in np.linspace(0.95, 0.0, STEPS)]
+
+    limit = LIMITED * np.abs(job.followers[0].heights - job.starts[0].optimizer.heights).max()
+    steps = {"step": drag(0.0)}
+    serve(first)
+    return {"solve": [solve], "ready": [ready], **steps, "limited_step": drag(limit)}
 
 
 def dabs(cells: int) -> Times:

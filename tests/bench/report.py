@@ -43,6 +43,7 @@ REACH = {
     "cgal_fair_over_ours_10k": (20.0, False), "biharmonic_over_ours_100k": (0.5, False),
     "cage_warm_step_ms": (33.0, True), "bounded_over_free_10k": (5.0, True), "bounded_over_free_100k": (5.0, True),
     "bounded_warm_over_free_10k": (2.0, True), "bounded_warm_over_free_100k": (2.0, True),
+    "drag_limited_over_free_10k": (2.0, True), "drag_limited_over_free_100k": (2.0, True),
     "restoration_harm_given": (0.3, True), "restoration_harm_crossed": (0.3, True),
     "restoration_harm_worst": (0.6, True), "restoration_dents_given": (0.4, True),
     "restoration_dents_crossed": (0.5, True),

@@ -537,7 +537,7 @@ void Restoration::tell() {
   }
   if (report_.longer_waves) {
     report_.messages.push_back(
-        "Longer waves were left, for they may be design: with twice the Size of Flaws they count as flaws, too.");
+        "Longer waves were left, for they may be design: with twice the Flaw Size they count as flaws, too.");
   }
   if (!report_.solve.converged()) {
     report_.messages.push_back(
