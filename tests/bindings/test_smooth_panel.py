@@ -6,6 +6,7 @@ code with the solver.
 """
 import importlib.util
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -233,12 +234,30 @@ def test_a_cancelled_press_raises(bonnet: tuple[np.ndarray, np.ndarray]) -> None
         press(*bonnet, progress=progress)
 
 
-@pytest.mark.skipif(not JUDGE.is_file(), reason="the judge's panels are not here")
-def test_real_panels_are_restored() -> None:
-    """Medians of four real panels: 0.17 / 0.18 degrees harm, 0.23 of dents, 0.34 of ripple, 0.39 of noise left."""
+def load_judge() -> ModuleType:
     spec = importlib.util.spec_from_file_location("restoration", JUDGE)
     judge = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(judge)
+    return judge
+
+
+@pytest.mark.skipif(not JUDGE.is_file(), reason="the judge's panels are not here")
+def test_flaws_that_cannot_go_are_told_of() -> None:
+    """Dents of 7 per mille of the diagonal are found as bumps, of which the rest makes one light less even."""
+    judge = load_judge()
+    panel = judge.json.loads((JUDGE.parent / "selections.json").read_text())["subaru_hood"]
+    V, F = judge.load(panel["file"], panel.get("patch"))
+    view, lines = judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
+    deep = V + 12.0 * judge.heights("dents", V, F, view, np.linalg.norm(np.ptp(V, axis=0)))[:, None] * view
+    positions, report = reflines.smooth_panel(deep, F, view_direction=view, line_direction=lines)
+    assert np.array_equal(positions, deep) and report.bumps == 0
+    assert report.messages[0].startswith("Nothing was changed: without what may be flaws")
+
+
+@pytest.mark.skipif(not JUDGE.is_file(), reason="the judge's panels are not here")
+def test_real_panels_are_restored() -> None:
+    """Medians of four real panels: 0.17 / 0.18 degrees harm, 0.23 of dents, 0.34 of ripple, 0.39 of noise left."""
+    judge = load_judge()
     names = ("subaru_hood", "drivaer_hood", "drivaer_hood_wide", "subaru_roof")
     panels = judge.json.loads((JUDGE.parent / "selections.json").read_text())
     results = [judge.judge(panels[name], judge.present) for name in names]

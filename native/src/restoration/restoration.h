@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "reflines/smooth_panel.h"
+#include "restoration/control_range.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/crease_preserving_smoother.h"
+#include "restoration/flawless_shape.h"
+#include "restoration/line_evenness.h"
 
 namespace reflines {
 
@@ -22,6 +25,7 @@ class Restoration {
  public:
   // Keeps references to both until it is destroyed.
   Restoration(ControlledSurface& surface, const SmoothPanelOptions& options);
+  Restoration(const Restoration&) = delete;  // parts refer to others
 
   // Finds the flaws and solves for the shape without them. Positions (#C x 3) are those of the control vertices.
   SmoothPanelResult run() { return judge(find_move()); }
@@ -39,54 +43,31 @@ class Restoration {
   Progress* progress() const { return options_.progress.get(); }
   Vector attempt();
   Vector restore();
-  const Vector& find_flawless();
+  const FlawlessShape& find_flawless();
+  std::vector<Target> make_plan(const Vector& z);
   void solve(const std::vector<Target>& targets, const MoveLimit& limit);
+  Vector read_move() const;
   Vector restore_within_limit(const std::vector<Target>& targets);
-  double range_towards(Eigen::Index control, double move) const;
-  Vector scale_to_limit() const;
-  Vector use_symmetry(const Vector& z);
-  Vector remove_bumps(const Vector& z);
   Vector spare_every_light(const Vector& move);
-  bool is_any_worse() const;
-  std::vector<Target> plan(const Vector& z);
-  std::vector<TriangleFields> smooth_further(const Vector& creases, const TriangleFields& fields) const;
-  Eigen::MatrixXd weigh_changes(const std::vector<TriangleFields>& changes) const;
-  bool is_held_symmetrically() const;
-  Vector average_partners(const Vector& move) const;
-  TriangleFields read_fields(const Vector& z);
-  Positions lift(const Positions& V, const Vector& move) const;
-  // Vertices of triangles that the move turns by more than 45 degrees, and the number of these triangles.
-  Mask find_turned(const Vector& move) const;
-  Mask find_corners(const Mask& triangles) const;
-  double measure_change(const Vector& move);
-  std::vector<double> measure_unevenness(const Vector& z, const Vector& creases, Vector& stray,
-                                         std::vector<double>& typical);
-  void measure_result(const Vector& move);
-  bool keeps_longer_waves(const Vector& z);
-  std::vector<LineScore> score(const Vector& z);
-  bool has_gain() const;
-  int find_worse_light() const;
+  Mask find_turned_by(const Vector& move) const;
+  void measure(const Vector& move) { evenness_.measure(move, progress()); }
+  int find_worse_light() const { return evenness_.find_worse_light(report_.solve.converged()); }
   SmoothPanelResult judge(const Vector& move);
-  void tell();
+  SmoothPanelResult refuse(const std::string& reason);
 
   ControlledSurface& surface_;
   const SmoothPanelOptions& options_;
-  ImagePlane frame_;
+  Vector3 axis_;  // of the moves
   Vector start_;  // #V, heights of the surface as its optimizer has them
   SmoothPanelReport report_;
   CreasePreservingSmoother smoother_;
-  Vector creases_;                                      // weights of the inner edges, of the start
-  Vector common_creases_;                               // likewise, of start and result: those that both have
-  bool use_smoothing_ = true;                           // false once the lines turn out to have no noise
-  bool use_symmetry_ = true, use_bumps_ = true;         // false once they have made the lines less even
-  std::optional<Vector> flawless_;                      // #V, see find_flawless; none once it holds no more
-  Vector rest_;                                         // #V, likewise without what is surely a flaw
-  std::vector<double> typical_before_, typical_after_;  // medians of the lines' stray, for each light
-  IndexVector partner_;                                 // #C, see MirrorEvidence; empty: no symmetry
-  MoveLimit range_;                                     // #C, lengths: the limit by each vertex's share of it
-  Vector unlimited_;                                    // #C, the move of the last solve
-  Mask limited_;                                        // #C, see limited()
-  Vector stray_before_;                                 // SmoothPanelReport::stray of the start
+  LineEvenness evenness_;
+  ControlRange range_;
+  bool use_smoothing_ = true;              // false once the lines turn out to have no noise
+  FlawSearch search_;                      // without what has made the lines less even
+  std::optional<FlawlessShape> flawless_;  // none once it holds no more
+  Vector unlimited_;                       // #C, the move of the last solve
+  Mask limited_;                           // #C, see limited()
 };
 
 }  // namespace reflines

@@ -54,7 +54,7 @@ void check(const SmoothPanelOptions& options, Eigen::Index vertex_count) {
   const auto refuse = [](const char* what) { throw InvalidInput(what); };
   if (!(options.length >= 0) || !std::isfinite(options.length))
     refuse("The length must be a positive length, or 0 for automatic.");
-  if (!(options.flaw_size > 0) || !std::isfinite(options.flaw_size)) refuse("The size of flaws must be above 0.");
+  if (!(options.flaw_size > 0) || !std::isfinite(options.flaw_size)) refuse("The flaw size must be a number above 0.");
   if (!(options.limit >= 0)) refuse("The limit must be a positive length, or 0 for automatic.");
   if (!(options.strength >= 0 && options.strength <= 1)) refuse("The strength must lie between 0 and 1.");
   check_share(options.limit_share, vertex_count);

@@ -1,0 +1,56 @@
+#include "restoration/control_range.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflines {
+namespace {
+
+// Share of the limit: moves from here on are less than asked for, so that they reach it without an edge; those of 2 -
+// kSaturating and more are the limit itself.
+constexpr double kSaturating = 0.6;
+
+// Keeps a move, in units of the limit, within it by a function that is C^2, since an edge in the moves would be seen in
+// the lines.
+double saturate_share(double move) {
+  const double size = std::abs(move), t = std::clamp((size - kSaturating) / (2 * (1 - kSaturating)), 0.0, 1.0);
+  if (t == 0) return move;
+  return std::copysign(kSaturating + 2 * (1 - kSaturating) * t * (1 - t * t * (1 - 0.5 * t)), move);
+}
+
+}  // namespace
+
+ControlRange::ControlRange(double limit, const MoveLimit& share, Eigen::Index control_count)
+    : limits_(MoveLimit::within(limit, static_cast<int>(control_count))) {
+  if (share.exists()) limits_ = {limit * share.lowest, limit * share.highest};
+}
+
+// Returns how far a control vertex may go in the direction of a move.
+double ControlRange::end_towards(Eigen::Index control, double move) const {
+  return move < 0 ? -limits_.lowest(control) : limits_.highest(control);
+}
+
+Mask ControlRange::find_beyond(const Vector& move) const {
+  return move.array() > limits_.highest.array() || move.array() < limits_.lowest.array();
+}
+
+Vector ControlRange::cut(const Vector& move) const { return move.cwiseMax(limits_.lowest).cwiseMin(limits_.highest); }
+
+Vector ControlRange::saturate(const Vector& move) const {
+  Vector result = move;
+  for (Eigen::Index c = 0; c < move.size(); ++c) {
+    const double end = end_towards(c, move(c));
+    result(c) = end > 0 ? end * saturate_share(move(c) / end) : 0;
+  }
+  return result;
+}
+
+double ControlRange::share_within(const Vector& move) const {
+  double share = 1;
+  for (Eigen::Index c = 0; c < move.size(); ++c) {
+    if (move(c) != 0) share = std::min(share, end_towards(c, move(c)) / std::abs(move(c)));
+  }
+  return share;
+}
+
+}  // namespace reflines

@@ -1,0 +1,18 @@
+// The fields of the lines of all lights: the gradients of their reflection functions on triangles.
+#pragma once
+
+#include <vector>
+
+#include "reflines/shape_optimizer.h"
+#include "reflines/types.h"
+#include "restoration/crease_preserving_smoother.h"
+
+namespace reflines {
+
+// Returns the fields (#F x 2 #families, radians / length) of the optimizer's surface with heights z (#V).
+TriangleFields read_fields(ShapeOptimizer& optimizer, const Vector& z);
+
+// Returns the targets of a solve for these fields, one for each family of lights.
+std::vector<Target> make_targets(const TriangleFields& fields);
+
+}  // namespace reflines

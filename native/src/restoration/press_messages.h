@@ -1,0 +1,18 @@
+// The sentences in which a press of Smooth tells what it did, and what it left.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reflines/smooth_panel.h"
+
+namespace reflines {
+
+std::string explain_turned_faces();
+std::string explain_worse_light(double before, double after);  // degrees of unevenness
+
+// Returns the sentences for a result that was applied, the most important first. `found_flaws` tells that there were
+// some, though none may be taken out.
+std::vector<std::string> describe_result(const SmoothPanelReport& report, bool found_flaws);
+
+}  // namespace reflines

@@ -1,0 +1,17 @@
+// Triangles that a move along the view turns too far.
+#pragma once
+
+#include "reflines/types.h"
+
+namespace reflines {
+
+// Returns positions (#V x 3) after moves (#V) along the axis; those that do not move keep their bits.
+Positions move_along(const Vector3& axis, const Positions& V, const Vector& move);
+
+// Returns the triangles (#F) whose normals moves (#V) along the axis turn by more than 45 degrees.
+Mask find_turned(const Vector3& axis, const Positions& V, const Triangles& F, const Vector& move);
+
+// Returns the vertices (#V of `vertex_count`) of these triangles (#F).
+Mask find_corners(const Triangles& F, const Mask& triangles, Eigen::Index vertex_count);
+
+}  // namespace reflines
