@@ -36,7 +36,7 @@ REACH = {
     "solve_over_factor_10k": (1.5, True), "solve_over_factor_100k": (0.9, True), "solve_over_factor_1m": (0.6, True),
     "solve_1m_peak_gib": (5.0, True), "growth_100k_to_1m": (22.0, True), "adaptive_vs_linearized": (3.0, False),
     "adaptive_vs_linearized_1e-3": (1.5, False),
-    "adaptive_vs_newton": (5.0, False), "warm_step_ms_10k": (16.0, True), "warm_step_ms_100k": (150.0, True),
+    "adaptive_vs_newton": (5.0, False), "warm_step_ms_10k": (16.0, True), "warm_step_ms_100k": (33.0, True),
     "gather_apply_over_solve_100k": (0.2, True), "press_over_native_10k": (1.3, True),
     "press_over_native_100k": (1.3, True), "drag_hysteresis": (1e-6, True), "drag_kick": (1.5, True),
     "stripes_ms_400k": (100.0, True), "escape_ms_100k": (100.0, True), "drag_still_ms_100k": (100.0, True),
