@@ -12,7 +12,6 @@ namespace reflines {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kMaxTrials = 40;
 
 // The largest part of the projected gradient that a step with the kept factor may leave because the set of held
 // unknowns has changed.
@@ -40,7 +39,8 @@ BoundedDescent::BoundedDescent(Problem& problem, const Bounds& bounds, const Min
       progress_(progress),
       work_(workspace),
       quadratic_(workspace.held_factor, report_, progress),
-      policy_(kStepsPerModel, kStepsAfterModel) {
+      policy_(kStepsPerModel, kStepsAfterModel),
+      stopping_("projected gradient", gradient_, options, progress, report_) {
   report_.strategy = options.strategy;
   report_.linear_solver = workspace.solver.kind();
   report_.unknowns = problem.size();
@@ -51,14 +51,14 @@ Report BoundedDescent::run(Vector& x) {
   try {
     if (may_move() && (has_factor() || start_near_free_minimum())) descend();
   } catch (const Cancelled&) {
-    is_cancelled();
+    stopping_.is_cancelled();
   }
   finish(x);
   return report_;
 }
 
 void BoundedDescent::descend() {
-  while (!is_cancelled() && !gradient_is_small() && !iterations_are_used_up()) {
+  while (!stopping_.is_cancelled() && !gradient_is_small() && !stopping_.iterations_are_used_up()) {
     if (!choose_destination()) break;
     if (find_step()) {
       take_step();
@@ -75,23 +75,23 @@ void BoundedDescent::evaluate_start(const Vector& x) {
   report_.put_back = static_cast<int>((work_.x.array() != x.array()).count());
   moved_ = report_.put_back > 0;
   current_.energy = problem_.evaluate(work_.x, &work_.gradient);
-  norm_ = bounds_.projected_norm(work_.x, work_.gradient);
+  gradient_.now = bounds_.projected_norm(work_.x, work_.gradient);
   ++report_.evaluations;
   check_start(current_.energy, work_.gradient.norm());
   report_.energy_before = current_.energy;
-  report_.gradient_before = norm_;
-  wanted_norm_ = options_.gradient_tolerance * norm_;
+  report_.gradient_before = gradient_.now;
+  gradient_.wanted = options_.gradient_tolerance * gradient_.now;
   if (!has_factor()) return;
   measure_rounding(work_.rounding_weight);
-  policy_.start(norm_, std::max(wanted_norm_, rounding_));
+  policy_.start(gradient_.now, gradient_.reachable());
 }
 
 bool BoundedDescent::may_move() {
   for (int k = 0; k < work_.x.size(); ++k) {
     if (!bounds_.is_point(k)) return true;
   }
-  stop(report_.put_back > 0 ? Termination::kConverged : Termination::kAlreadyOptimal,
-       "Nothing may move: the limit is 0 at every vertex that could.");
+  stopping_.stop(report_.put_back > 0 ? Termination::kConverged : Termination::kAlreadyOptimal,
+                 "Nothing may move: the limit is 0 at every vertex that could.");
   return false;
 }
 
@@ -104,16 +104,16 @@ bool BoundedDescent::start_near_free_minimum() {
   free.evaluations += report_.evaluations;
   work_.x = start;
   report_ = free;
-  report_.gradient_before = norm_;
+  report_.gradient_before = gradient_.now;
   if (free.termination == Termination::kCancelled) return false;
   if (bounds_.nearest(minimum) == minimum) {
     work_.x = minimum;
     moved_ = true;
     current_.energy = free.energy_after;
-    norm_ = free.gradient_after;
+    gradient_.now = free.gradient_after;
     return false;
   }
-  report_.iterations = 0;
+  stopping_.count_before(std::exchange(report_.iterations, 0));
   start_on_the_way_to(minimum);
   return true;
 }
@@ -137,7 +137,7 @@ void BoundedDescent::start_on_the_way_to(const Vector& minimum) {
     moved_ = true;
   }
   problem_.evaluate(work_.x, &work_.gradient);
-  norm_ = bounds_.projected_norm(work_.x, work_.gradient);
+  gradient_.now = bounds_.projected_norm(work_.x, work_.gradient);
   model_failed_ = true;
 }
 
@@ -169,7 +169,7 @@ bool BoundedDescent::choose_destination() {
 }
 
 bool BoundedDescent::renew_model() {
-  tell("assembling");
+  stopping_.tell("assembling");
   work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
   work_.held_factor.forget();
   renewed_ = new_model_pays();
@@ -180,20 +180,20 @@ bool BoundedDescent::renew_model() {
   report_.analyses += work_.analyze(work_.matrix, problem_, progress_);
   work_.factored_model = choose_model(options_.strategy);
   assembled_at_ = report_.iterations;
-  policy_.start(norm_, std::max(wanted_norm_, rounding_));
+  policy_.start(gradient_.now, gradient_.reachable());
   model_failed_ = false;
-  return !is_cancelled() && !gradient_is_small();
+  return !stopping_.is_cancelled() && !gradient_is_small();
 }
 
 void BoundedDescent::measure_rounding(const Vector& weight) {
   work_.rounding_weight = weight;
-  rounding_ = kEpsilon * weight.cwiseProduct(work_.x).norm();
+  gradient_.rounding = kEpsilon * weight.cwiseProduct(work_.x).norm();
 }
 
 // Tries a step with the present factor; returns false where it leaves too much to unknowns that should be held or
 // released.
 bool BoundedDescent::kept_factor_leads_on() {
-  tell("iterating");
+  stopping_.tell("iterating");
   const Bounds room = bounds_.seen_from(work_.x);
   const Vector at_bounds = room.ends(work_.held);
   work_.direction = -work_.gradient;
@@ -202,17 +202,17 @@ bool BoundedDescent::kept_factor_leads_on() {
   report_.solves += work_.held_factor.solve(work_.direction);
   if (learns_from_steps()) work_.memory.after_solve(work_.direction);
   work_.direction += at_bounds;
-  if (measure_missed_gradient(model(), room, work_.held, work_.direction) > kWorthwhile * norm_) return false;
+  if (measure_missed_gradient(model(), room, work_.held, work_.direction) > kWorthwhile * gradient_.now) return false;
   destination_ = bounds_.nearest(work_.x + work_.direction);
   return true;
 }
 
 bool BoundedDescent::solve_model() {
-  tell("factorizing");
+  stopping_.tell("factorizing");
   Vector d;
-  const double wanted = std::max(kModelTolerance * norm_, 0.3 * wanted_norm_);
+  const double wanted = std::max(kModelTolerance * gradient_.now, 0.3 * gradient_.wanted);
   if (!quadratic_.minimize(model(), bounds_.seen_from(work_.x), wanted, work_.held, work_.many_contacts, d))
-    return is_cancelled(), false;
+    return stopping_.is_cancelled(), false;
   work_.memory.clear();
   destination_ = bounds_.nearest(work_.x + d);
   for (int k = 0; k < d.size(); ++k) {
@@ -226,11 +226,7 @@ bool BoundedDescent::find_step() {
   current_.slope = work_.gradient.dot(work_.direction);
   if (!(current_.slope < 0.0)) return false;
   try_step(1.0);
-  for (int trial = 1; trial < kMaxTrials; ++trial) {
-    if (lowers_energy_enough(current_, trial_)) return true;
-    try_step(shorter_step(current_, trial_));
-  }
-  return false;
+  return lowers_energy_enough(current_, trial_) || backtrack(current_, trial_, [this](double step) { try_step(step); });
 }
 
 void BoundedDescent::try_step(double step) {
@@ -255,9 +251,9 @@ void BoundedDescent::take_step() {
   work_.x.swap(work_.trial);
   work_.gradient.swap(work_.trial_gradient);
   current_.energy = trial_.energy;
-  const double before = std::exchange(norm_, bounds_.projected_norm(work_.x, work_.gradient));
-  policy_.observe(norm_);
-  model_failed_ = model_is_fresh() && norm_ > kTrusted * before;
+  const double before = std::exchange(gradient_.now, bounds_.projected_norm(work_.x, work_.gradient));
+  policy_.observe(gradient_.now);
+  model_failed_ = model_is_fresh() && gradient_.now > kTrusted * before;
   ++report_.iterations;
   moved_ = true;
 }
@@ -265,15 +261,16 @@ void BoundedDescent::take_step() {
 bool BoundedDescent::discard_model() {
   model_failed_ = !model_is_fresh();
   if (model_failed_) return true;
-  stop(Termination::kNoProgress, describe_no_progress(norm_, wanted_norm_));
+  stopping_.has_no_progress();
   return false;
 }
 
 void BoundedDescent::finish(Vector& x) {
   count_steps();
+  report_.iterations = stopping_.steps();
   const bool moved = moved_ && report_.termination != Termination::kCancelled;
   report_.energy_after = moved ? current_.energy : report_.energy_before;
-  report_.gradient_after = moved ? norm_ : report_.gradient_before;
+  report_.gradient_after = moved ? gradient_.now : report_.gradient_before;
   if (moved) x = work_.x;
 }
 
@@ -286,33 +283,11 @@ void BoundedDescent::count_steps() {
     work_.extra_steps += std::max(steps - work_.usual_steps, 0);
 }
 
-bool BoundedDescent::is_cancelled() {
-  if (progress_ == nullptr || !progress_->cancelled()) return false;
-  return stop(Termination::kCancelled,
-              format_sentence("Cancelled after %.0f steps with the projected gradient at %.3g; nothing was changed.",
-                              report_.iterations, norm_));
-}
-
 bool BoundedDescent::gradient_is_small() {
-  const bool small = norm_ <= wanted_norm_ && moved_;
-  if (!small && norm_ > rounding_) return false;
-  return stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
-              describe_small_gradient(norm_, std::max(wanted_norm_, rounding_)));
-}
-
-bool BoundedDescent::iterations_are_used_up() {
-  if (report_.iterations < options_.max_iterations) return false;
-  return stop(Termination::kIterationLimit, describe_iteration_limit(options_.max_iterations, norm_, wanted_norm_));
-}
-
-bool BoundedDescent::stop(Termination termination, const std::string& message) {
-  report_.termination = termination;
-  report_.message = message;
-  return true;
-}
-
-void BoundedDescent::tell(const char* stage) {
-  report_digits(progress_, stage, report_.gradient_before, norm_, std::max(wanted_norm_, rounding_));
+  const bool small = gradient_.now <= gradient_.wanted && moved_;
+  if (!small && gradient_.now > gradient_.rounding) return false;
+  return stopping_.stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
+                        describe_small_gradient(gradient_.now, gradient_.reachable()));
 }
 
 }  // namespace reflines

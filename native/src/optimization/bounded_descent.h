@@ -1,13 +1,12 @@
 // One run of a Minimizer within bounds: sequential quadratic programming on a kept factor.
 #pragma once
 
-#include <string>
-
 #include "optimization/bounded_quadratic.h"
 #include "optimization/bounds.h"
 #include "optimization/line_search.h"
 #include "optimization/problem.h"
 #include "optimization/refactor_policy.h"
+#include "optimization/stopping_tests.h"
 #include "optimization/wording.h"
 #include "optimization/workspace.h"
 #include "reflines/minimizer_options.h"
@@ -54,17 +53,12 @@ class BoundedDescent {
   void take_step();
   bool discard_model();
 
-  // These are the stopping tests. Each that holds writes Report::termination and its sentence.
-  bool is_cancelled();
-  bool gradient_is_small();
-  bool iterations_are_used_up();
-  bool stop(Termination termination, const std::string& message);
+  bool gradient_is_small();  // a stopping test, see StoppingTests
 
   bool has_factor() const { return work_.has_bounded_factor_of(choose_model(options_.strategy), work_.x.size()); }
   bool learns_from_steps() const { return options_.strategy == Strategy::kAdaptive; }
   bool model_is_fresh() const { return assembled_at_ == report_.iterations; }
   QuadraticModel model() const { return {work_.matrix, work_.gradient}; }
-  void tell(const char* stage);
 
   Problem& problem_;
   const Bounds& bounds_;
@@ -74,13 +68,12 @@ class BoundedDescent {
   Report report_;
   BoundedQuadratic quadratic_;
   RefactorPolicy policy_;
+  GradientNorm gradient_;  // projected, see Bounds
+  StoppingTests stopping_;
 
   LinePoint current_, trial_;
   Vector destination_;  // end of a full step
   bool moved_ = false;
-  double norm_ = 0.0;  // norm of the projected gradient
-  double wanted_norm_ = 0.0;
-  double rounding_ = 0.0;      // change of the gradient by rounding x alone
   int assembled_at_ = -1;      // iteration at whose point the matrix was assembled; -1: before this run
   bool renewed_ = false;       // that matrix replaces one whose steps have cost as much
   bool model_failed_ = false;  // no step with it lowers the energy, or its prediction was wrong

@@ -36,7 +36,7 @@ void run_in_parallel(const std::function<void()>& first, const std::function<voi
 // of one evaluation of the fine problem and some steps. The coarse problem occupies one thread, for about as long as
 // the symbolic analysis, which needs no values, takes on another.
 void Descent::approach() {
-  if (!learns_from_steps() || factor_is_kept() || is_cancelled() || gradient_is_small()) return;
+  if (!learns_from_steps() || factor_is_kept() || stopping_.is_cancelled() || gradient_is_small()) return;
   const SparseMatrix* pattern = problem_.size() > kWorthAThread ? problem_.pattern() : nullptr;
   int steps = 0;
   const auto move = [this, &steps] { steps = move_along_coarse(); };

@@ -12,7 +12,6 @@ namespace reflines {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kMaxTrials = 40;
 
 // The distance of a contact from the end of its range in tolerances.
 constexpr double kTouching = 30.0;
@@ -31,13 +30,18 @@ constexpr double kTrusted = 0.1;
 
 ContactDescent::ContactDescent(Problem& problem, const RowLimits& limits, const MinimizerOptions& options,
                                Progress* progress, Workspace& workspace)
-    : problem_(problem), limits_(limits), options_(options), progress_(progress), work_(workspace) {}
+    : problem_(problem),
+      limits_(limits),
+      options_(options),
+      progress_(progress),
+      work_(workspace),
+      stopping_("projected gradient", gradient_, options, progress, report_) {}
 
 Report ContactDescent::run(Vector& x) {
   try {
     if (start_near_free_minimum(x)) descend();
   } catch (const Cancelled&) {
-    is_cancelled();
+    stopping_.is_cancelled();
   }
   finish(x);
   return report_;
@@ -69,12 +73,12 @@ bool ContactDescent::start_near_free_minimum(const Vector& x) {
   report_.put_back = beyond;
   work_.x = minimum;
   current_.energy = report_.energy_after;
-  norm_ = report_.gradient_after;
+  gradient_.now = report_.gradient_after;
   moved_ = beyond > 0 || report_.termination != Termination::kAlreadyOptimal;
   if (report_.termination == Termination::kCancelled || limits_.contain(minimum)) return false;
   narrow_ = limits_.narrow(limits_.reach(minimum));
   if (!narrow_.may_move()) return nothing_may_move(start, beyond);
-  report_.iterations = 0;
+  stopping_.count_before(std::exchange(report_.iterations, 0));
   start_on_the_way(start, minimum);
   return true;
 }
@@ -86,10 +90,10 @@ bool ContactDescent::nothing_may_move(const Vector& start, int put_back) {
   report_.unknowns = problem_.size();
   work_.x = start;
   current_.energy = report_.energy_before = evaluate(work_.x, work_.gradient);
-  report_.gradient_before = norm_ = 0.0;
+  report_.gradient_before = gradient_.now = 0.0;
   moved_ = put_back > 0;
-  stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
-       "Nothing may move: the limit is 0 at every vertex that could.");
+  stopping_.stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
+                 "Nothing may move: the limit is 0 at every vertex that could.");
   return false;
 }
 
@@ -98,7 +102,7 @@ void ContactDescent::start_on_the_way(const Vector& start, const Vector& minimum
   work_.x = narrow_.pull_inside(narrow_.base, start);
   current_.energy = evaluate(work_.x, work_.gradient);
   report_.gradient_before = work_.gradient.norm();
-  wanted_norm_ = options_.gradient_tolerance * report_.gradient_before;
+  gradient_.wanted = options_.gradient_tolerance * report_.gradient_before;
   work_.trial = narrow_.pull_inside(work_.x, minimum);
   const double energy = evaluate(work_.trial, work_.trial_gradient);
   moved_ = report_.put_back > 0 || energy < current_.energy;
@@ -107,13 +111,13 @@ void ContactDescent::start_on_the_way(const Vector& start, const Vector& minimum
     work_.gradient.swap(work_.trial_gradient);
     current_.energy = energy;
   }
-  norm_ = work_.gradient.norm();
+  gradient_.now = work_.gradient.norm();
   work_.held = narrow_.held;
   quadratic_.emplace(narrow_, work_.held_factor, report_, progress_);
 }
 
 void ContactDescent::descend() {
-  while (!is_cancelled() && !gradient_is_small() && !iterations_are_used_up()) {
+  while (!stopping_.is_cancelled() && !gradient_is_small() && !stopping_.iterations_are_used_up()) {
     if (!choose_destination()) break;
     if (find_step()) {
       take_step();
@@ -140,31 +144,31 @@ bool ContactDescent::model_is_outdated() const {
 }
 
 bool ContactDescent::choose_destination() {
-  if (digits_end_) return stop_without_progress(), false;
+  if (digits_end_) return stopping_.has_no_progress(), false;
   if (many_contacts_) return (!model_is_outdated() || renew_model()) && solve_model();
   if (!model_is_outdated()) return kept_contacts_lead_on() || solve_model();
   return renew_model() && solve_model();
 }
 
 bool ContactDescent::renew_model() {
-  tell("assembling");
+  stopping_.tell("assembling");
   work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
   ++report_.assemblies;
-  rounding_ = kEpsilon * problem_.rounding_weight(work_.matrix).cwiseProduct(work_.x).norm();
+  gradient_.rounding = kEpsilon * problem_.rounding_weight(work_.matrix).cwiseProduct(work_.x).norm();
   report_.analyses += work_.analyze(work_.matrix, problem_, progress_);
-  if (is_cancelled()) return false;
+  if (stopping_.is_cancelled()) return false;
   work_.factored_model = choose_model(options_.strategy);
   quadratic_->forget();
   if (!many_contacts_) {
-    tell("factorizing");
+    stopping_.tell("factorizing");
     work_.held_factor.factorize(work_.matrix, narrow_.held, progress_);
     ++report_.factorizations;
   }
   work_.memory.clear();
   assembled_at_ = report_.iterations;
   model_failed_ = false;
-  policy_.start(norm_, std::max(wanted_norm_, rounding_));
-  return !is_cancelled();
+  policy_.start(gradient_.now, gradient_.reachable());
+  return !stopping_.is_cancelled();
 }
 
 Vector ContactDescent::room(const Contacts& contacts) const {
@@ -174,7 +178,7 @@ Vector ContactDescent::room(const Contacts& contacts) const {
 
 // Tries a step with the present factor and contacts; returns false where one of these pulls, or others are needed.
 bool ContactDescent::kept_contacts_lead_on() {
-  tell("iterating");
+  stopping_.tell("iterating");
   if (!all_press_) return false;
   const Vector change = room(contacts_);
   work_.direction = -left_;
@@ -189,7 +193,7 @@ bool ContactDescent::kept_contacts_lead_on() {
 
 // Determines the contacts and the step anew; returns false where these tell that the present point is the minimum.
 bool ContactDescent::solve_model() {
-  tell("factorizing");
+  stopping_.tell("factorizing");
   if (!many_contacts_) {
     const Vector value = narrow_.values(work_.x);
     work_.direction = quadratic_->minimize(work_.gradient, narrow_.low - value, narrow_.high - value,
@@ -209,7 +213,7 @@ void ContactDescent::solve_from_inside() {
   const Vector low = narrow_.low - value, high = narrow_.high - value;
   const QuadraticModel model{work_.matrix, work_.gradient};
   RowInteriorPoint inside(model, narrow_, low, high);
-  const double wanted = std::max(kModelTolerance * norm_, 0.3 * wanted_norm_);
+  const double wanted = std::max(kModelTolerance * gradient_.now, 0.3 * gradient_.wanted);
   inside.run(work_.held_factor, 0.5 * narrow_.tolerance, wanted, report_, progress_);
   work_.direction = inside.step();
   const Vector all = inside.forces(), reached = narrow_.rows.transpose() * work_.direction;
@@ -229,11 +233,7 @@ bool ContactDescent::find_step() {
   current_.slope = work_.gradient.dot(work_.direction);
   if (!(current_.slope < 0.0)) return false;
   try_step(1.0);
-  for (int trial = 1; trial < kMaxTrials; ++trial) {
-    if (lowers_energy_enough(current_, trial_)) return true;
-    try_step(shorter_step(current_, trial_));
-  }
-  return false;
+  return lowers_energy_enough(current_, trial_) || backtrack(current_, trial_, [this](double step) { try_step(step); });
 }
 
 void ContactDescent::try_step(double step) {
@@ -249,11 +249,11 @@ void ContactDescent::take_step() {
   work_.x.swap(work_.trial);
   work_.gradient.swap(work_.trial_gradient);
   current_.energy = trial_.energy;
-  const double before = norm_;
+  const double before = gradient_.now;
   measure();
-  policy_.observe(norm_);
-  digits_end_ = many_contacts_ && norm_ > kLeastGain * std::exchange(reached_norm_, norm_);
-  model_failed_ = model_is_fresh() && norm_ > kTrusted * before;
+  policy_.observe(gradient_.now);
+  digits_end_ = many_contacts_ && gradient_.now > kLeastGain * std::exchange(reached_norm_, gradient_.now);
+  model_failed_ = model_is_fresh() && gradient_.now > kTrusted * before;
   ++report_.iterations;
   moved_ = true;
 }
@@ -275,51 +275,28 @@ void ContactDescent::measure() {
     forces = quadratic_->find_forces(touching, work_.gradient);
   all_press_ = touching.empty() || forces.minCoeff() >= 0;
   left_ = quadratic_->take_off(touching, forces.cwiseMax(0.0), work_.gradient);
-  norm_ = left_.norm();
+  gradient_.now = left_.norm();
 }
 
 bool ContactDescent::discard_model() {
   model_failed_ = !model_is_fresh();
   if (model_failed_) return true;
-  stop_without_progress();
+  stopping_.has_no_progress();
   return false;
 }
 
-bool ContactDescent::stop_without_progress() {
-  return stop(Termination::kNoProgress, describe_no_progress(norm_, wanted_norm_));
-}
-
 void ContactDescent::finish(Vector& x) {
+  report_.iterations = stopping_.steps();
   const bool moved = moved_ && report_.termination != Termination::kCancelled;
   report_.energy_after = moved ? current_.energy : report_.energy_before;
-  report_.gradient_after = moved ? norm_ : report_.gradient_before;
+  report_.gradient_after = moved ? gradient_.now : report_.gradient_before;
   if (moved) x = work_.x;
 }
 
-bool ContactDescent::is_cancelled() {
-  if (progress_ == nullptr || !progress_->cancelled()) return false;
-  return stop(Termination::kCancelled, "Cancelled.");
-}
-
 bool ContactDescent::gradient_is_small() {
-  if (norm_ > std::max(wanted_norm_, rounding_)) return false;
-  return stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
-              describe_small_gradient(norm_, std::max(wanted_norm_, rounding_)));
-}
-
-bool ContactDescent::iterations_are_used_up() {
-  if (report_.iterations < options_.max_iterations) return false;
-  return stop(Termination::kIterationLimit, describe_iteration_limit(options_.max_iterations, norm_, wanted_norm_));
-}
-
-bool ContactDescent::stop(Termination termination, const std::string& message) {
-  report_.termination = termination;
-  report_.message = message;
-  return true;
-}
-
-void ContactDescent::tell(const char* stage) {
-  report_digits(progress_, stage, report_.gradient_before, norm_, std::max(wanted_norm_, rounding_));
+  if (gradient_.now > gradient_.reachable()) return false;
+  return stopping_.stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
+                        describe_small_gradient(gradient_.now, gradient_.reachable()));
 }
 
 }  // namespace reflines

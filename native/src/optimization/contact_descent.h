@@ -3,7 +3,6 @@
 
 #include <limits>
 #include <optional>
-#include <string>
 
 #include "optimization/contact_quadratic.h"
 #include "optimization/line_search.h"
@@ -11,6 +10,7 @@
 #include "optimization/refactor_policy.h"
 #include "optimization/row_interior_point.h"
 #include "optimization/row_limits.h"
+#include "optimization/stopping_tests.h"
 #include "optimization/workspace.h"
 #include "reflines/minimizer_options.h"
 #include "reflines/progress.h"
@@ -55,18 +55,12 @@ class ContactDescent {
   bool discard_model();
   void measure();
 
-  // These are the stopping tests. Each that holds writes Report::termination and its sentence.
-  bool is_cancelled();
-  bool gradient_is_small();
-  bool iterations_are_used_up();
-  bool stop_without_progress();
-  bool stop(Termination termination, const std::string& message);
+  bool gradient_is_small();  // a stopping test, see StoppingTests
 
   double evaluate(const Vector& x, Vector& gradient);
   Vector room(const Contacts& contacts) const;  // the way of their functions to the ends of their range, #contacts
   bool learns_from_steps() const { return options_.strategy == Strategy::kAdaptive; }
   bool model_is_fresh() const { return assembled_at_ == report_.iterations; }
-  void tell(const char* stage);
 
   Problem& problem_;
   const RowLimits& limits_;
@@ -77,6 +71,8 @@ class ContactDescent {
   RowLimits::Narrow narrow_;
   std::optional<ContactQuadratic> quadratic_;
   RefactorPolicy policy_;
+  GradientNorm gradient_;  // of left_
+  StoppingTests stopping_;
 
   LinePoint current_, trial_;
   Contacts contacts_;
@@ -87,10 +83,7 @@ class ContactDescent {
   bool contacts_keep_ = false;  // the present step moves no contact
   bool moved_ = false;
   bool digits_end_ = false;  // a new model of many contacts has not brought the gradient down
-  double reached_norm_ = std::numeric_limits<double>::infinity();  // norm_ after the last step
-  double norm_ = 0.0;                                              // norm of left_
-  double wanted_norm_ = 0.0;
-  double rounding_ = 0.0;     // change of the gradient by rounding x alone
+  double reached_norm_ = std::numeric_limits<double>::infinity();  // gradient_.now after the last step
   int assembled_at_ = -1;     // iteration at whose point the matrix was assembled; -1: before this run
   bool model_failed_ = true;  // no step with it lowers the energy, or its prediction was wrong
 };

@@ -1,11 +1,10 @@
 // One run of a Minimizer: the loop, its steps, its stopping tests.
 #pragma once
 
-#include <string>
-
 #include "optimization/line_search.h"
 #include "optimization/problem.h"
 #include "optimization/refactor_policy.h"
+#include "optimization/stopping_tests.h"
 #include "optimization/workspace.h"
 #include "reflines/minimizer_options.h"
 #include "reflines/progress.h"
@@ -37,24 +36,19 @@ class Descent {
   bool renew_factor();
   void choose_direction();
   bool find_step();
-  bool backtrack();
   void try_step(double step);
   void take_step();
   void accept_trial();
   bool discard_factor();
 
-  // These are the stopping tests. Each that holds writes Report::termination and its sentence.
-  bool is_cancelled();
+  // These are stopping tests, as those of StoppingTests.
   bool gradient_is_small();
   bool gradient_is_rounding();
   bool step_is_rounding();
-  bool iterations_are_used_up();
-  bool stop(Termination termination, const std::string& message);
 
   bool learns_from_steps() const { return options_.strategy == Strategy::kAdaptive; }
   bool has_moved() const { return report_.iterations + report_.coarse_iterations > 0; }
   bool factor_is_fresh() const { return factored_at_ == report_.iterations; }
-  void tell(const char* stage);
 
   Problem& problem_;
   const MinimizerOptions& options_;
@@ -62,13 +56,12 @@ class Descent {
   Workspace& work_;
   Report report_;
   RefactorPolicy policy_;
+  GradientNorm gradient_;
+  StoppingTests stopping_;
 
   LinePoint current_, trial_;
-  double gradient_norm_ = 0.0;
-  double wanted_gradient_norm_ = 0.0;
-  double gradient_rounding_ = 0.0;  // change of the gradient by rounding x alone
-  int factored_at_ = -1;            // iteration at whose point the factor was made; -1: before this run
-  bool factor_failed_ = false;      // a full step with it was refused
+  int factored_at_ = -1;        // iteration at whose point the factor was made; -1: before this run
+  bool factor_failed_ = false;  // a full step with it was refused
 };
 
 }  // namespace reflines

@@ -18,17 +18,6 @@ std::string describe_small_gradient(double norm, double wanted) {
   return format_sentence("The projected gradient is down to %.3g; %.3g was wanted.", norm, wanted);
 }
 
-std::string describe_iteration_limit(int iterations, double norm, double wanted) {
-  const std::string format = "The limit of " + std::to_string(iterations) +
-                             " steps was reached with the projected gradient at %.3g where %.3g was wanted.";
-  return format_sentence(format.c_str(), norm, wanted);
-}
-
-std::string describe_no_progress(double norm, double wanted) {
-  return format_sentence("No step lowers the energy any further: the projected gradient is %.3g where %.3g was wanted.",
-                         norm, wanted);
-}
-
 void check_start(Eigen::Index values, int unknowns) {
   if (values == unknowns) return;
   throw InvalidInput("The start has " + std::to_string(values) + " values for " + std::to_string(unknowns) +

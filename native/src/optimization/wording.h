@@ -12,10 +12,8 @@ namespace reflines {
 // Formats two numbers; `format` holds two %g.
 std::string format_sentence(const char* format, double first, double second);
 
-// Return what ended a descent within limits, by the norm of the projected gradient and the one that was wanted.
+// Returns what ended a descent within limits, by the norm of the projected gradient and the one that was wanted.
 std::string describe_small_gradient(double norm, double wanted);
-std::string describe_iteration_limit(int iterations, double norm, double wanted);
-std::string describe_no_progress(double norm, double wanted);
 
 // Throws InvalidInput unless there is one value for each unknown, and the energy and the norm of its gradient are
 // finite.

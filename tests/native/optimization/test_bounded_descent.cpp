@@ -86,6 +86,22 @@ TEST_P(BoundedStrategyTest, StopsAtAMinimumOfABentChain) {
   EXPECT_LT(report.energy_after, report.energy_before);
 }
 
+// The steps to the free minimum, with which it begins, count as well: it took up to twice the limit.
+TEST_P(BoundedStrategyTest, TakesNoMoreStepsThanAllowed) {
+  for (const int most : {0, 1, 2, 3, 5, 8, 13}) {
+    Chain chain(60, 0.05);
+    chain.set_minimum(chain.wave(1.0));
+    Vector free = chain.wave(0.3), x = free;
+    MinimizerOptions options = with(GetParam(), 1e-8);
+    options.max_iterations = most;
+    const int before = Minimizer().minimize(chain, free, options).iterations;
+    const Report report = Minimizer().minimize(chain, around(x, 0.2), x, options);
+    EXPECT_GE(report.iterations, before);
+    EXPECT_LE(report.iterations, most);
+    EXPECT_TRUE(report.converged() || report.iterations == most) << most << ": " << report.message;
+  }
+}
+
 // Second differences of the bent beam are linear between the ends and the obstacle, so that its heights are a cubic.
 TEST(BoundedDescentTest, ABeamOverAnObstacleIsACubic) {
   constexpr int kMiddle = 20, kSize = 2 * kMiddle - 1;

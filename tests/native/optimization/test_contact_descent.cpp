@@ -55,6 +55,23 @@ TEST(RowLimits, OfSingleUnknownsAreBounds) {
   }
 }
 
+TEST(RowLimits, TakeNoMoreStepsThanAllowed) {
+  for (const int most : {0, 1, 2, 3, 5, 8, 13}) {
+    Chain chain(40, 0.05);
+    chain.set_minimum(chain.wave(1.0));
+    const SparseMatrix modes = means(40);
+    const Vector start = Vector::Zero(40), ends = Vector::Constant(modes.cols(), 0.2);
+    Vector free = start, x = start;
+    MinimizerOptions options = precise();
+    options.max_iterations = most;
+    const int before = Minimizer().minimize(chain, free, options).iterations;
+    const Report report = Minimizer().minimize(chain, RowLimits(modes, -ends, ends, start, 1e-16), x, options);
+    EXPECT_GE(report.iterations, before);
+    EXPECT_LE(report.iterations, most);
+    EXPECT_TRUE(report.converged() || report.iterations == most) << most << ": " << report.message;
+  }
+}
+
 TEST(RowLimits, BothMethodsSolveTheModel) {
   Chain chain(40, 0.0);
   chain.set_minimum(chain.wave(1.0));
