@@ -14,20 +14,17 @@ from ..model.line_handle import Handles, LineHandle
 from ..model.line_surface import LineState, LineSurface, Place
 from ..model.patch import Patch
 from ..overlay import handle_marks
-from ..overlay.handle_marks import Curve, Dot, Marks
+from ..overlay.handle_marks import Marks
 from ..solver.formulation import choose_formulation
-from . import drag_handles, drawn_lines
+from . import drag_handles, drawn_lines, handle_texts
 from .drag import Drag, DraggedOperator
 from .drag_handles import PRECISE_FACTOR
+from .handle_history import HandleHistory
+from .handle_tracing import HandleTracing
 from .solve_job import SolveOutcome
 
 GRASP = 12.0  # pixels from a dot within which the mouse takes it, times the interface's scale
 RADIUS_STEP, RADIUS_PIXELS = 1.1, 150.0  # factor of a notch of the wheel; pixels that double it
-PULL_TEXT = "Drag: pull a line   Alt click, P: pin it   D: draw one"
-START_TEXT = "Drag: draw the line at its start   N: the nearest line   D: pull one"
-NEAREST_TEXT = "Drag: draw the nearest line   N: the line at its start   D: pull one"
-KEYS_TEXT = ("S: straighten   E: follow edge   X: delete   M: mute   Wheel, F, 0-9: radius   Shift: finer   "
-             "Ctrl: back   Ctrl Z: undo   Enter: apply   Esc: cancel")
 STROKE_STEP = 4.0  # pixels between two points of a stroke
 
 
@@ -36,8 +33,8 @@ class LineDrag(Drag):
 
     def __init__(self, tool: DraggedOperator, context: bpy.types.Context, handles: Handles) -> None:
         self.handles = handles
-        self.undone: list[Handles] = []   # what Ctrl Shift Z brings back, the nearest last
-        self.history: list[Handles] = []  # what Ctrl Z brings back, likewise
+        self.history = HandleHistory()
+        self.tracing = HandleTracing(self)
         self.surface: LineSurface | None = None  # once the first lines are there
         self.state: LineState | None = None      # what is shown
         self.held: int | None = None   # handle that the mouse drags
@@ -53,8 +50,6 @@ class LineDrag(Drag):
         self.taken: tuple[int, int] | None = None  # handle, and its dot, that the next press takes
         self.mouse = self.last = (0.0, 0.0)  # pixels of the window: of the pull, and of the mouse itself
         self.looked = False  # whether the place under the mouse is known
-        self.traced: dict[LineHandle, Curve] = {}  # lines of the handles in what is shown
-        self.ghosts: dict[LineHandle, Curve] = {}  # and at the start, of the handles that were taken
         super().__init__(tool, context)
         self.marks = Marks()
         self.marks_drawn = handle_marks.add_marks(self.area, lambda: self.marks)
@@ -82,7 +77,8 @@ class LineDrag(Drag):
         """Takes the lines, which a session shows instead of the gain."""
         if not outcome.lines:
             return
-        self.state, self.traced = outcome.lines[0], {}
+        self.state = outcome.lines[0]
+        self.tracing.forget_now()
         if self.surface is None:
             start = self.job.starts[0]
             triangles = choose_formulation(start.patch, start.view).read_triangles(start.optimizer)
@@ -138,7 +134,7 @@ class LineDrag(Drag):
         if place is None and not back:
             return  # beside the panel
         if back:
-            end = self.history[-1][self.held].curve[self.dot] if own.curve else own.start
+            end = self.history.before[-1][self.held].curve[self.dot] if own.curve else own.start
         else:
             end = self.to_local(self.surface.read_point(place, self.surface.start))
         if not own.is_pin:
@@ -161,7 +157,7 @@ class LineDrag(Drag):
             (self.near, self.dot), self.taken = self.taken, None
         if self.near is None and self.hover is None:
             return
-        self.keep_history()
+        self.history.keep(self.handles)
         if self.near is not None:
             self.held = self.near
             return
@@ -176,7 +172,7 @@ class LineDrag(Drag):
     def add_handle(self, made: LineHandle | None) -> bool:
         """Adds a handle, for which history has a step; takes that back where there is none, or no room."""
         if made is None or len(self.handles) >= line_handle.MOST_HANDLES:
-            self.history.pop()
+            self.history.drop()
             return False
         self.set_handles((*self.handles, made))
         return True
@@ -207,8 +203,8 @@ class LineDrag(Drag):
             drawn = drawn_lines.draw_line(self, self.stroke)
             self.add_handle(self.take_nearest(drawn) if drawn is not None and self.nearest else drawn)
             self.stroke = []
-        elif self.held is not None and self.history and self.history[-1] == self.handles:
-            self.history.pop()
+        elif self.held is not None and self.history and self.history.before[-1] == self.handles:
+            self.history.drop()
         self.held = self.taken = None
         self.looked = False
 
@@ -231,7 +227,7 @@ class LineDrag(Drag):
     def delete_active(self) -> None:
         index = self.find_active()
         if index is not None:
-            self.keep_history()
+            self.history.keep(self.handles)
             self.held = self.near = None
             self.set_handles(self.handles[:index] + self.handles[index + 1:])
 
@@ -239,7 +235,7 @@ class LineDrag(Drag):
         """Switches a handle off, and on again."""
         index = self.find_active()
         if index is not None:
-            self.keep_history()
+            self.history.keep(self.handles)
             self.replace_handle(index, replace(self.handles[index], muted=not self.handles[index].muted))
 
     def lay_line(self, make: Callable[["LineDrag", LineHandle, Place], LineHandle | None]) -> None:
@@ -250,7 +246,7 @@ class LineDrag(Drag):
         index, place = self.near, self.hover
         if place is None:
             return
-        self.keep_history()
+        self.history.keep(self.handles)
         own = self.make_pull(place) if index is None else self.handles[index]
         made = None if own.is_pin else make(self, own, self.find_place(own.end) or place)
         if index is None or made is None:
@@ -264,7 +260,7 @@ class LineDrag(Drag):
                                               else character.isdigit() or character == '.'):
             return False
         if not self.typed:
-            self.keep_history()
+            self.history.keep(self.handles)
         self.set_typed(self.typed + character)
         return True
 
@@ -277,7 +273,7 @@ class LineDrag(Drag):
     def turn_wheel(self, notches: int) -> None:
         index = self.find_active()
         if index is not None:
-            self.keep_history()
+            self.history.keep(self.handles)
             self.change_radius(self.handles[index].radius * RADIUS_STEP**notches)
 
     def change_radius(self, radius: float) -> None:
@@ -288,7 +284,7 @@ class LineDrag(Drag):
     def begin_sizing(self) -> None:
         index = self.find_active()
         if index is not None:
-            self.keep_history()
+            self.history.keep(self.handles)
             self.sizing = self.last[0], self.handles[index].radius
 
     def replace_handle(self, index: int, handle: LineHandle) -> None:
@@ -298,20 +294,14 @@ class LineDrag(Drag):
         self.moved = self.moved or handles != self.handles
         self.handles = handles
 
-    def keep_history(self) -> None:
-        self.history.append(self.handles)
-        self.undone.clear()
-
     def step_back(self) -> None:
         """Takes the last change of a handle back."""
         if self.history:
-            self.undone.append(self.handles)
-            self.go_to(self.history.pop())
+            self.go_to(self.history.step_back(self.handles))
 
     def step_forward(self) -> None:
-        if self.undone:
-            self.history.append(self.handles)
-            self.go_to(self.undone.pop())
+        if self.history.undone:
+            self.go_to(self.history.step_forward(self.handles))
 
     def go_to(self, handles: Handles) -> None:
         self.held = self.near = self.sizing = None
@@ -351,36 +341,8 @@ class LineDrag(Drag):
         if self.looked or self.surface is None:
             return
         self.look()
-        curves = [curve for index in range(len(self.handles)) for curve in self.trace_handle(index)]
-        if self.stroke:
-            drawn = np.array([self.surface.read_point(each, self.state) for each in self.stroke])
-            curves.append(Curve(drawn, handle_marks.HOVER_COLOR))
-        elif self.held is None and self.near is None and self.hover is not None:
-            value = self.surface.read_theta(self.hover, self.state)
-            curves.append(Curve(self.surface.trace(self.hover, self.state, value), handle_marks.HOVER_COLOR))
-        dots = tuple(Dot(self.find_dot(self.handles[index].dots[number]), choose_color(self.handles[index]),
-                         index in (self.near, self.held) and number == self.dot, self.handles[index].muted)
-                     for index, number in self.list_dots())
-        self.marks = Marks(tuple(curves), dots)
+        self.marks = self.tracing.make_marks()
         self.area.tag_redraw()
-
-    def trace_handle(self, index: int) -> tuple[Curve, ...]:
-        """Traces the line of a handle as it is now, and of the one that is taken its ghost at the start."""
-        own = self.handles[index]
-        start, end = self.find_place(own.start), self.find_place(own.end)
-        if start is None or end is None or own.muted:
-            return ()
-        value = self.surface.read_theta(start, self.surface.start)
-        if own not in self.traced:
-            now = self.surface.find_level(end, value, self.state)
-            line = self.surface.trace(now, self.state, self.surface.read_theta(now, self.state))
-            self.traced[own] = Curve(line, choose_color(own))
-        if index != self.find_active() or own.is_pin:
-            return (self.traced[own],)
-        if own not in self.ghosts:
-            ghost = self.surface.trace(start, self.surface.start, value)
-            self.ghosts = {own: Curve(ghost, handle_marks.GHOST_COLOR, handle_marks.GHOST_WIDTH)}
-        return self.ghosts[own], self.traced[own]
 
     def update_texts(self, context: bpy.types.Context) -> None:
         self.refresh_marks()
@@ -388,42 +350,18 @@ class LineDrag(Drag):
         conflicts = self.tool.builder.conflicts
         first = self.problem or (conflicts[0] if conflicts else self.describe_gain(context))
         about = f"   {self.describe_handle(context, index)}" if index is not None and self.surface is not None else ""
-        count = f"{len(self.handles)} handle{'s' if len(self.handles) != 1 else ''}"
+        count = handle_texts.count_handles(self.handles)
         self.show_texts(context, f"{first}   {count}{about}   ({self.tool.bl_label})",
-                        f"{self.describe_press()}   {KEYS_TEXT}")
+                        handle_texts.describe_keys(draws=self.draws, nearest=self.nearest))
 
-    def describe_press(self) -> str:
-        """Says what a press does, and the keys that change that."""
-        if not self.draws:
-            return PULL_TEXT
-        return NEAREST_TEXT if self.nearest else START_TEXT
+    def describe_handle(self, context: bpy.types.Context, index: int) -> str:
+        return handle_texts.describe_handle(context.scene, self.handles, index, self.tool.builder.reached, self.typed)
 
     def describe_gain(self, context: bpy.types.Context) -> str:
         """Says the move alone: what is reached is told of each handle."""
         return f"Moved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
 
-    def describe_handle(self, context: bpy.types.Context, index: int) -> str:
-        """Says how far the line of a handle is from it, and its radius."""
-        own, number = self.handles[index], index + 1
-        if own.is_pin or own.muted:
-            return f"{'Pin' if own.is_pin else 'Handle'} {number}{', muted' if own.muted else ''}"
-        typed = f"[{self.typed}|] = " if self.typed else ""
-        radius = f"Radius: {typed}{units.format_length(own.radius, context.scene)}"
-        place = sum(not each.muted for each in self.handles[:index])
-        if place >= len(self.tool.builder.reached):
-            return radius
-        reached = self.tool.builder.reached[place]
-        length = units.format_length(reached.distance, context.scene, precision=2)
-        return f"Line {reached.share:.1%} of the spacing beside handle {number} ({length})   {radius}"
-
     def end(self, context: bpy.types.Context) -> None:
         handle_marks.remove_marks(self.marks_drawn)
         super().end(context)
         self.area.tag_redraw()
-
-
-def choose_color(handle: LineHandle) -> handle_marks.Color:
-    """Returns the colour of a handle's dot and line."""
-    if handle.muted:
-        return handle_marks.GHOST_COLOR
-    return handle_marks.PIN_COLOR if handle.is_pin else handle_marks.LINE_COLOR

@@ -143,7 +143,7 @@ where a line was pulled to; Enter applies them all"""
             drag.typed = ""
             return {'RUNNING_MODAL'}
         if event.type != 'ESC' and (drag.held is not None or drag.sizing is not None) and drag.history:
-            drag.go_to(drag.history.pop())
+            drag.go_to(drag.history.drop())
             return {'RUNNING_MODAL'}
         return self.cancel_drag(context)
 

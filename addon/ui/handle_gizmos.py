@@ -6,7 +6,7 @@ What the mouse does, and the dots while it does so, are the operator's.
 import bpy
 from mathutils import Matrix, Vector
 
-from ..interactive import drag, line_drag
+from ..interactive import drag, handle_tracing
 from ..model.line_handle import Handles
 from ..model.refusal import Refusal
 
@@ -54,7 +54,7 @@ class VIEW3D_GGT_reflines_handles(bpy.types.GizmoGroup):
         self.placed = len(wanted)
         for (index, number), (gizmo, properties) in zip(wanted, self.dots, strict=False):
             gizmo.matrix_basis = Matrix.Translation(matrix @ Vector(handles[index].dots[number]))
-            gizmo.color = line_drag.choose_color(handles[index])[:3]
+            gizmo.color = handle_tracing.choose_color(handles[index])[:3]
             properties.taken, properties.draws = (index, number), draws
 
     def add_dot(self) -> tuple[bpy.types.Gizmo, bpy.types.OperatorProperties]:

@@ -54,7 +54,7 @@ MAY_IMPORT = {
     "ui.stripe_presets": set(),
     "ui.stripes_panel": {"ui.panels", "ui.rows", "ui.stripe_presets"},
     "ui.gizmos": {"bridge", "interactive.drag", "state.last_panels"},
-    "ui.handle_gizmos": {"model", "interactive.drag", "interactive.line_drag"},
+    "ui.handle_gizmos": {"model", "interactive.drag", "interactive.handle_tracing"},
     "ui.menus": set(),
     "ui.keymaps": set(),
     "ui.manual_links": set(),

@@ -14,7 +14,7 @@ STROKE = ((270, 290), (290, 294), (310, 299), (330, 302), (350, 299), (370, 294)
 
 def shown_line() -> np.ndarray:
     """The line of the last handle, in pixels of the window: #P x 2."""
-    return session().screen.find_pixels(session().trace_handle(len(session().handles) - 1)[-1].points)
+    return session().screen.find_pixels(session().tracing.trace_handle(len(session().handles) - 1)[-1].points)
 
 
 def places() -> list[tuple]:

@@ -63,7 +63,7 @@ def test_the_line_runs_parallel_to_the_selected_loop_and_keeps_its_place_under_t
     assert len(dots) == 9 and abs(measure_slope(inner) - SLOPE) < 0.01, (measure_slope(inner), dots)
     assert abs(measure_slope(old) - SLOPE) > 0.05  # it ran otherwise
     assert np.abs(inner[:, 1] - mouse[1] - SLOPE * (inner[:, 0] - mouse[0])).max() < 3.0, (dots, mouse)
-    line = session().screen.find_pixels(session().trace_handle(0)[-1].points)
+    line = session().screen.find_pixels(session().tracing.trace_handle(0)[-1].points)
     assert max(np.linalg.norm(line - dot, axis=1).min() for dot in dots) < 3.0, session().texts
     assert missed() < 0.02, session().texts
     yield from picture("follow_selected_edges")
