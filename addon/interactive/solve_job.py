@@ -153,7 +153,7 @@ class SolveJob:
         limit = choose_limit(start.patch, settings)
         largest = float(np.abs(follower.heights - start.optimizer.heights).max())
         if largest > limit:
-            follower.scale_move(limit / largest)
+            scale_to_limit(follower, largest, limit)
         return True
 
     async def read_lines(self) -> tuple[LineState, ...]:

@@ -135,14 +135,12 @@ where a line was pulled to; Enter applies them all"""
         return {'RUNNING_MODAL'}
 
     def take_back(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Ends a typed radius; takes back the pull or the radius that the mouse changes now, at the right button; else
-        the whole session.
+        """Takes back a typed radius; at the right button the pull, the stroke or the radius that the mouse changes now;
+        else the whole session.
         """
         drag = self.drag
-        if drag.typed:
-            drag.typed = ""
-            return {'RUNNING_MODAL'}
-        if event.type != 'ESC' and (drag.held is not None or drag.sizing is not None) and drag.history:
+        at_work = drag.held is not None or drag.sizing is not None or bool(drag.stroke)
+        if drag.history and (drag.typed or (at_work and event.type != 'ESC')):
             drag.go_to(drag.history.drop())
             return {'RUNNING_MODAL'}
         return self.cancel_drag(context)

@@ -27,7 +27,7 @@ class AutomaticSmooth:
 
 async def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
                        progress: "native.Progress | None" = None) -> Solution:
-    """Calls the native press once; raises the native module's errors. `progress` lets another thread watch and cancel.
+    """Calls the native press once; raises the native module's errors. `progress` lets the caller watch and cancel.
 
     All numbers are its own: scores are means over the lights, and the residual is how far the field of the light given
     strays from its smoothed self. After a refusal both are those of the start.

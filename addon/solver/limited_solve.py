@@ -14,7 +14,7 @@ from .live_optimizer import LiveOptimizer
 # Relative to the patch's diagonal: the same share of the length of what changes as in the automatic press of Smooth.
 # Tools change the lines of the whole region, and a panel that has moved by more is another panel.
 AUTOMATIC_LIMIT = 1.0 / 20.0
-MOST_BOUNDED = 100_000  # unknowns; a solve with bounds takes up to ten times as long as a free one, see tests/bench
+MOST_BOUNDED = 100_000  # unknowns; see `bounded_over_free` in tests/bench for what a solve with bounds takes
 MOST_BOUNDED_CAGE = 8_000  # a limit that 3,266 of 7,469 unknowns of a cage touch takes 30 s
 
 

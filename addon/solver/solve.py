@@ -43,7 +43,7 @@ async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: 
     """Builds the targets, minimizes from the optimizer's present heights, and measures the result. Faces that would
     turn far are held, and the rest is solved again.
 
-    `progress` lets another thread watch and cancel.
+    `progress` lets the caller watch and cancel.
     """
     solution = await solve_once(live, build_target, settings, progress)
     turned, held, count = turned_faces.find_turned(live.patch, solution.positions), np.zeros(len(live.patch.V), bool), 0

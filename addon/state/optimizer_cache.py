@@ -57,7 +57,7 @@ def solve_with_cache(patch: Patch, seen: View, settings: SolveSettings, build_ta
 
 async def await_solve_with_cache(patch: Patch, seen: View, settings: SolveSettings, build_target: BuildTarget,
                                  progress: "native.Progress | None" = None) -> Solution:
-    """Solves likewise, as a coroutine that another thread may watch and cancel."""
+    """Solves likewise, as a coroutine that the caller may watch and cancel."""
     with live_optimizer.convert_native_errors(patch):
         live = (take_optimizer(patch, seen, settings.border)
                 or await live_optimizer.build_optimizer(patch, seen, settings.border, progress))

@@ -136,6 +136,41 @@ def test_a_radius_is_typed(driver: window.Window) -> Steps:
     yield from taken_back(driver)
 
 
+def test_escape_takes_a_typed_radius_back_and_nothing_else(driver: window.Window) -> Steps:
+    yield from start(driver)
+    yield from pull(driver, MIDDLE, UP)
+    handles = session().handles
+    for key in ('ZERO', 'PERIOD', 'THREE'):
+        driver.key(key)
+        yield 0.1
+    assert session().handles != handles
+    driver.key('ESC')
+    yield from settled(driver)
+    assert session().handles == handles and session().typed == ""
+    yield from taken_back(driver)
+
+
+def test_the_right_button_takes_a_stroke_back_and_no_other_handle(driver: window.Window) -> Steps:
+    yield from start(driver)
+    yield from pull(driver, MIDDLE, UP)
+    handles = session().handles
+    driver.key('D')
+    yield from move(driver, *STROKE[0])
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield 0.1
+    for place in STROKE[1:5]:
+        yield from move(driver, *place)
+    assert session().stroke
+    driver.event('RIGHTMOUSE', 'PRESS')
+    yield 0.1
+    for button in ('RIGHTMOUSE', 'LEFTMOUSE'):
+        driver.event(button, 'RELEASE')
+        yield 0.1
+    yield from settled(driver)
+    assert session().handles == handles and not session().stroke
+    yield from taken_back(driver)
+
+
 def test_handles_come_back_with_the_file(driver: window.Window) -> Steps:
     """Saved, opened, and taken again: the session goes on with the shape before them."""
     before = yield from start(driver, cells=48)
@@ -164,4 +199,6 @@ def test_handles_come_back_with_the_file(driver: window.Window) -> Steps:
 window.run(test_a_stroke_becomes_the_course_of_the_line_at_its_start, test_a_dot_of_the_curve_is_moved_and_moved_back,
            test_a_short_stroke_draws_nothing_and_d_pulls_again, test_the_line_under_the_mouse_becomes_straight,
            test_the_line_under_the_mouse_follows_the_border, test_a_radius_is_typed,
+           test_escape_takes_a_typed_radius_back_and_nothing_else,
+           test_the_right_button_takes_a_stroke_back_and_no_other_handle,
            test_handles_come_back_with_the_file)

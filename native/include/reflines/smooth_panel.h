@@ -51,6 +51,7 @@ struct SmoothPanelReport {
   int mirrored = 0;                   // vertices of a symmetric panel; 0: it is not symmetric
   int held_faces = 0;                 // faces that would have turned by more than 45 degrees and were held instead
   bool longer_waves = false;          // that may be flaws, too, were left; see restoration/longer_waves.h
+  bool kept_flaws = false;            // flaws were found and left: without them some light would have become less even
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
   Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
@@ -76,8 +77,9 @@ struct SmoothPanelResult {
 //     where its rims make a light's lines less even, all moves are scaled down to it instead.
 // A result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far the
 // lines stray from their smoothed selves within one length, in degrees, root mean square over the region; the creases
-// are those that start and result have in common. Where it rises in a light by more than 1 %, nothing is applied; where
-// by less, the share of the moves with which it does not rise, if that is more than half.
+// are those that start and result have in common. Where it rises in a light by more than 1 %, nothing is applied,
+// nor where it rises at all and the solve did not converge or no light gained; where by less, the share of the moves
+// with which it does not rise, if that is more than half, and else all of them.
 // Throws InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options = {});

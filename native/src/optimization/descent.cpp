@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// The limit of trials of a line search: each at least halves the step, and after 40 it has vanished.
-
 }  // namespace
 
 Descent::Descent(Problem& problem, const MinimizerOptions& options, Progress* progress, Workspace& workspace)

@@ -14,7 +14,7 @@ constexpr double kArmijo = 1e-4;
 constexpr double kEnergyRounding = 1e-10;
 constexpr double kSlopeReduction = 0.9;
 
-constexpr int kMaxTrials = 40;
+constexpr int kMaxTrials = 40;  // each at least halves the step, which has vanished after them
 
 }  // namespace
 

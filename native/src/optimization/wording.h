@@ -1,4 +1,4 @@
-// The sentences and the input checks that both descents use.
+// The sentences and the input checks that all descents use.
 #pragma once
 
 #include <string>

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/parallel_failure.h"
+
 namespace reflines {
 namespace {
 
@@ -48,20 +50,23 @@ HessianAssembly::HessianAssembly(const Stencils& stencils, const StencilEntries&
   int* outer = H_.outerIndexPtr();
   std::vector<std::vector<int>> rows((unknown_count + kChunkSize - 1) /
                                      kChunkSize);  // of some neighbouring columns each
+  const auto find_rows = [&](int c, std::vector<int>& last) {
+    for (int i = c * kChunkSize; i < std::min((c + 1) * kChunkSize, unknown_count); ++i) {
+      const size_t before = rows[c].size();
+      append_rows(i, last, rows[c]);
+      outer[i + 1] = static_cast<int>(rows[c].size() - before);
+    }
+  };
   position_.resize(omp_get_max_threads());
+  ParallelFailure failure;
 #pragma omp parallel if (unknown_count > kWorthThreads)
   {
     std::vector<int>& last = position_[omp_get_thread_num()];
-    last.assign(unknown_count, -1);
+    failure.run([&] { last.assign(unknown_count, -1); });
 #pragma omp for schedule(dynamic)
-    for (int c = 0; c < static_cast<int>(rows.size()); ++c) {
-      for (int i = c * kChunkSize; i < std::min((c + 1) * kChunkSize, unknown_count); ++i) {
-        const size_t before = rows[c].size();
-        append_rows(i, last, rows[c]);
-        outer[i + 1] = static_cast<int>(rows[c].size() - before);
-      }
-    }
+    for (int c = 0; c < static_cast<int>(rows.size()); ++c) failure.run([&] { find_rows(c, last); });
   }
+  failure.rethrow();
   for (int i = 0; i < unknown_count; ++i) outer[i + 1] += outer[i];
   H_.resizeNonZeros(outer[unknown_count]);
   int* inner = H_.innerIndexPtr();
@@ -125,13 +130,15 @@ void HessianAssembly::add_vertex(int v, int unknown, const Energy::ElementHessia
 const SparseMatrix& HessianAssembly::assemble(const Energy::ElementHessians& elements, const Vector& diagonal) {
   const int n = vertices_.size();
   position_.resize(omp_get_max_threads());
+  ParallelFailure failure;
 #pragma omp parallel if (n > kWorthThreads)
   {
     std::vector<int>& position = position_[omp_get_thread_num()];
-    position.resize(n);
+    failure.run([&] { position.resize(n); });
 #pragma omp for schedule(static)
-    for (int i = 0; i < n; ++i) fill_column(i, elements, position);
+    for (int i = 0; i < n; ++i) failure.run([&] { fill_column(i, elements, position); });
   }
+  failure.rethrow();
   for (int v = 0; v < diagonal.size(); ++v) {
     if (column_[v] >= 0) H_.valuePtr()[H_.outerIndexPtr()[column_[v]]] += diagonal(v);
   }

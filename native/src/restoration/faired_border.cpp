@@ -66,7 +66,7 @@ SmoothPanelOptions join_options(const SmoothPanelOptions& options, const SmoothP
 
 // Tells that the whole border was held, after the sentence that comes first; see SmoothPanelReport::messages.
 void tell_held(SmoothPanelReport& report) {
-  const bool has_first = !report.applied || report.limited > 0;
+  const bool has_first = !report.applied || report.limited > 0 || report.largest_control_move == 0;
   report.messages.insert(report.messages.begin() + has_first,
                          "There are no faces beside the region by which its border could be faired: it was held.");
 }
@@ -109,7 +109,8 @@ SmoothPanelResult press_faired_border(const Positions& V, const Triangles& F, co
         "Faces at the border would have turned by more than 45 degrees, so nothing was changed; hold the border, or "
         "give a smaller limit.");
   }
-  SmoothPanelResult result = judge.judge_move(move.head(V.rows()), press.report(), press.limited().head(V.rows()));
+  SmoothPanelResult result = judge.judge_move(move.head(V.rows()), press.report(), press.limited().head(V.rows()),
+                                              press.held_triangles().head(F.rows()));
   if (held.any()) tell_partly_held(held.count(), result.report);
   return result;
 }

@@ -27,9 +27,10 @@ bool is_held_symmetrically(ControlledSurface& surface, const IndexVector& partne
   const Positions& C = surface.control_positions();
   const Vector z = surface.optimizer().frame().heights(C);
   const Mask free = surface.control_free();
+  const double most = kSymmetricHold * bounding_box_diagonal(C);
   for (Eigen::Index v = 0; v < partner.size(); ++v) {
     const bool moves = free(v) && free(partner(v));
-    if (!moves && std::abs(z(v) - z(partner(v))) > kSymmetricHold * bounding_box_diagonal(C)) return false;
+    if (!moves && std::abs(z(v) - z(partner(v))) > most) return false;
   }
   return partner.size() > 0;
 }

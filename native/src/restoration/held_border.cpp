@@ -29,24 +29,28 @@ ShapeOptions clamp_instead(const ShapeOptions& shape) {
 // Compares two numbers in degrees.
 bool is_less_even(double one, double other) { return one > std::max(kLessEven * other, other + kSeen); }
 
-// Finds the light in which a result is less even than another one; -1 where there is none.
-int find_less_even(const SmoothPanelReport& one, const SmoothPanelReport& other) {
+struct Strays {
+  double one, other;  // degrees
+};
+
+// Finds the first light in which a result is less even than another one, and by which numbers.
+std::optional<Strays> find_less_even(const SmoothPanelReport& one, const SmoothPanelReport& other) {
   for (size_t k = 0; k < one.score_after.size(); ++k) {
-    if (is_less_even(one.score_after[k].shift, other.score_after[k].shift) ||
-        is_less_even(one.unevenness_after[k], other.unevenness_after[k])) {
-      return static_cast<int>(k);
+    for (const Strays strays : {Strays{one.score_after[k].shift, other.score_after[k].shift},
+                                Strays{one.unevenness_after[k], other.unevenness_after[k]}}) {
+      if (is_less_even(strays.one, strays.other)) return strays;
     }
   }
-  return -1;
+  return std::nullopt;
 }
 
-std::string explain_clamped(const SmoothPanelReport& continued, const SmoothPanelReport& clamped, int light) {
+std::string explain_clamped(bool continued_applied, const std::optional<Strays>& strays) {
   const std::string start = "The border is only clamped: with its curvature continued, ";
-  if (!continued.applied) return start + "nothing could have been changed.";
+  if (!continued_applied || !strays) return start + "nothing could have been changed.";
   char text[160];
   std::snprintf(text, sizeof text,
                 "lines would have ended less even in one light (they stray by %.3g instead of %.3g degrees).",
-                continued.score_after[light].shift, clamped.score_after[light].shift);
+                strays->one, strays->other);
   return start + text;
 }
 
@@ -76,9 +80,9 @@ SmoothPanelResult press_held_border(const Positions& V, const Triangles& F, cons
         "The border is only clamped: with its curvature continued, the solver breaks down.");
     return clamped;
   }
-  const int light = find_less_even(result->report, clamped.report);
-  if (!clamped.report.applied || (result->report.applied && light < 0)) return *result;
-  clamped.report.messages.push_back(explain_clamped(result->report, clamped.report, light));
+  const std::optional<Strays> strays = find_less_even(result->report, clamped.report);
+  if (!clamped.report.applied || (result->report.applied && !strays)) return *result;
+  clamped.report.messages.push_back(explain_clamped(result->report.applied, strays));
   return clamped;
 }
 

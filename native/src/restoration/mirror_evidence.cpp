@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/parallel_failure.h"
 #include "geometry/cage_symmetry.h"
 #include "restoration/designed_difference.h"
 #include "restoration/disk_mean.h"
@@ -64,8 +65,10 @@ class Roughness {
 
   Vector of(const Vector& z) const {
     Vector result(z.size());
+    ParallelFailure failure;
 #pragma omp parallel for schedule(dynamic, 256)
-    for (Eigen::Index v = 0; v < z.size(); ++v) result(v) = at(static_cast<int>(v), z);
+    for (Eigen::Index v = 0; v < z.size(); ++v) failure.run([&] { result(v) = at(static_cast<int>(v), z); });
+    failure.rethrow();
     return result;
   }
 

@@ -26,12 +26,12 @@ std::string explain_worse_light(double before, double after) {
          format_degrees(after) + " degrees). Select less, or give a Length.";
 }
 
-std::vector<std::string> describe_result(const SmoothPanelReport& report, bool found_flaws) {
+std::vector<std::string> describe_result(const SmoothPanelReport& report) {
   std::vector<std::string> result;
   if (report.limited > 0) {
     result.push_back("The limit of the move holds back " + count_of(report.limited, "vertex", "vertices") +
                      "; what is deeper is left.");
-  } else if (report.largest_control_move == 0 && found_flaws) {
+  } else if (report.largest_control_move == 0 && report.kept_flaws) {
     result.emplace_back(
         "Nothing was changed: without what may be flaws, the lines would have become less even in one light. Select "
         "less, or give a Length.");

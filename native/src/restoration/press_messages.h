@@ -11,8 +11,7 @@ namespace reflines {
 std::string explain_turned_faces();
 std::string explain_worse_light(double before, double after);  // degrees of unevenness
 
-// Returns the sentences for a result that was applied, the most important first. `found_flaws` tells that there were
-// some, though none may be taken out.
-std::vector<std::string> describe_result(const SmoothPanelReport& report, bool found_flaws);
+// Returns the sentences for a result that was applied, the most important first.
+std::vector<std::string> describe_result(const SmoothPanelReport& report);
 
 }  // namespace reflines

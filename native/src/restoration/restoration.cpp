@@ -62,7 +62,8 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
                 kLineSmoother),
       evenness_(surface, smoother_, start_, report_.length),
       range_(report_.limit, options.limit_share, surface.control_positions().rows()),
-      search_{.halves = options.symmetric} {}
+      search_{.halves = options.symmetric},
+      held_triangles_(Mask::Constant(surface.triangles().rows(), false)) {}
 
 Vector Restoration::find_move() {
   evenness_.find_creases(progress());
@@ -73,17 +74,20 @@ Vector Restoration::find_move() {
   }
   // A shape without the halves' differences, or without what looks like bumps, can be a worse one: of an egg-box of
   // waves that is symmetric but for its phase, every other wave went, and the press was refused.
-  if (find_worse_light() >= 0 && report_.mirrored > 0) {
-    search_.halves = false;
-    flawless_.reset();
-    move = attempt();
-  }
+  const FlawSearch found{.halves = report_.mirrored > 0, .bumps = report_.bumps > 0};
+  if (find_worse_light() >= 0 && found.halves) move = attempt_with({.halves = false, .bumps = search_.bumps});
   if (find_worse_light() >= 0 && report_.bumps > 0) {
-    search_.bumps = false;
-    flawless_.reset();
-    move = attempt();
+    move = attempt_with({.halves = found.halves, .bumps = false});
+    if (find_worse_light() >= 0 && found.halves) move = attempt_with({.halves = false, .bumps = false});
   }
   return find_worse_light() < 0 ? spare_every_light(move) : move;
+}
+
+Vector Restoration::attempt_with(const FlawSearch& search) {
+  search_ = search;
+  flawless_.reset();
+  report_.kept_flaws = true;
+  return attempt();
 }
 
 // Returns the largest share of the move with which no light is visibly less even than at the start, where that is most
@@ -103,12 +107,14 @@ Vector Restoration::spare_every_light(const Vector& move) {
 
 bool Restoration::turns_faces(const Vector& move) const { return find_turned_by(move).any(); }
 
-SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited) {
+SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited,
+                                          const Mask& held) {
   report_.solve = found.solve;
   report_.bumps = found.bumps;
   report_.mirrored = found.mirrored;
-  report_.held_faces = found.held_faces;
+  report_.kept_flaws = found.kept_flaws;
   report_.limited = static_cast<int>(limited.count());
+  report_.held_faces = surface_.optimizer().count_faces(held);
   evenness_.find_creases(progress());
   measure(move);
   return judge(move);
@@ -121,7 +127,8 @@ Vector Restoration::attempt() {
   for (int retry = 0; retry < kRetries; ++retry) {
     const Mask turned = find_turned_by(move);
     if (!turned.any()) break;
-    report_.held_faces += surface_.optimizer().count_faces(turned);
+    held_triangles_ = held_triangles_ || turned;
+    report_.held_faces = surface_.optimizer().count_faces(held_triangles_);
     surface_.hold(find_corners(surface_.triangles(), turned, start_.size()));
     flawless_.reset();
     move = restore();
@@ -206,10 +213,8 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.largest_move = surface_.surface_move(move).cwiseAbs().maxCoeff();
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
   // With twice the length clean bonnets and roofs, too, would be told to have waves that are longer.
-  if (report_.length <= kAutomaticLength * bounding_box_diagonal(surface_.positions()))
-    report_.longer_waves = evenness_.has_longer_waves();
-  const bool dropped_flaws = !search_.bumps || search_.halves != options_.symmetric;
-  report_.messages = describe_result(report_, dropped_flaws);
+  if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = evenness_.has_longer_waves();
+  report_.messages = describe_result(report_);
   return {move_along(axis_, surface_.control_positions(), move), report_};
 }
 

@@ -35,12 +35,16 @@ class Restoration {
   const Mask& limited() const { return limited_; }             // #C: those that wanted to go beyond the limit
   bool turns_faces(const Vector& move) const;  // a move of the control vertices, by more than 45 degrees
 
-  // Judges a move of the control vertices (#C) that was found on a larger surface, with its report and those of them
-  // that its limit holds back.
-  SmoothPanelResult judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited);
+  const Mask& held_triangles() const { return held_triangles_; }  // #F: those that would have turned too far
+
+  // Judges a move of the control vertices (#C) that was found on a larger surface, with its report, those of them that
+  // its limit holds back, and the triangles (#F) that it held.
+  SmoothPanelResult judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited,
+                               const Mask& held);
 
  private:
   Progress* progress() const { return options_.progress.get(); }
+  Vector attempt_with(const FlawSearch& search);
   Vector attempt();
   Vector restore();
   const FlawlessShape& find_flawless();
@@ -68,6 +72,7 @@ class Restoration {
   std::optional<FlawlessShape> flawless_;  // none once it holds no more
   Vector unlimited_;                       // #C, the move of the last solve
   Mask limited_;                           // #C, see limited()
+  Mask held_triangles_;                    // #F, see held_triangles()
 };
 
 }  // namespace reflines

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel_failure.h"
 #include "optimization/linear/elimination_path.h"
 #include "optimization/linear/multifrontal_cholesky.h"
 #include "optimization/linear/page_prefault.h"
@@ -230,20 +231,24 @@ class LinearSolver::Cholmod final : public Backend {
     const EliminationPaths paths(view_factor());
     const std::vector<int> place = places();
     std::vector<SparseColumns> result((B.cols() + kColumnsAtOnce - 1) / kColumnsAtOnce);
+    const auto solve_some = [&](int k, std::vector<int>& scratch) {
+      const int first = k * kColumnsAtOnce, count = std::min(kColumnsAtOnce, static_cast<int>(B.cols()) - first);
+      std::vector<EliminationPaths::Entry> entries;
+      for (int j = 0; j < count; ++j) {
+        for (SparseMatrix::InnerIterator entry(B, first + j); entry; ++entry)
+          entries.push_back({place[entry.row()], j, entry.value()});
+      }
+      result[k] = paths.solve(entries, count, scratch);
+    };
+    ParallelFailure failure;
 #pragma omp parallel if (result.size() > 1)
     {
-      std::vector<int> scratch(place.size());
+      std::vector<int> scratch;
+      failure.run([&] { scratch.resize(place.size()); });
 #pragma omp for schedule(dynamic)
-      for (int k = 0; k < static_cast<int>(result.size()); ++k) {
-        const int first = k * kColumnsAtOnce, count = std::min(kColumnsAtOnce, static_cast<int>(B.cols()) - first);
-        std::vector<EliminationPaths::Entry> entries;
-        for (int j = 0; j < count; ++j) {
-          for (SparseMatrix::InnerIterator entry(B, first + j); entry; ++entry)
-            entries.push_back({place[entry.row()], j, entry.value()});
-        }
-        result[k] = paths.solve(entries, count, scratch);
-      }
+      for (int k = 0; k < static_cast<int>(result.size()); ++k) failure.run([&] { solve_some(k, scratch); });
     }
+    failure.rethrow();
     return result;
   }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <new>
+
+#include "base/parallel_failure.h"
 
 namespace reflines {
 
@@ -52,28 +53,22 @@ void MultifrontalCholesky::copy_values(const double* values) {
 
 bool MultifrontalCholesky::factorize(const double* values, double* factor) {
   factor_.value = factor;
-  failure_ = nullptr;
   copy_values(values);
   bool definite = true;
+  ParallelFailure failure;
 #pragma omp parallel for schedule(dynamic) reduction(&& : definite) if (!tree_.above.empty())
   for (int t = 0; t < static_cast<int>(tree_.subtrees.size()); ++t)
-    definite = factorize_subtree(tree_.subtrees[t]) && definite;
-  if (failure_ != nullptr) std::rethrow_exception(failure_);
+    failure.run([&] { definite = factorize_subtree(tree_.subtrees[t]) && definite; });
+  failure.rethrow();
   for (const int s : tree_.above) definite = definite && factorize_supernode(s, true);
   return definite;
 }
 
 bool MultifrontalCholesky::factorize_subtree(const EliminationSubtrees::Range& subtree) {
-  try {
-    for (int s = subtree.begin; s < subtree.end; ++s) {
-      if (!factorize_supernode(s, false)) return false;
-    }
-    return true;
-  } catch (const std::bad_alloc&) {
-#pragma omp critical
-    failure_ = std::current_exception();
-    return false;
+  for (int s = subtree.begin; s < subtree.end; ++s) {
+    if (!factorize_supernode(s, false)) return false;
   }
+  return true;
 }
 
 bool MultifrontalCholesky::factorize_supernode(int s, bool split) {

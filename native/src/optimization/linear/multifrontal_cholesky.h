@@ -1,7 +1,6 @@
 // Numeric Cholesky factorization by the multifrontal method, on all cores.
 #pragma once
 
-#include <exception>
 #include <memory>
 #include <vector>
 
@@ -45,7 +44,6 @@ class MultifrontalCholesky {
   std::vector<std::vector<int>> children_;          // #supernodes
   std::vector<int> target_;                         // #entries: their places in the factor
   std::vector<std::unique_ptr<double[]>> updates_;  // #supernodes: until the parent has taken them
-  std::exception_ptr failure_;                      // of a subtree: none may leave OpenMP's loop
 };
 
 }  // namespace reflines
