@@ -20,9 +20,6 @@ from .dragged_tool import DraggedTool
 
 BESIDE_STRAIGHT = 0.01  # weight of crossed lines; see native/include/reflines/kept_target.h
 
-# In diagonals of the region: two of the press's automatic lengths, and what the native press takes in ends there.
-FAIR_REACH = 0.15
-
 
 class REFLINES_OT_smooth(DraggedTool, SmoothSettings, bpy.types.Operator):
     """Move the selected faces' vertices along the view so that their lines run smoothly: flaws go, design stays;
@@ -77,8 +74,8 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
                                self.fair_border)
 
     def choose_reach(self) -> float:
-        fairs = self.fair_border and self.choose_press() is not None
-        return FAIR_REACH * self.flaw_size if fairs else 0.0
+        press = self.choose_press()
+        return press.choose_reach() if press is not None else 0.0
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
         """Records a solution. What the length 0 stands for is known after an automatic press only."""

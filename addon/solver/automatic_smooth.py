@@ -12,6 +12,7 @@ from . import live_optimizer, remarks
 from .formulation import Formulation, choose_formulation
 
 MOST_NOTES = 2
+REACH_MARGIN = 1.05  # of what the native press takes in: its diagonal is that of the faces that it can use
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,11 @@ class AutomaticSmooth:
     limit: float | None = None  # largest move along the view, world units; None: automatic
     flaw_size: float = 1.0      # of the automatic length
     fair_border: bool = False   # the border moves, too; see native/include/reflines/smooth_panel.h
+
+    def choose_reach(self) -> float:
+        """Returns how far beside the region faces are needed, in diagonals of the region."""
+        within = native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * self.flaw_size
+        return REACH_MARGIN * within if self.fair_border else 0.0
 
 
 async def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,

@@ -11,18 +11,16 @@ from ..native_call import call
 from .formulation import choose_formulation
 from .live_optimizer import LiveOptimizer
 
-# Relative to the patch's diagonal: the same share of the length of what changes as in the automatic press of Smooth.
-# Tools change the lines of the whole region, and a panel that has moved by more is another panel.
-AUTOMATIC_LIMIT = 1.0 / 20.0
-MOST_BOUNDED = 100_000  # unknowns; see `bounded_over_free` in tests/bench for what a solve with bounds takes
 MOST_BOUNDED_CAGE = 8_000  # a limit that 3,266 of 7,469 unknowns of a cage touch takes 30 s
 
 
 def choose_limit(patch: Patch, settings: SolveSettings) -> float:
-    """Returns the largest move: the given one, or for 0 a fraction of the length of what changes."""
+    """Returns the largest move: the given one, or for 0 a share of the length of what changes, as in the automatic
+    press of Smooth. Tools change the lines of the whole region, and a panel that has moved by more is another panel.
+    """
     if not settings.limit >= 0.0:  # a changed file may hold any number
         raise Refusal(f"{patch.name}: the limit {settings.limit} is no length: set it to 0, automatic, or to a length")
-    return settings.limit or AUTOMATIC_LIMIT * (settings.limit_length or patch.diagonal)
+    return settings.limit or native.reflines.AUTOMATIC_LIMIT * (settings.limit_length or patch.diagonal)
 
 
 async def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]", limit: float,
@@ -47,7 +45,7 @@ async def solve_within_limit(live: LiveOptimizer, targets: "list[native.Target]"
 
 def choose_most_bounded(patch: Patch) -> int:
     """Returns the largest number of unknowns that are solved with bounds."""
-    return MOST_BOUNDED_CAGE if isinstance(patch, CagePatch) else MOST_BOUNDED
+    return MOST_BOUNDED_CAGE if isinstance(patch, CagePatch) else native.reflines.MOST_BOUNDED
 
 
 async def solve_within_shares(live: LiveOptimizer, targets: "list[native.Target]", ranges: np.ndarray,

@@ -17,6 +17,11 @@ Boundary = Literal["all", "preserve_corners"]
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
 
+AUTOMATIC_LENGTH: float  # of flaws, relative to the diagonal of a panel
+AUTOMATIC_LIMIT: float   # of the moves, relative to that length
+FAIR_REACH: float        # lengths from a panel that a press with a fair border takes in
+MOST_BOUNDED: int        # free vertices up to which a press solves for a shape within its limit
+
 class InvalidInput(ValueError):
     """Raised for arrays that cannot be used. The text is one sentence: what, how many, what to do."""
 

@@ -115,6 +115,10 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("region", &Told::region)
       .def_readonly("applied", &Told::applied)
       .def_readonly("messages", &Told::messages);
+  module.attr("AUTOMATIC_LENGTH") = kAutomaticLength;
+  module.attr("AUTOMATIC_LIMIT") = kAutomaticLimit;
+  module.attr("FAIR_REACH") = kFairReach;
+  module.attr("MOST_BOUNDED") = kMostBounded;
   module.def("smooth_panel", &smooth_mesh, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
              py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
              py::arg("partner") = py::none(), py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),

@@ -2,13 +2,9 @@
 
 #include <utility>
 
+#include "reflines/smooth_panel.h"
+
 namespace reflines {
-namespace {
-
-constexpr int kMostLimited = 100000;  // free vertices; see can_limit
-
-}  // namespace
-
 MeshSurface::MeshSurface(const Positions& V, const Triangles& F, const Vector3& view, std::vector<Vector3> families,
                          ShapeOptions shape)
     : V_(V), F_(F), view_(view), families_(std::move(families)), shape_(std::move(shape)) {
@@ -27,7 +23,7 @@ Vector MeshSurface::control_move() const {
   return move;
 }
 
-bool MeshSurface::can_limit() const { return optimizer_->region().free <= kMostLimited; }
+bool MeshSurface::can_limit() const { return optimizer_->region().free <= kMostBounded; }
 
 void MeshSurface::hold(const Mask& vertices) {
   shape_.held = shape_.held.size() > 0 ? Mask(shape_.held || vertices) : vertices;

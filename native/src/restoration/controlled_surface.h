@@ -25,9 +25,8 @@ class ControlledSurface {
   // Returns the last solve's moves of the control vertices along the view (#C); exactly 0 for those that did not move.
   virtual Vector control_move() const = 0;
 
-  // Returns true where solves can be limited at a cost worth waiting for: presses of 90,000 vertices that reach the
-  // limit take 1.1 to 2.3 times as long as free ones. Those of cages have a limit for their surface, not for the
-  // control vertices.
+  // Returns true where solves can be limited at a cost worth waiting for, see kMostBounded. Those of cages have a limit
+  // for their surface, not for the control vertices.
   virtual bool can_limit() const = 0;
 
   // Returns true where each vertex of the surface is a control vertex.

@@ -12,10 +12,6 @@
 namespace reflines {
 namespace {
 
-// Lengths from the region that the press takes in. Of 1, 2 and 3.5, with flaws that run across the borders of three
-// hoods, 0.37 of ripples and 0.44 of noise are left in the region with each, and 0.63 of dents.
-constexpr double kReach = 2.0;
-
 template <typename Values>
 Values append(const Values& values, Eigen::Index count, typename Values::Scalar filling) {
   Values result = Values::Constant(values.size() + count, filling);
@@ -90,7 +86,7 @@ SmoothPanelResult press_faired_border(const Positions& V, const Triangles& F, co
   const Mask movable = region.optimizer().free();
   const Mask wanted = movable && options.fair_border && find_border_vertices(F, static_cast<int>(V.rows()));
   if (!wanted.any()) return press_held_border(V, F, view, families, shape, options);
-  const JoinedMesh joined = join_surroundings(V, F, shape.around, kReach * judge.report().length);
+  const JoinedMesh joined = join_surroundings(V, F, shape.around, kFairReach * judge.report().length);
   const ShapeOptions joined_shape = join_shape(own, movable, joined, F.rows());
   MeshSurface surface(joined.V, joined.F, view, families, joined_shape);
   const Mask held = wanted && !surface.optimizer().free().head(V.rows());

@@ -14,15 +14,6 @@
 namespace reflines {
 namespace {
 
-// Length of flaws relative to the diagonal. Of 1/8, 1/10, 1/12, 1/14 and 1/16 the shorter ones harm clean panels less
-// (0.26 to 0.17 degrees in the median) and ripples and noise go as well; dents are wider, and are looked for by
-// themselves.
-constexpr double kAutomaticLength = 1.0 / 14.0;
-
-// Limit relative to the length: dents of 6 per mille of the length are taken out whole, and no design is moved by more
-// than an artist may overlook.
-constexpr double kAutomaticLimit = 1.0 / 20.0;
-
 // The jump was chosen by measurement. Of 4, 5, 6 and 7 medians, on four panels: 0.16, 0.17, 0.17, 0.18 degrees of harm,
 // 0.43, 0.40, 0.39, 0.38 left of noise, and 0.34 of ripples.
 constexpr SmootherOptions kLineSmoother = {.crease_jump = 6.0, .rounds = 6};
