@@ -11,7 +11,9 @@ from types import ModuleType
 import numpy as np
 import pytest
 import reflines
-from sample_panels import grid
+from sample_panels import LINE as PANEL_LINE
+from sample_panels import VIEW as PANEL_VIEW
+from sample_panels import grid, panel, rippled
 
 VIEW, LINES = np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0])
 LIGHTS = (LINES, np.array([1.0, 0.0, 0.0]))
@@ -293,6 +295,29 @@ def test_a_design_of_folds_is_left_alone(cells: int) -> None:
     pressed, report = press(positions, triangles, symmetric=False)
     assert np.array_equal(pressed, positions)
     assert report.messages[0].startswith("No noise, ripples or dents were found")
+
+
+def test_a_weaker_press_moves_less_but_never_nothing() -> None:
+    """A part of the move can be seen before it has gained enough: strengths of 0.1 to 0.2, and limits likewise, moved
+    nothing, with the sentence that no flaws were found."""
+    V, F = panel(24)
+    seen = {"view_direction": PANEL_VIEW, "line_direction": PANEL_LINE}
+    waves = rippled(V, amplitude=0.004, wavelength=0.15)
+    moves = [reflines.smooth_panel(waves, F, **seen, strength=strength)[1].largest_move
+             for strength in (0.05, 0.08, 0.1, 0.12, 0.15, 0.2, 0.4, 1.0)]
+    assert (np.diff(moves) > 0.0).all() and moves[0] > 0.0, moves
+    waves = rippled(V, amplitude=0.002, wavelength=0.15)
+    for limit in (7.95e-5, 1e-4, 1.26e-4):
+        _, report = reflines.smooth_panel(waves, F, **seen, limit=limit)
+        assert report.largest_move == pytest.approx(limit) and report.limited > 0, report.messages
+
+
+def test_a_strength_of_zero_says_so() -> None:
+    V, F = panel(24)
+    waves = rippled(V, amplitude=0.002, wavelength=0.15)
+    positions, report = reflines.smooth_panel(waves, F, view_direction=PANEL_VIEW, line_direction=PANEL_LINE,
+                                              strength=0.0)
+    assert np.array_equal(positions, waves) and report.messages == ["The strength is 0: nothing was changed."]
 
 
 @pytest.mark.parametrize("cells", [24, 48])

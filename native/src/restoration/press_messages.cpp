@@ -5,10 +5,17 @@
 namespace reflines {
 namespace {
 
-std::string format_degrees(double value) {
+std::string format_degrees(double value, int digits) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
+}
+
+// Formats two numbers with three digits, or with as many as tell one from the other.
+std::string format_change(double before, double after) {
+  int digits = 3;
+  while (digits < 17 && format_degrees(before, digits) == format_degrees(after, digits)) ++digits;
+  return format_degrees(before, digits) + " to " + format_degrees(after, digits);
 }
 
 std::string count_of(int count, const std::string& one, const std::string& many) {
@@ -22,8 +29,8 @@ std::string explain_turned_faces() {
 }
 
 std::string explain_worse_light(double before, double after) {
-  return "Nothing was changed: the lines would have become less even in one light (" + format_degrees(before) + " to " +
-         format_degrees(after) + " degrees). Select less, or give a Length.";
+  return "Nothing was changed: the lines would have become less even in one light (" + format_change(before, after) +
+         " degrees). Select less, or give a Length.";
 }
 
 std::vector<std::string> describe_result(const SmoothPanelReport& report) {

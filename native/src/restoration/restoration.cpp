@@ -59,7 +59,7 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
 Vector Restoration::find_move() {
   evenness_.find_creases(progress());
   Vector move = attempt();
-  if (!evenness_.has_fallen() && evenness_.measure_change(move) > kVisible) {
+  if (!evenness_.has_fallen() && evenness_.measure_change(move) > kVisible && !whole_move_pays(move)) {
     use_smoothing_ = false;
     move = attempt();
   }
@@ -72,6 +72,16 @@ Vector Restoration::find_move() {
     if (find_worse_light() >= 0 && found.halves) move = attempt_with({.halves = false, .bumps = false});
   }
   return find_worse_light() < 0 ? spare_every_light(move) : move;
+}
+
+// Returns whether noise or waves fall by the whole move, of which strength and limit left `move`: a part of it can be
+// seen before it has gained enough, and strengths of 0.1 to 0.2 moved nothing where 0.05 and 0.3 did.
+bool Restoration::whole_move_pays(const Vector& move) {
+  if (report_.limited == 0 && options_.strength == 1) return false;
+  measure(unlimited_);
+  const bool pays = evenness_.has_fallen();
+  measure(move);
+  return pays;
 }
 
 Vector Restoration::attempt_with(const FlawSearch& search) {
@@ -205,7 +215,9 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
   // With twice the length clean bonnets and roofs, too, would be told to have waves that are longer.
   if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = evenness_.has_longer_waves();
-  report_.messages = describe_result(report_);
+  report_.messages = options_.strength > 0 || report_.limited > 0
+                         ? describe_result(report_)
+                         : std::vector<std::string>{"The strength is 0: nothing was changed."};
   return {move_along(axis_, surface_.control_positions(), move), report_};
 }
 

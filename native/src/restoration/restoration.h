@@ -44,6 +44,7 @@ class Restoration {
 
  private:
   Progress* progress() const { return options_.progress.get(); }
+  bool whole_move_pays(const Vector& move);
   Vector attempt_with(const FlawSearch& search);
   Vector attempt();
   Vector restore();
