@@ -1,7 +1,7 @@
 """The border's condition by segment: a vertex attribute, so that undo, save and edits keep it.
 
-It is an integer: 0 where the tool's own border holds, else one more than the native code. Blender fills new vertices
-with zeros.
+It is an integer: 0 where the tool's own border holds, else one more than the native code. A vertex with which Blender
+cuts an edge gets the mean of the ends' integers: that of different borders is another border, or none of its own.
 """
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -95,14 +95,18 @@ def join_with_image(mirror: Mirror, local: np.ndarray, F: np.ndarray) -> tuple[n
 
 def restore_symmetry(mirror: Mirror, new: np.ndarray, old: np.ndarray) -> np.ndarray:
     """Removes rounding errors from new positions (#V x 3, object space): the seam keeps its distance from the plane,
-    and the second of each pair becomes the image of the first.
+    and the second of each pair becomes the image of the first. A region that is symmetric in itself may have been
+    solved without symmetry, its seam moved along a view beside the plane: that is no rounding, and stays.
     """
     if mirror.axis < 0:
         return new
-    new[mirror.seam, mirror.axis] = old[mirror.seam, mirror.axis]
+    rounding = SYMMETRY_TOLERANCE * np.ptp(new, axis=0).max()
+    away = np.abs(new[mirror.seam, mirror.axis] - old[mirror.seam, mirror.axis])
+    if mirror.image or away.max(initial=0.0) <= rounding:
+        new[mirror.seam, mirror.axis] = old[mirror.seam, mirror.axis]
     second = np.flatnonzero((mirror.partner >= 0) & (mirror.partner < np.arange(len(new))))
     copied = new[mirror.partner[second]] * mirror.sign.astype(new.dtype)
-    if np.abs(copied - new[second]).max(initial=0.0) <= SYMMETRY_TOLERANCE * np.ptp(new, axis=0).max():
+    if np.abs(copied - new[second]).max(initial=0.0) <= rounding:
         new[second] = copied
     return new
 

@@ -159,6 +159,26 @@ def test_mirror_x_says_why_a_result_is_not_symmetric() -> None:
     assert "have no mirror image in it" in ob.reflection_lines.report.notes
 
 
+@pytest.mark.parametrize("tool", ["untwist", "smooth"])
+def test_solved_without_symmetry_the_middle_moves_along_the_view(tool) -> None:
+    """The middle got its old x back: 0.017 beside the view for a move of 0.121."""
+    ob = scenes.panel("Aslant")
+    ob.data.use_mirror_x = True
+    bpy.ops.reflines.add_view_camera(direction=(0.25, 0.0, 1.0))
+    bpy.ops.reflines.add_light_direction(direction=(1.0, 0.2, 0.1))
+    scenes.edit_inner(ob)
+    before = scenes.positions(ob).astype(float)
+    if tool == "untwist":
+        bpy.ops.reflines.untwist(angle=0.3)
+    else:
+        scenes.smooth(length=0.3)
+    move = scenes.positions(ob).astype(float) - before
+    view = np.array([0.25, 0.0, 1.0]) / np.hypot(0.25, 1.0)
+    beside = np.linalg.norm(move - np.outer(move @ view, view), axis=1)
+    assert np.linalg.norm(move, axis=1)[before[:, 0] == 0.0].max() > 1e-4
+    assert beside.max() < 1e-6
+
+
 def test_a_cage_with_mirror_x_stays_symmetric() -> None:
     ob = scenes.panel(height=dented, cells=CELLS)
     ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2

@@ -312,6 +312,17 @@ def test_a_weaker_press_moves_less_but_never_nothing() -> None:
         assert report.largest_move == pytest.approx(limit) and report.limited > 0, report.messages
 
 
+@pytest.mark.parametrize("away", [0.0, 1000.0])
+def test_no_bit_of_a_press_is_beyond_its_limit(away: float) -> None:
+    """Rounding the positions took 13 and 59 vertices beyond it, by 1.6e-17 and 2.8e-15."""
+    V, F = panel(24)
+    waves = rippled(V, amplitude=0.002, wavelength=0.15) + away
+    positions, report = reflines.smooth_panel(waves, F, view_direction=PANEL_VIEW, line_direction=PANEL_LINE,
+                                              limit=1e-3)
+    assert report.limited > 10
+    assert np.linalg.norm(positions - waves, axis=1).max() <= 1e-3
+
+
 def test_a_strength_of_zero_says_so() -> None:
     V, F = panel(24)
     waves = rippled(V, amplitude=0.002, wavelength=0.15)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/limited_move.h"
+
 namespace reflines {
 namespace {
 
@@ -51,6 +53,14 @@ double ControlRange::share_within(const Vector& move) const {
     if (move(c) != 0) share = std::min(share, end_towards(c, move(c)) / std::abs(move(c)));
   }
   return share;
+}
+
+Positions ControlRange::apply(const Positions& C, const Vector3& view, const Vector& move) const {
+  Positions result = C;
+  for (Eigen::Index c = 0; c < move.size(); ++c) {
+    if (move(c) != 0) result.row(c) = move_point(C.row(c), move(c), view, {limits_.lowest(c), limits_.highest(c)});
+  }
+  return result;
 }
 
 }  // namespace reflines

@@ -28,6 +28,10 @@ class ControlRange {
   // Returns the largest share of a move that lies within the range everywhere.
   double share_within(const Vector& move) const;
 
+  // Returns the control vertices C (#C x 3) after a move (#C) along `view`, rounded so that none is beyond its range by
+  // a bit; those that do not move keep their bits.
+  Positions apply(const Positions& C, const Vector3& view, const Vector& move) const;
+
  private:
   double end_towards(Eigen::Index control, double move) const;
 

@@ -11,8 +11,8 @@
 
 namespace reflines {
 
-// Unevenness is how far the field of the lines is from itself smoothed up to the
-// length of flaws, and up to the creases that start and result have in common.
+// Unevenness is how far the field of the lines is from itself smoothed up to the length of flaws, and up to the creases
+// that start and result have in common.
 class LineEvenness {
  public:
   // Keeps references to all but `start`, the heights (#V) of the surface.

@@ -24,7 +24,7 @@ constexpr SmootherOptions kLineSmoother = {.crease_jump = 6.0, .rounds = 6};
 // stay too (0.9 instead of 0.65 left).
 constexpr double kVisible = 0.3;
 
-// The share of the moves that is worth more than the refusal of all.
+// A light is spared by a share of the move where that is most of it; else the whole move is made.
 constexpr double kLeastShare = 0.5;
 
 constexpr int kRetries = 3;
@@ -218,7 +218,7 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.messages = options_.strength > 0 || report_.limited > 0
                          ? describe_result(report_)
                          : std::vector<std::string>{"The strength is 0: nothing was changed."};
-  return {move_along(axis_, surface_.control_positions(), move), report_};
+  return {range_.apply(surface_.control_positions(), axis_, move), report_};
 }
 
 SmoothPanelResult Restoration::refuse(const std::string& reason) {

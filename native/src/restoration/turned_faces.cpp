@@ -12,16 +12,8 @@ constexpr double kTurned = std::numbers::pi / 4;
 
 }  // namespace
 
-Positions move_along(const Vector3& axis, const Positions& V, const Vector& move) {
-  Positions result = V;
-  for (Eigen::Index v = 0; v < V.rows(); ++v) {
-    if (move(v) != 0) result.row(v) += move(v) * axis.transpose();
-  }
-  return result;
-}
-
 Mask find_turned(const Vector3& axis, const Positions& V, const Triangles& F, const Vector& move) {
-  const Positions before = triangle_normals(V, F), after = triangle_normals(move_along(axis, V, move), F);
+  const Positions before = triangle_normals(V, F), after = triangle_normals(V + move * axis.transpose(), F);
   Mask result(F.rows());
   for (Eigen::Index t = 0; t < F.rows(); ++t)
     result(t) = before.row(t).dot(after.row(t)) < std::cos(kTurned) * before.row(t).norm();

@@ -5,9 +5,6 @@
 
 namespace reflines {
 
-// Returns positions (#V x 3) after moves (#V) along the axis; those that do not move keep their bits.
-Positions move_along(const Vector3& axis, const Positions& V, const Vector& move);
-
 // Returns the triangles (#F) whose normals moves (#V) along the axis turn by more than 45 degrees.
 Mask find_turned(const Vector3& axis, const Positions& V, const Triangles& F, const Vector& move);
 
