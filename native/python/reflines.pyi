@@ -198,7 +198,6 @@ class SmoothPanelReport:
     held_faces: int            # faces that would have turned by more than 45 degrees and were held instead
     longer_waves: bool         # waves longer than the flaws were left, which may be flaws, too: a press with twice the flaw_size
                                # takes them for flaws
-    kept_flaws: bool           # flaws were found and left: without them some light would have become less even
     score_before: list[LineScore]  # one for each light, at `length`
     score_after: list[LineScore]
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one

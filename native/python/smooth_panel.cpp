@@ -106,7 +106,6 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("mirrored", &Told::mirrored)
       .def_readonly("held_faces", &Told::held_faces)
       .def_readonly("longer_waves", &Told::longer_waves)
-      .def_readonly("kept_flaws", &Told::kept_flaws)
       .def_readonly("score_before", &Told::score_before)
       .def_readonly("score_after", &Told::score_after)
       .def_readonly("unevenness_before", &Told::unevenness_before)

@@ -67,8 +67,7 @@ struct SmoothPanelReport {
   int bumps = 0;                      // round dents and bumps that were taken away
   int mirrored = 0;                   // vertices of a symmetric panel; 0: it is not symmetric
   int held_faces = 0;                 // faces that would have turned by more than 45 degrees and were held instead
-  bool longer_waves = false;          // that may be flaws, too, were left; see restoration/longer_waves.h
-  bool kept_flaws = false;            // flaws were found and left: without them some light would have become less even
+  bool longer_waves = false;          // that may be flaws, too, were left; see Restoration::find_longer_waves
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
   Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
@@ -87,16 +86,13 @@ struct SmoothPanelResult {
 
 // Takes flaws out of a panel V (#V x 3), F (#F x 3) seen along `view_direction` under `line_direction`:
 //  1. what one half of a symmetric panel has and the other has not is a flaw (restoration/mirror_evidence.h);
-//  2. so are round dents and bumps with good surface around them (restoration/bump_search.h);
-//  3. the fields of the lines are smoothed up to their creases (restoration/crease_preserving_smoother.h), further than
-//     the length where the flaws are wider (restoration/length_choice.h); where that changes them much more than
-//     elsewhere they are kept, for that is design; and the shape with these lines is solved for, within the limit;
-//     where its rims make a light's lines less even, all moves are scaled down to it instead.
-// A result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far the
-// lines stray from their smoothed selves within one length, in degrees, root mean square over the region; the creases
-// are those that start and result have in common. Where it rises in a light by more than 1 %, nothing is applied,
-// nor where it rises at all and the solve did not converge or no light gained; where by less, the share of the moves
-// with which it does not rise, if that is more than half, and else all of them.
+//  2. so are round dents and bumps with good surface around them (restoration/bump_removal.h);
+//  3. the rest is smoothed up to a length that differs by place: none where curvature varies as a design's does
+//     (restoration/adaptive_smoother.h); and the shape with the lines of that surface is solved for, within the limit.
+// Each of these is a weight that varies with the surface, so that a small change of the input has a small effect. A
+// result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far lines
+// are from those of the same surface smoothed up to the lengths found for the start, degrees of theta, root mean square
+// over the region. Where it rises in a light by more than 1 %, nothing is applied.
 // Throws InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options = {});

@@ -1,10 +1,9 @@
 #include "restoration/bump_removal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
-
-#include "geometry/derivatives.h"
 
 namespace reflines {
 namespace {
@@ -25,15 +24,18 @@ constexpr double kSteepness = 0.05;
 // together. A bump of 0.18 diagonals was the bow of a lamp on the bonnet of a car, selected whole: without the pull to
 // the start it went by 3 per mille of the car's diagonal. On a piece alone the length gives 0.045.
 constexpr double kLargestShare = 0.09;
+constexpr double kTooWide = 1.2;  // times that: from where on it is none at all
+
+// Share of the variation of curvature around a bump, within so many radii, that has to go with it: from none of the bump
+// to all.
+constexpr double kLeastGain = 0.1, kWholeGain = 0.35, kAround = 2.0;
+
+constexpr double kFarthest = 4.0;  // radii from the centre: a bump is nothing beyond
+constexpr double kCounts = 0.5;    // least weight of a bump that is reported
 
 constexpr int kRounds = 3;
 
-// Length, relative to that of the flaws, up to which the Hessians are smoothed before bumps are looked for: of 0.6 and
-// 0.9 the first finds more dents, and less of the mesh is taken for bumps than without. Creases of 15 median jumps are
-// kept, so that fillets are not smeared over the dents beside them: of 10, 15 and 20, 0.25, 0.23, 0.23 of dents are
-// left on four panels, and on these with 600 vertices 0.11, 0.11, 0.16 degrees of harm.
-constexpr double kPresmoothed = 0.6;
-constexpr SmootherOptions kPresmoother = {.crease_jump = 15.0, .rounds = 4};
+double square(double x) { return x * x; }
 
 PlanePositions centroids(const HeightField& field) {
   PlanePositions result(field.triangle_count(), 2);
@@ -58,57 +60,76 @@ PlanePositions free_vertices(const HeightField& field) {
   return result.topRows(count);
 }
 
+Eigen::Index find_nearest(const PlanePositions& centers, const Vector2& place) {
+  Eigen::Index nearest = 0;
+  (centers.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  return nearest;
+}
+
+double smoothstep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+// Returns the Hessian of a bump at a place, in the components of CurvatureVariation.
+Eigen::RowVector3d differentiate(const Bump& bump, const Vector2& place) {
+  const Vector2 p = (place - bump.center) / bump.radius;
+  const double factor = bump.height * std::exp(-p.squaredNorm()) / (bump.radius * bump.radius);
+  return factor * Eigen::RowVector3d(4 * p.x() * p.x() - 2, std::numbers::sqrt2 * 4 * p.x() * p.y(),
+                                     4 * p.y() * p.y() - 2);
+}
+
+// Returns the share of the curvature's variation around a bump that goes with it; below 0 where it grows.
+double measure_gain(const Bump& bump, const CurvatureVariation& variation, const PlanePositions& centers,
+                    const TriangleFields& hessian) {
+  TriangleFields without = hessian;
+  Vector weight(hessian.rows());
+  for (Eigen::Index t = 0; t < hessian.rows(); ++t) {
+    const double squared = (centers.row(t).transpose() - bump.center).squaredNorm();
+    weight(t) = variation.field().area(t) * std::max(1.0 - squared / square(kAround * bump.radius), 0.0);
+    if (squared < square(kFarthest * bump.radius)) without.row(t) -= differentiate(bump, centers.row(t));
+  }
+  const auto read = [&](const TriangleFields& each) {
+    const Eigen::MatrixXd tensor = variation.read_tensors(each);
+    return Vector((tensor.col(0) + tensor.col(2)).array().max(1e-300));
+  };
+  const Vector ratio = (read(without).array() / read(hessian).array()).log();
+  return 1.0 - std::exp(weight.dot(ratio) / std::max(weight.sum(), 1e-300));
+}
+
+// Returns how much of a bump is to go, 0 to 1: none where it is wide for the piece of the surface that it is on, of
+// which it is a shape, nor where the surface around it is hardly smoother without it.
+double weigh(const Bump& bump, double largest_radius, double gain) {
+  return bump.weight * smoothstep(kTooWide, 1.0, bump.radius / largest_radius) * smoothstep(kLeastGain, kWholeGain, gain);
+}
+
+Vector evaluate(const Bump& bump, const PlanePositions& xy) {
+  const auto squared = (xy.rowwise() - bump.center.transpose()).rowwise().squaredNorm();
+  return bump.height * (-squared.array() / (bump.radius * bump.radius)).exp();
+}
+
 }  // namespace
 
-BumpRemoval::BumpRemoval(const HeightField& field, double length)
-    : xy_(field.xy),
-      seeds_(free_vertices(field)),
-      z_(field.z),
-      length_(length),
-      stencils_(make_stencils(field, StencilKind::kConsistent)),
-      smoother_(field.xy, field.F, field.area, kPresmoothed * length, kPresmoother),
-      centers_(centroids(field)),
-      area_(field.area),
-      largest_radius_(largest_radii(field)) {}
-
-TriangleFields BumpRemoval::read_hessians(const Vector& z, Progress* progress) const {
-  TriangleDerivatives u;
-  apply_stencils(stencils_, z, u);
-  TriangleFields hessian = u.rightCols<3>();
-  hessian.col(1) *= std::numbers::sqrt2;
-  return smoother_.smooth_with(smoother_.find_creases(hessian, progress), hessian);
-}
-
-bool BumpRemoval::is_wide(const Bump& bump) const {
-  Eigen::Index nearest = 0;
-  (centers_.rowwise() - bump.center.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
-  return bump.radius > largest_radius_(nearest);
-}
-
-void BumpRemoval::remove(const std::vector<Bump>& bumps, Vector& move, Vector& sure) const {
-  for (const Bump& bump : bumps) {
-    const double trust = is_wide(bump) ? 0.0 : bump.explained;
-    for (Eigen::Index v = 0; v < move.size(); ++v) {
-      const double distance = (xy_.row(v).transpose() - bump.center).squaredNorm();
-      const double height = bump.height * std::exp(-distance / (bump.radius * bump.radius));
-      move(v) -= height;
-      sure(v) -= trust * height;
-    }
-  }
-}
-
-int BumpRemoval::remove_all(Vector& move, Vector& sure, Progress* progress) const {
-  const BumpSearchOptions options{kSmallestRadius * length_, kLargestRadius * length_, kLeastHeight * length_,
+BumpRemoval remove_bumps(const CurvatureVariation& variation, const Vector& z, double length,
+                         const std::function<Vector(const Vector&)>& smooth, Progress* progress) {
+  const HeightField& field = variation.field();
+  const BumpSearchOptions options{kSmallestRadius * length, kLargestRadius * length, kLeastHeight * length,
                                   kSteepness};
-  int count = 0;
+  const PlanePositions seeds = free_vertices(field), centers = centroids(field);
+  const Vector largest = largest_radii(field);
+  BumpRemoval result{z, 0};
   std::vector<Bump> removed;
   for (int round = 0; round < kRounds && (round == 0 || !removed.empty()); ++round) {
-    const HessianSamples samples{centers_, area_, read_hessians(z_ + move, progress)};
-    removed = find_bumps(samples, seeds_, removed, options, progress);
-    remove(removed, move, sure);
-    count += static_cast<int>(removed.size());
+    const HessianSamples samples{centers, field.area, variation.read_hessians(smooth(result.heights))};
+    removed = find_bumps(samples, seeds, removed, options, progress);
+    for (const Bump& bump : removed) {
+      const double weight = weigh(bump, largest(find_nearest(centers, bump.center)),
+                                  measure_gain(bump, variation, centers, samples.hessian));
+      result.heights -= weight * evaluate(bump, field.xy);
+      result.count += weight > kCounts;
+    }
   }
-  return count;
+  return result;
 }
 
 }  // namespace reflines

@@ -14,8 +14,9 @@
 namespace reflines {
 namespace {
 
-constexpr double kExplained = 0.4;
+constexpr double kExplained = 0.42, kSure = 0.52;      // from no weight to the whole
 constexpr double kWorthRefining = 0.7;                // of that, before centre and radius are refined
+constexpr double kSeen = 1.3;                         // least heights from which on a bump has its whole weight
 constexpr double kReach = 2.5;                        // radii: the disk whose surface is looked at
 constexpr double kRim = 0.7;                          // radii: from where on samples tell of a direction
 constexpr double kCore = 1.2;                         // radii: where a bump has most of its Hessian
@@ -90,13 +91,17 @@ bool covers_all_directions(const Disk& disk) {
   return std::all_of(octant, octant + 8, [](bool seen) { return seen; });
 }
 
+// Returns the weight of a sample, in radii from the centre: it falls to 0 at the rim, so that a fit does not jump where
+// samples enter the disk.
+double taper(double x, double y) { return std::max(1.0 - (x * x + y * y) / (kReach * kReach), 0.0); }
+
 Disk read_disk(const HessianSamples& samples, const std::vector<int>& members, const Vector2& p, double radius) {
   Disk disk(static_cast<Eigen::Index>(members.size()));
   for (Eigen::Index k = 0; k < disk.x.size(); ++k) {
     const int t = members[k];
     disk.x(k) = (samples.center(t, 0) - p.x()) / radius;
     disk.y(k) = (samples.center(t, 1) - p.y()) / radius;
-    disk.area(k) = samples.area(t);
+    disk.area(k) = samples.area(t) * taper(disk.x(k), disk.y(k));
     disk.surface.row(k) = samples.hessian.row(t);
   }
   const Eigen::ArrayXd e = (-disk.x.square() - disk.y.square()).exp() / (radius * radius);
@@ -167,7 +172,7 @@ Fit measure_bump(const Disk& disk) {
 // Fits a bump at p; its `explained` is 0 where the disk cannot be judged.
 Bump measure_at(const HessianSamples& samples, const DiskIndex& index, const Vector2& p, double radius) {
   const std::vector<int> members = index.gather(p, kReach * radius);
-  Bump result{p, radius, 0.0, 0.0};
+  Bump result{p, radius, 0.0, 0.0, 0.0};
   if (static_cast<int>(members.size()) < kLeastSamples) return result;
   const Disk disk = read_disk(samples, members, p, radius);
   if (!covers_all_directions(disk)) return result;
@@ -177,10 +182,11 @@ Bump measure_at(const HessianSamples& samples, const DiskIndex& index, const Vec
   return result;
 }
 
-// Searches the neighbouring centres and radii for the best, twice with a halved step.
+// Searches the neighbouring centres and radii for the best, with a step that is halved until it is a thousandth of the
+// radius, so that what is found does not depend on where the search began.
 Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSearchOptions& options, Bump best) {
   constexpr int kNeighbours = 27;
-  for (const double step : {0.3, 0.15}) {
+  for (double step = 0.3; step > 1e-3;) {
     std::array<Bump, kNeighbours> near;
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < kNeighbours; ++i) {
@@ -189,9 +195,11 @@ Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSea
                                        options.largest_radius);
       near[i] = measure_at(samples, index, p, radius);
     }
+    const Bump before = best;
     for (const Bump& bump : near) {
       if (bump.explained > best.explained) best = bump;
     }
+    if (!(best.explained > before.explained)) step /= 2;
   }
   return best;
 }
@@ -221,14 +229,21 @@ PlanePositions overlapping(const PlanePositions& places, double radius, const st
   return result.topRows(count);
 }
 
+double smoothstep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
 bool is_seen(const Bump& bump, const BumpSearchOptions& options) {
   return std::abs(bump.height) >= options.least_height && bump.radius >= 0.999 * options.smallest_radius &&
          bump.radius <= 1.001 * options.largest_radius;
 }
 
-bool is_flaw(const Bump& bump, const BumpSearchOptions& options) {
-  const double steepness = std::abs(bump.height) / (options.steepness * bump.radius);
-  return bump.explained >= kExplained * std::max(1.0, steepness);
+// Returns how surely a bump is a flaw, 0 to 1.
+double weigh(const Bump& bump, const BumpSearchOptions& options) {
+  const double steepness = std::max(1.0, std::abs(bump.height) / (options.steepness * bump.radius));
+  return smoothstep(kExplained * steepness, kSure * steepness, bump.explained) *
+         smoothstep(options.least_height, kSeen * options.least_height, std::abs(bump.height));
 }
 
 bool is_apart(const Bump& bump, const std::vector<Bump>& others) {
@@ -268,10 +283,11 @@ std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions
   std::vector<Bump> found, result;
   for (const Candidate& candidate : candidates) {
     if (!is_apart(candidate.bump, found)) continue;
-    const Bump best = refine(samples, indexes[candidate.scale], options, candidate.bump);
+    Bump best = refine(samples, indexes[candidate.scale], options, candidate.bump);
     if (best.explained < kExplained || !is_seen(best, options) || !is_apart(best, found)) continue;
+    best.weight = weigh(best, options);
     found.push_back(best);
-    if (is_flaw(best, options)) result.push_back(best);
+    if (best.weight > 0) result.push_back(best);
   }
   return result;
 }

@@ -6,7 +6,7 @@
 
 #include "reflines/progress.h"
 #include "reflines/types.h"
-#include "restoration/crease_preserving_smoother.h"
+#include "restoration/triangle_fields.h"
 
 namespace reflines {
 
@@ -15,6 +15,7 @@ struct Bump {
   Vector2 center;
   double radius, height;
   double explained;  // share of the Hessian's variance around it that the bump explains, beyond a linear background
+  double weight;     // 0 to 1: how surely it is a flaw
 };
 
 // The Hessians of the heights, a row a triangle.
@@ -31,7 +32,7 @@ struct BumpSearchOptions {
 };
 
 // Bumps around which the surface is good: within 2.5 radii a bump and a background that is linear in the Hessian
-// explain it, and the bump's share is at least 0.4. On 12 designed panels no place of 200 a panel reaches 0.36 by
+// explain it, and the bump's share is at least 0.42; from 0.52 on it has its full weight. On 12 designed panels no place of 200 a panel reaches 0.36 by
 // itself (ridges, fillets and scoops are no bumps: their Hessian goes on beyond the disk), planted dents reach 0.4 to
 // 0.9 where a disk of their size is free of strong features. Of a bump that is n times as steep as the options say, n
 // times that share has to be explained, for what a design has pressed into a panel is steep, and has a floor, a rim or

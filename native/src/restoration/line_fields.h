@@ -5,7 +5,7 @@
 
 #include "reflines/shape_optimizer.h"
 #include "reflines/types.h"
-#include "restoration/crease_preserving_smoother.h"
+#include "restoration/triangle_fields.h"
 
 namespace reflines {
 

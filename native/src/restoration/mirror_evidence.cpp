@@ -1,9 +1,11 @@
 #include "restoration/mirror_evidence.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/parallel_failure.h"
@@ -15,37 +17,66 @@ namespace reflines {
 namespace {
 
 constexpr double kPairTolerance = 1e-4, kDeepest = 3e-3;  // of the diagonal
-constexpr double kPaired = 0.97;                          // of the vertices
+// Shares of the vertices with partners: from none of the evidence to all of it.
+constexpr double kUnpaired = 0.95, kPaired = 0.98;
+constexpr double kLeastAxis = 0.3;     // of an axis's length, in the image plane
+constexpr double kLeastMoment = 1e-9;  // relative: a smaller one has no direction
 constexpr double kNeighbourhood = 0.56;                   // of the length: over which roughness is compared
 // Roughness counts up to this many root mean squares of the difference's own: fillets are rough on both sides.
 constexpr double kRoughest = 2.0;
 constexpr double kTaper = 0.28;  // of the length: beside designed differences corrections rise from nothing
 
-PlanePositions plane_normals(const PlanePositions& xy, const PlanePositions& axes) {
+// Planes across which the vertices may be symmetric: those of a mirror image's moments sum (x + iy)^p, whose argument is
+// a multiple of the axis's angle, for p = 2 (the principal axes), 3 and 4 (those of a square), and across `axes`.
+std::vector<Vector2> list_normals(const PlanePositions& xy, const PlanePositions& axes) {
+  std::vector<Vector2> result;
+  for (Eigen::Index k = 0; k < axes.rows(); ++k) {
+    if (axes.row(k).norm() >= kLeastAxis) result.push_back(axes.row(k).normalized());
+  }
   const PlanePositions centred = xy.rowwise() - xy.colwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(centred.transpose() * centred);
-  PlanePositions result(2 + axes.rows(), 2);
-  result.topRows(2) = eigen.eigenvectors().transpose();
-  result.bottomRows(axes.rows()) = axes;
+  for (int p = 2; p <= 4; ++p) {
+    std::complex<double> moment = 0;
+    double size = 0;
+    for (Eigen::Index v = 0; v < centred.rows(); ++v) {
+      const std::complex<double> power = std::pow(std::complex<double>(centred(v, 0), centred(v, 1)), p);
+      moment += power;
+      size += std::abs(power);
+    }
+    if (std::abs(moment) <= kLeastMoment * size) continue;
+    for (int k = 0; k < p; ++k) {
+      const double angle = (std::arg(moment) + std::numbers::pi * k) / p;
+      result.emplace_back(-std::sin(angle), std::cos(angle));
+    }
+  }
   return result;
 }
 
-// Partners across the line n . p = offset, itself where there is none; empty where too few vertices have one that is
-// nearly as high.
-IndexVector paired(const PlanePositions& xy, const Vector& z, double diagonal, const Vector2& n, double offset) {
+// The vertices in each other's places across a plane.
+struct Images {
+  IndexVector partner;  // #V, itself where there is none
+  double weight;        // 0 to 1: how surely the panel is symmetric
+  double difference;    // of partners' heights, root mean square
+};
+
+// Finds the images across the line n . p = offset.
+Images pair_across(const PlanePositions& xy, const Vector& z, double diagonal, const Vector2& n, double offset) {
   Positions flat(xy.rows(), 3);
   flat << xy, Vector::Zero(xy.rows());
   const MirrorPlane plane{Vector3(offset * n.x(), offset * n.y(), 0), Vector3(n.x(), n.y(), 0)};
   IndexVector partner = mirror_pairs(flat, plane, kPairTolerance * diagonal);
-  Eigen::Index found = 0;
+  double found = 0, squared = 0;
   for (Eigen::Index v = 0; v < partner.size(); ++v) {
     if (partner(v) < 0) {
       partner(v) = static_cast<int>(v);
-    } else {
-      found += std::abs(z(v) - z(partner(v))) < kDeepest * diagonal;
+      continue;
     }
+    const double difference = std::abs(z(v) - z(partner(v)));
+    found += difference < kDeepest * diagonal;
+    squared += difference * difference;
   }
-  return static_cast<double>(found) >= kPaired * static_cast<double>(partner.size()) ? partner : IndexVector();
+  const double share = found / static_cast<double>(partner.size());
+  const double t = std::clamp((share - kUnpaired) / (kPaired - kUnpaired), 0.0, 1.0);
+  return {std::move(partner), t * t * (3.0 - 2.0 * t), squared};
 }
 
 // The distance of each height from a quadratic least-squares fit of the vertices within two edges: an operator that
@@ -108,45 +139,39 @@ class Roughness {
   std::vector<std::vector<int>> neighbors_;
 };
 
-// Finds the partners of vertices, however differently high they are.
-IndexVector find_images(const PlanePositions& xy, const Vector& z, double diagonal, const PlanePositions& axes) {
-  const PlanePositions normals = plane_normals(xy, axes);
-  for (Eigen::Index k = 0; k < normals.rows(); ++k) {
-    if (normals.row(k).norm() < 0.3) continue;
-    const Vector2 n = normals.row(k).normalized();
+// Finds the images across all planes of symmetry, the nearest to a symmetry first: an order that a turned or scaled
+// panel keeps.
+std::vector<Images> find_images(const PlanePositions& xy, const Vector& z, double diagonal,
+                                const PlanePositions& axes) {
+  std::vector<Images> result;
+  for (const Vector2& n : list_normals(xy, axes)) {
     const Vector across = xy * n;
     for (const double offset : {(across.minCoeff() + across.maxCoeff()) / 2, across.mean()}) {
-      IndexVector partner = paired(xy, z, diagonal, n, offset);
-      if (partner.size() > 0) return partner;
+      Images images = pair_across(xy, z, diagonal, n, offset);
+      const auto is_same = [&](const Images& other) { return other.partner == images.partner; };
+      if (images.weight > 0 && std::none_of(result.begin(), result.end(), is_same))
+        result.push_back(std::move(images));
     }
   }
-  return {};
-}
-
-}  // namespace
-
-IndexVector find_mirror_partners(const PlanePositions& xy, const Vector& z, double diagonal,
-                                 const PlanePositions& axes) {
-  IndexVector result = find_images(xy, z, diagonal, axes);
-  for (Eigen::Index v = 0; v < result.size(); ++v) {
-    if (std::abs(z(v) - z(result(v))) >= kDeepest * diagonal) result(v) = static_cast<int>(v);
-  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Images& a, const Images& b) { return a.difference < b.difference; });
   return result;
 }
 
-MirrorEvidence find_mirror_evidence(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal,
-                                    double length, const PlanePositions& axes) {
-  MirrorEvidence result{find_images(xy, z, diagonal, axes), Vector::Zero(z.size()), Mask::Constant(z.size(), false)};
-  if (result.partner.size() == 0) return result;
-  const Vector difference = z - z(result.partner);
-  if ((difference.array() == 0).all()) return result;
+// Returns the heights (#V) to add so that images are equally high, each the more the rougher it is for the difference;
+// marks in `design` (#V) where they differ by design.
+Vector correct_halves(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal, double length,
+                      const Images& images, Mask& design) {
+  const Vector difference = z - z(images.partner);
+  if ((difference.array() == 0).all()) return Vector::Zero(z.size());
   const Roughness roughness(xy, F);
   const DiskMean mean(xy, Vector::Ones(z.size()), kNeighbourhood * length);
   const Vector unbounded = roughness.of(difference).cwiseAbs();
   const Vector most = kRoughest * mean.of(unbounded.cwiseAbs2()).cwiseSqrt();
-  result.design = find_designed_differences(xy, F, difference, most / kRoughest, kDeepest * diagonal, length);
+  const Mask own_design =
+      find_designed_differences(xy, F, difference, most / kRoughest, kDeepest * diagonal, length);
   const Vector spared =
-      DiskMean(xy, Vector::Ones(z.size()), kTaper * length).of((!result.design).cast<double>().matrix());
+      DiskMean(xy, Vector::Ones(z.size()), kTaper * length).of((!own_design).cast<double>().matrix());
   // Bounded as that of the heights is: else the peak of a dent would count in the difference only, and a quarter of it
   // would be taken for a bump of the other side.
   const Vector own = mean.of(unbounded.cwiseMin(most).cwiseAbs2());
@@ -154,11 +179,36 @@ MirrorEvidence find_mirror_evidence(const PlanePositions& xy, const Vector& z, c
   // With z = s + a here and s + b there, a - b the difference: E(|rough(z)|^2 - |rough(z')|^2) = |rough(a)|^2 -
   // |rough(b)|^2, so that the share is 1 where only this side has a flaw, 0 where only the other has, half where both
   // do.
-  const Vector excess = mean.of(rough - rough(result.partner).eval());
+  const Vector excess = mean.of(rough - rough(images.partner).eval());
+  Vector result = Vector::Zero(z.size());
   for (Eigen::Index v = 0; v < z.size(); ++v) {
     const double share = own(v) > 0 ? std::clamp(0.5 + 0.5 * excess(v) / own(v), 0.0, 1.0) : 0.5;
-    result.correction(v) = result.design(v) ? 0.0 : -share * spared(v) * difference(v);
-    if (result.design(v)) result.partner(v) = static_cast<int>(v);
+    if (!own_design(v)) result(v) = -images.weight * share * spared(v) * difference(v);
+  }
+  design = design || own_design;
+  return result;
+}
+
+}  // namespace
+
+std::vector<MirrorPartners> find_mirror_partners(const PlanePositions& xy, const Vector& z, double diagonal,
+                                                 const PlanePositions& axes) {
+  std::vector<MirrorPartners> result;
+  for (Images& images : find_images(xy, z, diagonal, axes)) {
+    for (Eigen::Index v = 0; v < z.size(); ++v) {
+      if (std::abs(z(v) - z(images.partner(v))) >= kDeepest * diagonal) images.partner(v) = static_cast<int>(v);
+    }
+    result.push_back({std::move(images.partner), images.weight});
+  }
+  return result;
+}
+
+MirrorEvidence find_mirror_evidence(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal,
+                                    double length, const PlanePositions& axes) {
+  MirrorEvidence result{0, Vector::Zero(z.size()), Mask::Constant(z.size(), false)};
+  for (const Images& images : find_images(xy, z, diagonal, axes)) {
+    result.vertices = static_cast<int>(z.size());
+    result.correction += correct_halves(xy, z + result.correction, F, diagonal, length, images, result.design);
   }
   return result;
 }

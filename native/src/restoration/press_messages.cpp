@@ -38,10 +38,6 @@ std::vector<std::string> describe_result(const SmoothPanelReport& report) {
   if (report.limited > 0) {
     result.push_back("The limit of the move holds back " + count_of(report.limited, "vertex", "vertices") +
                      "; what is deeper is left.");
-  } else if (report.largest_control_move == 0 && report.kept_flaws) {
-    result.emplace_back(
-        "Nothing was changed: without what may be flaws, the lines would have become less even in one light. Select "
-        "less, or give a Length.");
   } else if (report.largest_control_move == 0) {
     result.emplace_back("No noise, ripples or dents were found: nothing was changed. Give a Length to smooth more.");
   }

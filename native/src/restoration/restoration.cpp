@@ -8,26 +8,16 @@
 #include "reflines/errors.h"
 #include "restoration/line_fields.h"
 #include "restoration/press_messages.h"
-#include "restoration/smoothed_lines.h"
 #include "restoration/turned_faces.h"
 
 namespace reflines {
 namespace {
 
-// The jump was chosen by measurement. Of 4, 5, 6 and 7 medians, on four panels: 0.16, 0.17, 0.17, 0.18 degrees of harm,
-// 0.43, 0.40, 0.39, 0.38 left of noise, and 0.34 of ripples.
-constexpr SmootherOptions kLineSmoother = {.crease_jump = 6.0, .rounds = 6};
-
-// A change that can be seen, degrees of theta, root mean square. Where neither noise nor waves fall (see LineEvenness)
-// and a change is larger, only bumps and the halves' differences go: the harm to the worst of 26 panels falls from 1.09
-// to 0.3 degrees. Without this bound clean panels do not change at all, but dents on coarse meshes, which are no bumps,
-// stay too (0.9 instead of 0.65 left).
-constexpr double kVisible = 0.3;
-
-// A light is spared by a share of the move where that is most of it; else the whole move is made.
-constexpr double kLeastShare = 0.5;
-
 constexpr int kRetries = 3;
+
+constexpr double kVisible = 0.32;  // degrees, root mean square: waves that are worth a word
+
+constexpr double kWorse = 1.01;  // times its unevenness at the start: a light that is no worse to the eye
 
 double choose_length(const SmoothPanelOptions& options, const Positions& V) {
   return options.length > 0 ? options.length : options.flaw_size * kAutomaticLength * bounding_box_diagonal(V);
@@ -41,6 +31,13 @@ SmoothPanelReport start_report(ControlledSurface& surface, const SmoothPanelOpti
   return result;
 }
 
+// Returns the surface as a height field whose vertices move as the optimizer's do.
+HeightField make_field(ControlledSurface& surface) {
+  const Mask held = !surface.optimizer().free();
+  const Boundary boundary{std::vector<Border>(held.size(), Border::kFree), held, {.rule = CreaseRule::kNone}};
+  return make_height_field(surface.positions(), surface.triangles(), surface.optimizer().frame(), boundary);
+}
+
 }  // namespace
 
 Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& options)
@@ -49,81 +46,23 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
       axis_(surface.optimizer().frame().z()),
       start_(surface.optimizer().heights()),
       report_(start_report(surface, options)),
-      smoother_(surface.optimizer().xy(), surface.triangles(), surface.optimizer().area(), report_.length,
-                kLineSmoother),
-      evenness_(surface, smoother_, start_, report_.length),
       range_(report_.limit, options.limit_share, surface.control_positions().rows()),
-      search_{.halves = options.symmetric},
       held_triangles_(Mask::Constant(surface.triangles().rows(), false)) {}
 
+// Finds the heights without flaws: without differences of a symmetric panel's halves, and then smoothed by place.
+void Restoration::find_shape() {
+  flawless_ = {.heights = start_};
+  if (options_.symmetric) flawless_ = even_halves(surface_, start_, report_.length, options_.partner.size() > 0);
+  report_.mirrored = flawless_.mirrored;
+  field_ = std::make_unique<HeightField>(make_field(surface_));
+  smoother_ = std::make_unique<AdaptiveSmoother>(*field_, report_.length);
+  const Vector relative = field_->z + (flawless_.heights - start_);
+  shape_ = start_ + (smoother_->adapt(relative, progress()) - field_->z);
+  report_.bumps = smoother_->bumps();
+}
+
 Vector Restoration::find_move() {
-  evenness_.find_creases(progress());
-  Vector move = attempt();
-  if (!evenness_.has_fallen() && evenness_.measure_change(move) > kVisible && !whole_move_pays(move)) {
-    use_smoothing_ = false;
-    move = attempt();
-  }
-  // A shape without the halves' differences, or without what looks like bumps, can be a worse one: of an egg-box of
-  // waves that is symmetric but for its phase, every other wave went, and the press was refused.
-  const FlawSearch found{.halves = report_.mirrored > 0, .bumps = report_.bumps > 0};
-  if (find_worse_light() >= 0 && found.halves) move = attempt_with({.halves = false, .bumps = search_.bumps});
-  if (find_worse_light() >= 0 && report_.bumps > 0) {
-    move = attempt_with({.halves = found.halves, .bumps = false});
-    if (find_worse_light() >= 0 && found.halves) move = attempt_with({.halves = false, .bumps = false});
-  }
-  return find_worse_light() < 0 ? spare_every_light(move) : move;
-}
-
-// Returns whether noise or waves fall by the whole move, of which strength and limit left `move`: a part of it can be
-// seen before it has gained enough, and strengths of 0.1 to 0.2 moved nothing where 0.05 and 0.3 did.
-bool Restoration::whole_move_pays(const Vector& move) {
-  if (report_.limited == 0 && options_.strength == 1) return false;
-  measure(unlimited_);
-  const bool pays = evenness_.has_fallen();
-  measure(move);
-  return pays;
-}
-
-Vector Restoration::attempt_with(const FlawSearch& search) {
-  search_ = search;
-  flawless_.reset();
-  report_.kept_flaws = true;
-  return attempt();
-}
-
-// Returns the largest share of the move with which no light is visibly less even than at the start, where that is most
-// of it.
-Vector Restoration::spare_every_light(const Vector& move) {
-  if (!evenness_.is_any_visibly_worse()) return move;
-  const std::vector<double> whole = evenness_.after().degrees;
-  measure(0.5 * move);
-  const double share = evenness_.find_bearable_share(whole);
-  if (share > kLeastShare) {
-    measure(share * move);
-    if (!evenness_.is_any_visibly_worse()) return share * move;
-  }
-  measure(move);
-  return move;
-}
-
-bool Restoration::turns_faces(const Vector& move) const { return find_turned_by(move).any(); }
-
-SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited,
-                                          const Mask& held) {
-  report_.solve = found.solve;
-  report_.bumps = found.bumps;
-  report_.mirrored = found.mirrored;
-  report_.kept_flaws = found.kept_flaws;
-  report_.limited = static_cast<int>(limited.count());
-  report_.held_faces = surface_.optimizer().count_faces(held);
-  evenness_.find_creases(progress());
-  measure(move);
-  return judge(move);
-}
-
-// Returns the moves of the control vertices (#C) without faces that turn far, and measures their result.
-Vector Restoration::attempt() {
-  surface_.optimizer().reset();
+  find_shape();
   Vector move = restore();
   for (int retry = 0; retry < kRetries; ++retry) {
     const Mask turned = find_turned_by(move);
@@ -131,53 +70,38 @@ Vector Restoration::attempt() {
     held_triangles_ = held_triangles_ || turned;
     report_.held_faces = surface_.optimizer().count_faces(held_triangles_);
     surface_.hold(find_corners(surface_.triangles(), turned, start_.size()));
-    flawless_.reset();
+    find_shape();
     move = restore();
-  }
-  measure(move);
-  // The rim of a flaw far deeper than the limit can make the lines less even than the flaw did. The same share of the
-  // whole move everywhere cannot.
-  if (report_.limited > 0 && find_worse_light() >= 0) {
-    move = options_.strength * range_.share_within(unlimited_) * unlimited_;
-    measure(move);
   }
   return move;
 }
 
-// Returns the moves of the control vertices (#C).
+bool Restoration::turns_faces(const Vector& move) const { return find_turned_by(move).any(); }
+
+SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited,
+                                          const Mask& held) {
+  find_shape();
+  report_.solve = found.solve;
+  report_.bumps = found.bumps;
+  report_.mirrored = found.mirrored;
+  report_.limited = static_cast<int>(limited.count());
+  report_.held_faces = surface_.optimizer().count_faces(held);
+  return judge(move);
+}
+
+// Returns the moves of the control vertices (#C) towards the shape without flaws. Those of a mesh begin there, and end
+// there where nothing holds them back.
 Vector Restoration::restore() {
-  const FlawlessShape& flawless = find_flawless();
-  if (!use_smoothing_ && flawless.heights == start_) {
-    report_.limited = 0;
-    limited_ = Mask::Constant(surface_.control_positions().rows(), false);
-    return Vector::Zero(surface_.control_positions().rows());
-  }
-  const std::vector<Target> targets = make_plan(flawless.heights);
-  // Near the start itself, wide dents that had been found were pulled back: 0.2 instead of 0.06 of a bonnet's was left.
-  surface_.optimizer().stay_near(flawless.sure_heights);
+  ShapeOptimizer& optimizer = surface_.optimizer();
+  optimizer.reset();
+  const std::vector<Target> targets = make_targets(read_fields(optimizer, shape_));
+  optimizer.stay_near(shape_);
+  if (surface_.controls_every_vertex()) optimizer.set_move(shape_ - start_);
   solve(targets, MoveLimit::none());
   unlimited_ = read_move();
   limited_ = range_.find_beyond(unlimited_);
   report_.limited = static_cast<int>(limited_.count());
   return options_.strength * (report_.limited == 0 ? unlimited_ : restore_within_limit(targets));
-}
-
-// Returns the start without bumps and the halves' differences, which are looked for once.
-const FlawlessShape& Restoration::find_flawless() {
-  if (!flawless_) {
-    flawless_ = find_flawless_shape(surface_, start_, report_.length, search_, options_.partner.size() > 0, progress());
-    report_.bumps = flawless_->bumps;
-    report_.mirrored = flawless_->mirrored;
-  }
-  return *flawless_;
-}
-
-// Builds the targets: the lines of heights z, smoothed unless they turned out to have no noise.
-std::vector<Target> Restoration::make_plan(const Vector& z) {
-  const TriangleFields fields = read_fields(surface_.optimizer(), z);
-  if (!use_smoothing_) return make_targets(fields);
-  const Vector creases = smoother_.find_creases(fields, progress(), evenness_.creases());
-  return make_targets(smooth_lines(surface_, smoother_, creases, fields, report_.length));
 }
 
 void Restoration::solve(const std::vector<Target>& targets, const MoveLimit& limit) {
@@ -187,7 +111,7 @@ void Restoration::solve(const std::vector<Target>& targets, const MoveLimit& lim
 
 // Returns the last solve's moves of the control vertices (#C), those of partners averaged.
 Vector Restoration::read_move() const {
-  return average_partners(surface_, flawless_->partner, surface_.control_move());
+  return average_partners(surface_, flawless_.partners, surface_.control_move());
 }
 
 // Solves within the limit. A move that is cut there has an edge round every plateau, in lines that were even. Solved
@@ -202,19 +126,38 @@ Mask Restoration::find_turned_by(const Vector& move) const {
   return find_turned(axis_, surface_.positions(), surface_.triangles(), surface_.surface_move(move));
 }
 
+// Smooths heights of the surface (#V) up to the lengths found for the start.
+Vector Restoration::smooth(const Vector& z) const {
+  const Vector relative = field_->z + (z - start_);
+  return z + (smoother_->smooth(relative) - relative);
+}
+
+// Returns whether heights z (#V) have waves longer than the flaws that can be seen. Call it last, see smooth_further.
+bool Restoration::find_longer_waves(const Vector& z) {
+  const Vector relative = field_->z + (z - start_);
+  const Vector further = z + (smoother_->smooth_further(relative, progress()) - relative);
+  const Unevenness waves = measure_unevenness(surface_, z, further, report_.length);
+  return *std::max_element(waves.degrees.begin(), waves.degrees.end()) > kVisible;
+}
+
 SmoothPanelResult Restoration::judge(const Vector& move) {
-  report_.score_before = evenness_.score(Vector::Zero(move.size()));
-  report_.score_after = evenness_.score(move);
-  report_.unevenness_before = evenness_.before().degrees;
-  report_.unevenness_after = evenness_.after().degrees;
-  report_.stray = evenness_.after().stray;
+  const Vector end = start_ + surface_.surface_move(move);
+  const Unevenness before = measure_unevenness(surface_, start_, smooth(start_), report_.length);
+  const Unevenness after = measure_unevenness(surface_, end, smooth(end), report_.length);
+  report_.score_before = before.score;
+  report_.score_after = after.score;
+  report_.unevenness_before = before.degrees;
+  report_.unevenness_after = after.degrees;
+  report_.stray = before.stray;
   if (turns_faces(move)) return refuse(explain_turned_faces());
-  if (const int k = find_worse_light(); k >= 0)
-    return refuse(explain_worse_light(report_.unevenness_before[k], report_.unevenness_after[k]));
+  for (size_t k = 0; k < after.degrees.size(); ++k) {
+    if (after.degrees[k] > kWorse * before.degrees[k])
+      return refuse(explain_worse_light(before.degrees[k], after.degrees[k]));
+  }
+  report_.stray = after.stray;
   report_.largest_move = surface_.surface_move(move).cwiseAbs().maxCoeff();
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
-  // With twice the length clean bonnets and roofs, too, would be told to have waves that are longer.
-  if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = evenness_.has_longer_waves();
+  if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = find_longer_waves(end);
   report_.messages = options_.strength > 0 || report_.limited > 0
                          ? describe_result(report_)
                          : std::vector<std::string>{"The strength is 0: nothing was changed."};
@@ -223,7 +166,6 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
 
 SmoothPanelResult Restoration::refuse(const std::string& reason) {
   report_.applied = false;
-  report_.stray = evenness_.before().stray;
   report_.messages.push_back(reason);
   return {surface_.control_positions(), report_};
 }

@@ -1,24 +1,26 @@
 // The steps of one press of Smooth, for meshes and cages alike: see smooth_panel.h.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "geometry/height_field.h"
 #include "reflines/smooth_panel.h"
+#include "restoration/adaptive_smoother.h"
 #include "restoration/control_range.h"
 #include "restoration/controlled_surface.h"
-#include "restoration/crease_preserving_smoother.h"
 #include "restoration/flawless_shape.h"
 #include "restoration/line_evenness.h"
 
 namespace reflines {
 
-// Weight of staying near the start, or the start without what was found to be bumps (see Energy): the lines hardly see
-// a shape that is as long as the panel, and this keeps it where it is. Of 0, 1e5, 1e6, 1e7, with the lines of the clean
-// panel as target: 0, 0.4, 4 and 30 % left of dents, and less harm the higher. A cage has few unknowns, which drift
-// less, and each lifts much surface: of 1e6, 1e5 and 1e4, 0.61, 0.50 and 0.48 left of noise in the cage of a roof, and
-// no clean cage moves by more than 0.7 mm.
+// Weight of staying near the shape without flaws (see Energy), where a limit or the border keeps a solve from it: the
+// lines hardly see a shape that is as long as the panel. Of 0, 1e5, 1e6, 1e7, with the lines of the clean panel as
+// target: 0, 0.4, 4 and 30 % left of dents, and less harm the higher. A cage has few unknowns, which drift less, and
+// each lifts much surface: of 1e6, 1e5 and 1e4, 0.61, 0.50 and 0.48 left of noise in the cage of a roof, and no clean
+// cage moves by more than 0.7 mm.
 inline constexpr double kMeshProximity = 1e6, kCageProximity = 1e4;
 
 class Restoration {
@@ -44,19 +46,14 @@ class Restoration {
 
  private:
   Progress* progress() const { return options_.progress.get(); }
-  bool whole_move_pays(const Vector& move);
-  Vector attempt_with(const FlawSearch& search);
-  Vector attempt();
+  void find_shape();
   Vector restore();
-  const FlawlessShape& find_flawless();
-  std::vector<Target> make_plan(const Vector& z);
   void solve(const std::vector<Target>& targets, const MoveLimit& limit);
   Vector read_move() const;
   Vector restore_within_limit(const std::vector<Target>& targets);
-  Vector spare_every_light(const Vector& move);
   Mask find_turned_by(const Vector& move) const;
-  void measure(const Vector& move) { evenness_.measure(move, progress()); }
-  int find_worse_light() const { return evenness_.find_worse_light(report_.solve.converged()); }
+  Vector smooth(const Vector& z) const;
+  bool find_longer_waves(const Vector& z);
   SmoothPanelResult judge(const Vector& move);
   SmoothPanelResult refuse(const std::string& reason);
 
@@ -65,15 +62,14 @@ class Restoration {
   Vector3 axis_;  // of the moves
   Vector start_;  // #V, heights of the surface as its optimizer has them
   SmoothPanelReport report_;
-  CreasePreservingSmoother smoother_;
-  LineEvenness evenness_;
   ControlRange range_;
-  bool use_smoothing_ = true;              // false once the lines turn out to have no noise
-  FlawSearch search_;                      // without what has made the lines less even
-  std::optional<FlawlessShape> flawless_;  // none once it holds no more
-  Vector unlimited_;                       // #C, the move of the last solve
-  Mask limited_;                           // #C, see limited()
-  Mask held_triangles_;                    // #F, see held_triangles()
+  FlawlessShape flawless_;
+  Vector shape_;  // #V: the heights without flaws
+  std::unique_ptr<HeightField> field_;
+  std::unique_ptr<AdaptiveSmoother> smoother_;  // refers to field_
+  Vector unlimited_;                            // #C, the move of the last solve
+  Mask limited_;                                // #C, see limited()
+  Mask held_triangles_;                         // #F, see held_triangles()
 };
 
 }  // namespace reflines

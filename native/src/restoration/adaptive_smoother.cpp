@@ -1,0 +1,169 @@
+#include "restoration/adaptive_smoother.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "restoration/bump_removal.h"
+#include "restoration/disk_mean.h"
+
+namespace reflines {
+namespace {
+
+// Lengths up to which is smoothed, relative to that of the flaws, before dents are looked for and after.
+constexpr double kShortest = 0.42, kLadder[] = {0.84, 1.4, 2.1};
+
+// Length, likewise, up to which waves may be flaws, too: twice the longest of these.
+constexpr double kFurther = 4.2;
+
+// A flaw's change of slope: curvature that varies by less than this times the wave number squared counts as flawed.
+constexpr double kFlawSlope = 0.04;
+
+// Share by which that is less where curvature varies across one direction only.
+constexpr double kCoherent = 0.95;
+
+// Times the typical variation around a place that counts as flawed, too, where curvature varies alike all around there
+// and in all directions; the radius of "around there", in lengths; and the ratio of geometric and arithmetic mean of
+// squares from which on it is alike.
+constexpr double kTypical = 3.0, kAround = 3.0, kUneven = 0.3, kEven = 0.7;
+
+// Share of a flaw's variation that counts as none, for the geometric mean.
+constexpr double kNothing = 0.05;
+
+// Radius of the structure tensor, relative to the length up to which is smoothed.
+constexpr double kAveraged = 0.35;
+
+// Length up to which all is smoothed before anything is measured, relative to a triangle's longest edge and, at most, to
+// the length: noise of the vertices is not to hide the surface.
+constexpr double kPresmoothed = 2.5, kMostPresmoothed = 1.0;
+
+// Weight of slopes beside heights in what is kept, relative to the length: of flawed surface, and more of design, whose
+// thin triangles would turn far with small moves of their neighbours.
+constexpr double kSlope = 0.5, kDesignSlope = 7.0;
+
+double square(double x) { return x * x; }
+
+double smoothstep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+PlanePositions find_centroids(const HeightField& field) {
+  PlanePositions result(field.triangle_count(), 2);
+  for (int t = 0; t < field.triangle_count(); ++t)
+    result.row(t) = (field.xy.row(field.F(t, 0)) + field.xy.row(field.F(t, 1)) + field.xy.row(field.F(t, 2))) / 3.0;
+  return result;
+}
+
+Vector measure_steepness(const HeightField& field, const Stencils& stencils) {
+  TriangleDerivatives u;
+  apply_stencils(stencils, field.z, u);
+  return (1.0 + u.leftCols<2>().rowwise().squaredNorm().array()).square().inverse();
+}
+
+double measure_longest_edge(const HeightField& field, int t) {
+  double squared = 0;
+  for (int i = 0; i < 3; ++i)
+    squared = std::max(squared, (field.xy.row(field.F(t, i)) - field.xy.row(field.F(t, (i + 1) % 3))).squaredNorm());
+  return std::sqrt(squared);
+}
+
+}  // namespace
+
+AdaptiveSmoother::AdaptiveSmoother(const HeightField& field, double length)
+    : field_(field),
+      length_(length),
+      variation_(field),
+      system_(variation_),
+      centers_(find_centroids(field)),
+      steepness_(measure_steepness(field, variation_.stencils())),
+      open_(Vector::Ones(field.triangle_count())) {}
+
+// Returns the weight of the variation of curvature that keeps half of a wave of this length in flawed surface.
+double AdaptiveSmoother::stiffness(double smoothing_length) const {
+  const double k = 2.0 * std::numbers::pi / smoothing_length;
+  return (1.0 + square(kSlope * length_ / smoothing_length)) / square(k * k * k);
+}
+
+// Returns the unit of the weights of slopes, length^2.
+double AdaptiveSmoother::slope_unit() const { return square(length_ / (2.0 * std::numbers::pi)); }
+
+EdgeWeights AdaptiveSmoother::presmoothing_weights() const {
+  EdgeWeights result(field_.triangle_count(), 3);
+  for (int t = 0; t < field_.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int other = field_.neighbors(t, i);
+      const double edge = std::max(measure_longest_edge(field_, t), measure_longest_edge(field_, other < 0 ? t : other));
+      result(t, i) = stiffness(std::min(kPresmoothed * edge, kMostPresmoothed * length_));
+    }
+  }
+  return result;
+}
+
+// Returns how far each triangle counts as flawed surface up to a length, 0 to 1, by the curvature of heights z.
+Vector AdaptiveSmoother::weigh(const Vector& z, double smoothing_length) const {
+  const double flaw = kFlawSlope * square(2.0 * std::numbers::pi / smoothing_length);
+  const Eigen::MatrixXd tensor = variation_.read_tensors(variation_.average(variation_.read_hessians(z)));
+  const Eigen::MatrixXd mean = DiskMean(centers_, field_.area, kAveraged * smoothing_length).of_columns(tensor);
+  Eigen::MatrixXd around(tensor.rows(), 2);
+  around.col(0) = tensor.col(0) + tensor.col(2) + Vector::Constant(tensor.rows(), square(kNothing * flaw));
+  around.col(1) = around.col(0).array().log();
+  around = DiskMean(centers_, field_.area, kAround * length_).of_columns(around);
+  Vector result(tensor.rows());
+  for (Eigen::Index t = 0; t < result.size(); ++t) {
+    const double xx = mean(t, 0), yy = mean(t, 2), xy = mean(t, 1), trace = xx + yy;
+    const double coherence = trace > 0 ? (square(xx - yy) + 4.0 * square(xy)) / square(trace) : 0.0;
+    const double typical = std::exp(around(t, 1));
+    const double alike = smoothstep(kUneven, kEven, typical / around(t, 0));
+    const double most = square(flaw * (1.0 - kCoherent * coherence)) +
+                        square(kTypical) * typical * alike * square(1.0 - coherence);
+    const double weight = 1.0 / (1.0 + trace / most);
+    result(t) = weight * weight * weight;  // falls faster than the stiffness of longer lengths rises
+  }
+  return result;
+}
+
+// Lets what counts as flawed up to a length, by the curvature of heights z (#V), be smoothed up to it from now on.
+void AdaptiveSmoother::take_step(const Vector& z, double smoothing_length, const Progress* progress) {
+  const Vector flawed = weigh(z, smoothing_length);
+  const double most = stiffness(smoothing_length);
+  for (int t = 0; t < field_.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int other = field_.neighbors(t, i);
+      if (other >= 0) weight_(t, i) = std::max(weight_(t, i), most * std::min(flawed(t), flawed(other)));
+    }
+  }
+  open_ = open_.cwiseMax(flawed);
+  const Vector kept = square(kSlope) + square(kDesignSlope) * (1.0 - open_.array());
+  system_.factorize(weight_, slope_unit() * kept.cwiseProduct(steepness_), progress);
+}
+
+Vector AdaptiveSmoother::adapt(const Vector& start, Progress* progress) {
+  weight_ = EdgeWeights::Zero(field_.triangle_count(), 3);
+  open_ = Vector::Zero(field_.triangle_count());
+  system_.factorize(presmoothing_weights(), slope_unit() * square(kSlope) * steepness_, progress);
+  take_step(system_.smooth(start), kShortest * length_, progress);
+  // Smoothed so far, and no further, noise does not hide dents, and the walls of a handle's recess are still no dents.
+  const BumpRemoval removal =
+      remove_bumps(variation_, start, length_, [&](const Vector& z) { return system_.smooth(z); }, progress);
+  bumps_ = removal.count;
+  for (const double step : kLadder) take_step(system_.smooth(removal.heights), step * length_, progress);
+  return system_.smooth(put_back_held(removal.heights));
+}
+
+// Returns heights (#V) with those of the vertices that stay as they are: what was taken away there is not gone, and the
+// surface beside it is to run on smoothly.
+Vector AdaptiveSmoother::put_back_held(const Vector& z) const {
+  Vector result = z;
+  for (int v = 0; v < field_.vertex_count(); ++v) {
+    if (field_.role[v] != VertexRole::kFree) result(v) = field_.z(v);
+  }
+  return result;
+}
+
+Vector AdaptiveSmoother::smooth_further(const Vector& z, const Progress* progress) {
+  take_step(z, kFurther * length_, progress);
+  return system_.smooth(z);
+}
+
+}  // namespace reflines

@@ -1,0 +1,59 @@
+// Smooths a height field up to a length that differs by place: fairing of minimum variation of curvature, whose weights
+// are found from how the curvature varies around each place (an edge-stopping function with the structure tensor, as in
+// coherence-enhancing diffusion, Weickert 1999, over a ladder of lengths).
+#pragma once
+
+#include <vector>
+
+#include "geometry/height_field.h"
+#include "reflines/progress.h"
+#include "reflines/types.h"
+#include "restoration/curvature_variation.h"
+#include "restoration/fairing_system.h"
+
+namespace reflines {
+
+// A place is smoothed up to the lengths at which its curvature varies by no more than a flaw's does, and design stays.
+// The curvature varies as a flaw's does where it does so slowly, everywhere alike, or in all directions; as design where
+// it does strongly and at some places only, or across a direction: fillets, edges and character lines go on.
+class AdaptiveSmoother {
+ public:
+  // `field` outlives it; `length` is the size of the flaws.
+  AdaptiveSmoother(const HeightField& field, double length);
+
+  // Takes round dents and bumps out of heights z (#V), finds the lengths for the rest, and returns that smoothed.
+  // `progress` may be null; throws Cancelled.
+  Vector adapt(const Vector& z, Progress* progress);
+
+  // Returns the result of `adapt` smoothed up to twice the lengths, where it has waves as long as that which do not count
+  // as design. Call it last: the lengths found are gone.
+  Vector smooth_further(const Vector& z, const Progress* progress);
+
+  int bumps() const { return bumps_; }  // that the last call took out
+
+  // Returns other heights (#V) smoothed up to the lengths found last.
+  Vector smooth(const Vector& z) const { return system_.smooth(z); }
+
+  // Returns for each triangle how far it counts as flawed surface instead of design, 0 to 1.
+  const Vector& smoothness() const { return open_; }
+
+ private:
+  EdgeWeights presmoothing_weights() const;
+  void take_step(const Vector& z, double smoothing_length, const Progress* progress);
+  Vector weigh(const Vector& z, double smoothing_length) const;
+  double stiffness(double smoothing_length) const;
+  double slope_unit() const;
+  Vector put_back_held(const Vector& z) const;
+
+  const HeightField& field_;
+  double length_;
+  CurvatureVariation variation_;
+  FairingSystem system_;
+  PlanePositions centers_;  // #T x 2
+  Vector steepness_;        // #T: cos^4 of the angle between normal and view
+  EdgeWeights weight_;      // of the last factor
+  Vector open_;             // #T, see smoothness()
+  int bumps_ = 0;
+};
+
+}  // namespace reflines

@@ -1,0 +1,55 @@
+// The variation of curvature of a height field: how the triangles' Hessians change across edges, as the third-order
+// energy of minimum variation fairing (Moreton and Sequin 1992) for heights over a plane.
+#pragma once
+
+#include "geometry/derivatives.h"
+#include "geometry/height_field.h"
+#include "geometry/stencil.h"
+#include "reflection/field_average.h"
+#include "reflines/types.h"
+#include "restoration/triangle_fields.h"
+
+namespace reflines {
+
+// A weight for the edge opposite each corner (#T x 3), the same on both sides of it; 0 at an edge of one triangle.
+using EdgeWeights = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+// The energy is sum_e w_e a_e |H_2 - H_1|^2 / d_e^2, with the Hessians H (f_xx, sqrt(2) f_xy, f_yy) of the two triangles
+// at an edge, the distance d_e of their centroids across it, and a_e, two thirds of their area, so that it tends to the
+// integral of w |grad H|^2. Quadratic surfaces have none.
+class CurvatureVariation {
+ public:
+  explicit CurvatureVariation(const HeightField& field);  // which outlives it
+
+  // Returns the Hessians of heights z (#V): #T x 3.
+  TriangleFields read_hessians(const Vector& z) const;
+
+  // Returns the means of Hessians (#T x 3) over the triangles around, which keep what is linear (see FieldAverage): the
+  // errors of the stencils of an irregular mesh, which alternate from triangle to triangle, have no direction.
+  TriangleFields average(const TriangleFields& hessian) const;
+
+  // Returns the structure tensors sum_c grad H_c (grad H_c)^T of Hessians (#T x 3): #T x 3, xx, xy, yy, in 1 / length^4.
+  Eigen::MatrixXd read_tensors(const TriangleFields& hessian) const;
+
+  // Returns w_e a_e / d_e^2 for weights w_e of the edges.
+  EdgeWeights scale_by_shape(const EdgeWeights& weight) const { return weight.cwiseProduct(shape_); }
+
+  // Returns the gradient of half the energy at heights z (#V); `scaled` are weights after scale_by_shape.
+  Vector differentiate(const Vector& z, const EdgeWeights& scaled) const;
+
+  const HeightField& field() const { return field_; }
+  const Stencils& stencils() const { return stencils_; }
+  const StencilEntries& entries() const { return entries_; }
+
+ private:
+  const HeightField& field_;
+  Stencils stencils_;  // the weights of f_xy times sqrt(2)
+  StencilEntries entries_;
+  EdgeWeights shape_;  // a_e / d_e^2
+  FieldAverage average_;
+  // #T x 6: of each neighbour the weights (x, y) by which its difference adds to the gradient of a field on triangles,
+  // by least squares over the neighbours' centroids.
+  Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> slope_;
+};
+
+}  // namespace reflines
