@@ -33,8 +33,8 @@ constexpr double kNothing = 0.05;
 // Radius of the structure tensor, relative to the length up to which is smoothed.
 constexpr double kAveraged = 0.35;
 
-// Length up to which all is smoothed before anything is measured, relative to a triangle's longest edge and, at most, to
-// the length: noise of the vertices is not to hide the surface.
+// Length up to which all is smoothed before anything is measured, relative to a triangle's longest edge and, at most,
+// to the length: noise of the vertices is not to hide the surface.
 constexpr double kPresmoothed = 2.5, kMostPresmoothed = 1.0;
 
 // Weight of slopes beside heights in what is kept, relative to the length: of flawed surface, and more of design, whose
@@ -93,7 +93,8 @@ EdgeWeights AdaptiveSmoother::presmoothing_weights() const {
   for (int t = 0; t < field_.triangle_count(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const int other = field_.neighbors(t, i);
-      const double edge = std::max(measure_longest_edge(field_, t), measure_longest_edge(field_, other < 0 ? t : other));
+      const double edge =
+          std::max(measure_longest_edge(field_, t), measure_longest_edge(field_, other < 0 ? t : other));
       result(t, i) = stiffness(std::min(kPresmoothed * edge, kMostPresmoothed * length_));
     }
   }
@@ -115,8 +116,8 @@ Vector AdaptiveSmoother::weigh(const Vector& z, double smoothing_length) const {
     const double coherence = trace > 0 ? (square(xx - yy) + 4.0 * square(xy)) / square(trace) : 0.0;
     const double typical = std::exp(around(t, 1));
     const double alike = smoothstep(kUneven, kEven, typical / around(t, 0));
-    const double most = square(flaw * (1.0 - kCoherent * coherence)) +
-                        square(kTypical) * typical * alike * square(1.0 - coherence);
+    const double most =
+        square(flaw * (1.0 - kCoherent * coherence)) + square(kTypical) * typical * alike * square(1.0 - coherence);
     const double weight = 1.0 / (1.0 + trace / most);
     result(t) = weight * weight * weight;  // falls faster than the stiffness of longer lengths rises
   }
@@ -144,8 +145,8 @@ Vector AdaptiveSmoother::adapt(const Vector& start, Progress* progress) {
   system_.factorize(presmoothing_weights(), slope_unit() * square(kSlope) * steepness_, progress);
   take_step(system_.smooth(start), kShortest * length_, progress);
   // Smoothed so far, and no further, noise does not hide dents, and the walls of a handle's recess are still no dents.
-  const BumpRemoval removal =
-      remove_bumps(variation_, start, length_, [&](const Vector& z) { return system_.smooth(z); }, progress);
+  const BumpRemoval removal = remove_bumps(
+      variation_, start, length_, [&](const Vector& z) { return system_.smooth(z); }, progress);
   bumps_ = removal.count;
   for (const double step : kLadder) take_step(system_.smooth(removal.heights), step * length_, progress);
   return system_.smooth(put_back_held(removal.heights));

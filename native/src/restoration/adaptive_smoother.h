@@ -14,8 +14,8 @@
 namespace reflines {
 
 // A place is smoothed up to the lengths at which its curvature varies by no more than a flaw's does, and design stays.
-// The curvature varies as a flaw's does where it does so slowly, everywhere alike, or in all directions; as design where
-// it does strongly and at some places only, or across a direction: fillets, edges and character lines go on.
+// The curvature varies as a flaw's does where it does so slowly, everywhere alike, or in all directions; as design
+// where it does strongly and at some places only, or across a direction: fillets, edges and character lines go on.
 class AdaptiveSmoother {
  public:
   // `field` outlives it; `length` is the size of the flaws.
@@ -25,8 +25,8 @@ class AdaptiveSmoother {
   // `progress` may be null; throws Cancelled.
   Vector adapt(const Vector& z, Progress* progress);
 
-  // Returns the result of `adapt` smoothed up to twice the lengths, where it has waves as long as that which do not count
-  // as design. Call it last: the lengths found are gone.
+  // Returns the result of `adapt` smoothed up to twice the lengths, where it has waves as long as that which do not
+  // count as design. Call it last: the lengths found are gone.
   Vector smooth_further(const Vector& z, const Progress* progress);
 
   int bumps() const { return bumps_; }  // that the last call took out

@@ -26,8 +26,8 @@ constexpr double kSteepness = 0.05;
 constexpr double kLargestShare = 0.09;
 constexpr double kTooWide = 1.2;  // times that: from where on it is none at all
 
-// Share of the variation of curvature around a bump, within so many radii, that has to go with it: from none of the bump
-// to all.
+// Share of the variation of curvature around a bump, within so many radii, that has to go with it: from none of the
+// bump to all.
 constexpr double kLeastGain = 0.1, kWholeGain = 0.35, kAround = 2.0;
 
 constexpr double kFarthest = 4.0;  // radii from the centre: a bump is nothing beyond
@@ -75,8 +75,8 @@ double smoothstep(double low, double high, double x) {
 Eigen::RowVector3d differentiate(const Bump& bump, const Vector2& place) {
   const Vector2 p = (place - bump.center) / bump.radius;
   const double factor = bump.height * std::exp(-p.squaredNorm()) / (bump.radius * bump.radius);
-  return factor * Eigen::RowVector3d(4 * p.x() * p.x() - 2, std::numbers::sqrt2 * 4 * p.x() * p.y(),
-                                     4 * p.y() * p.y() - 2);
+  return factor *
+         Eigen::RowVector3d(4 * p.x() * p.x() - 2, std::numbers::sqrt2 * 4 * p.x() * p.y(), 4 * p.y() * p.y() - 2);
 }
 
 // Returns the share of the curvature's variation around a bump that goes with it; below 0 where it grows.
@@ -100,7 +100,8 @@ double measure_gain(const Bump& bump, const CurvatureVariation& variation, const
 // Returns how much of a bump is to go, 0 to 1: none where it is wide for the piece of the surface that it is on, of
 // which it is a shape, nor where the surface around it is hardly smoother without it.
 double weigh(const Bump& bump, double largest_radius, double gain) {
-  return bump.weight * smoothstep(kTooWide, 1.0, bump.radius / largest_radius) * smoothstep(kLeastGain, kWholeGain, gain);
+  return bump.weight * smoothstep(kTooWide, 1.0, bump.radius / largest_radius) *
+         smoothstep(kLeastGain, kWholeGain, gain);
 }
 
 Vector evaluate(const Bump& bump, const PlanePositions& xy) {
@@ -113,8 +114,7 @@ Vector evaluate(const Bump& bump, const PlanePositions& xy) {
 BumpRemoval remove_bumps(const CurvatureVariation& variation, const Vector& z, double length,
                          const std::function<Vector(const Vector&)>& smooth, Progress* progress) {
   const HeightField& field = variation.field();
-  const BumpSearchOptions options{kSmallestRadius * length, kLargestRadius * length, kLeastHeight * length,
-                                  kSteepness};
+  const BumpSearchOptions options{kSmallestRadius * length, kLargestRadius * length, kLeastHeight * length, kSteepness};
   const PlanePositions seeds = free_vertices(field), centers = centroids(field);
   const Vector largest = largest_radii(field);
   BumpRemoval result{z, 0};

@@ -14,7 +14,7 @@
 namespace reflines {
 namespace {
 
-constexpr double kExplained = 0.42, kSure = 0.52;      // from no weight to the whole
+constexpr double kExplained = 0.42, kSure = 0.52;     // from no weight to the whole
 constexpr double kWorthRefining = 0.7;                // of that, before centre and radius are refined
 constexpr double kSeen = 1.3;                         // least heights from which on a bump has its whole weight
 constexpr double kReach = 2.5;                        // radii: the disk whose surface is looked at

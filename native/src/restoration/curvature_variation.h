@@ -14,9 +14,9 @@ namespace reflines {
 // A weight for the edge opposite each corner (#T x 3), the same on both sides of it; 0 at an edge of one triangle.
 using EdgeWeights = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-// The energy is sum_e w_e a_e |H_2 - H_1|^2 / d_e^2, with the Hessians H (f_xx, sqrt(2) f_xy, f_yy) of the two triangles
-// at an edge, the distance d_e of their centroids across it, and a_e, two thirds of their area, so that it tends to the
-// integral of w |grad H|^2. Quadratic surfaces have none.
+// The energy is sum_e w_e a_e |H_2 - H_1|^2 / d_e^2, with the Hessians H (f_xx, sqrt(2) f_xy, f_yy) of the two
+// triangles at an edge, the distance d_e of their centroids across it, and a_e, two thirds of their area, so that it
+// tends to the integral of w |grad H|^2. Quadratic surfaces have none.
 class CurvatureVariation {
  public:
   explicit CurvatureVariation(const HeightField& field);  // which outlives it
@@ -28,7 +28,8 @@ class CurvatureVariation {
   // errors of the stencils of an irregular mesh, which alternate from triangle to triangle, have no direction.
   TriangleFields average(const TriangleFields& hessian) const;
 
-  // Returns the structure tensors sum_c grad H_c (grad H_c)^T of Hessians (#T x 3): #T x 3, xx, xy, yy, in 1 / length^4.
+  // Returns the structure tensors sum_c grad H_c (grad H_c)^T of Hessians (#T x 3): #T x 3, xx, xy, yy, in 1 /
+  // length^4.
   Eigen::MatrixXd read_tensors(const TriangleFields& hessian) const;
 
   // Returns w_e a_e / d_e^2 for weights w_e of the edges.

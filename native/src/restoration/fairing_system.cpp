@@ -22,7 +22,7 @@ Vector measure_vertex_areas(const HeightField& field) {
 
 }  // namespace
 
-// What one thread adds up for a column: sums for each triangle and vertex, and which of them are not 0.
+// Holds what one thread adds up for a column: sums for each triangle and vertex, and which of them are not 0.
 struct FairingSystem::Workspace {
   Workspace(int vertex_count, int triangle_count)
       : change(TriangleFields::Zero(triangle_count, 3)),
@@ -106,7 +106,8 @@ void FairingSystem::add_slopes(int v, Workspace& space) const {
       const int other = field.F(t, i);
       if (column_[other] < column_[v]) continue;
       space.touch_vertex(other);
-      space.sum(other) += slope_(t) * (gradient[2 * own] * gradient[2 * i] + gradient[2 * own + 1] * gradient[2 * i + 1]);
+      space.sum(other) +=
+          slope_(t) * (gradient[2 * own] * gradient[2 * i] + gradient[2 * own + 1] * gradient[2 * i + 1]);
     }
   }
   space.sum(v) += area_(v);

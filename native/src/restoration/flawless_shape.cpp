@@ -44,7 +44,8 @@ FlawlessShape even_halves(ControlledSurface& surface, const Vector& start, doubl
   if (evidence.vertices == 0 || has_partners) return result;  // given mirror images move alike whatever was found
   const Positions& C = surface.control_positions();
   const Mask design = surface.controls_of(evidence.design);
-  for (MirrorPartners& found : find_mirror_partners(frame.project(C), frame.heights(C), bounding_box_diagonal(C), axes)) {
+  for (MirrorPartners& found :
+       find_mirror_partners(frame.project(C), frame.heights(C), bounding_box_diagonal(C), axes)) {
     for (Eigen::Index c = 0; c < found.partner.size(); ++c) {
       if (design(c)) found.partner(c) = static_cast<int>(c);
     }

@@ -15,8 +15,8 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 // Degrees that count of a shift at most: beyond, lines have no course.
 constexpr double kFarthest = 45.0;
 
-// Returns the root mean square over each triangle (#F) of what is `off` in its middle and changes by `gradient` (#F x 2)
-// from there: the mean over a triangle of (g . (p - c))^2 is a 36th of the sum over its edges e of (g . e)^2. By the
+// Returns the root mean square over each triangle (#F) of what is `off` in its middle and changes by `gradient` (#F x
+// 2) from there: the mean over a triangle of (g . (p - c))^2 is a 36th of the sum over its edges e of (g . e)^2. By the
 // middles alone waves of five cells count 12 % less than the same on a fine mesh.
 Vector spread_over_triangles(const Vector& off, const PlaneVectors& gradient, const PlanePositions& xy,
                              const Triangles& F) {

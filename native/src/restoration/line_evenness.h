@@ -9,7 +9,7 @@
 
 namespace reflines {
 
-// How far lines are from those of the smoothed surface.
+// Tells how far lines are from those of the smoothed surface.
 struct Unevenness {
   std::vector<double> degrees;   // of theta, root mean square over the area, one for each light
   std::vector<LineScore> score;  // likewise

@@ -19,15 +19,15 @@ namespace {
 constexpr double kPairTolerance = 1e-4, kDeepest = 3e-3;  // of the diagonal
 // Shares of the vertices with partners: from none of the evidence to all of it.
 constexpr double kUnpaired = 0.95, kPaired = 0.98;
-constexpr double kLeastAxis = 0.3;     // of an axis's length, in the image plane
-constexpr double kLeastMoment = 1e-9;  // relative: a smaller one has no direction
-constexpr double kNeighbourhood = 0.56;                   // of the length: over which roughness is compared
+constexpr double kLeastAxis = 0.3;       // of an axis's length, in the image plane
+constexpr double kLeastMoment = 1e-9;    // relative: a smaller one has no direction
+constexpr double kNeighbourhood = 0.56;  // of the length: over which roughness is compared
 // Roughness counts up to this many root mean squares of the difference's own: fillets are rough on both sides.
 constexpr double kRoughest = 2.0;
 constexpr double kTaper = 0.28;  // of the length: beside designed differences corrections rise from nothing
 
-// Planes across which the vertices may be symmetric: those of a mirror image's moments sum (x + iy)^p, whose argument is
-// a multiple of the axis's angle, for p = 2 (the principal axes), 3 and 4 (those of a square), and across `axes`.
+// Planes across which the vertices may be symmetric: those of a mirror image's moments sum (x + iy)^p, whose argument
+// is a multiple of the axis's angle, for p = 2 (the principal axes), 3 and 4 (those of a square), and across `axes`.
 std::vector<Vector2> list_normals(const PlanePositions& xy, const PlanePositions& axes) {
   std::vector<Vector2> result;
   for (Eigen::Index k = 0; k < axes.rows(); ++k) {
@@ -149,8 +149,7 @@ std::vector<Images> find_images(const PlanePositions& xy, const Vector& z, doubl
     for (const double offset : {(across.minCoeff() + across.maxCoeff()) / 2, across.mean()}) {
       Images images = pair_across(xy, z, diagonal, n, offset);
       const auto is_same = [&](const Images& other) { return other.partner == images.partner; };
-      if (images.weight > 0 && std::none_of(result.begin(), result.end(), is_same))
-        result.push_back(std::move(images));
+      if (images.weight > 0 && std::none_of(result.begin(), result.end(), is_same)) result.push_back(std::move(images));
     }
   }
   std::stable_sort(result.begin(), result.end(),
@@ -168,10 +167,8 @@ Vector correct_halves(const PlanePositions& xy, const Vector& z, const Triangles
   const DiskMean mean(xy, Vector::Ones(z.size()), kNeighbourhood * length);
   const Vector unbounded = roughness.of(difference).cwiseAbs();
   const Vector most = kRoughest * mean.of(unbounded.cwiseAbs2()).cwiseSqrt();
-  const Mask own_design =
-      find_designed_differences(xy, F, difference, most / kRoughest, kDeepest * diagonal, length);
-  const Vector spared =
-      DiskMean(xy, Vector::Ones(z.size()), kTaper * length).of((!own_design).cast<double>().matrix());
+  const Mask own_design = find_designed_differences(xy, F, difference, most / kRoughest, kDeepest * diagonal, length);
+  const Vector spared = DiskMean(xy, Vector::Ones(z.size()), kTaper * length).of((!own_design).cast<double>().matrix());
   // Bounded as that of the heights is: else the peak of a dent would count in the difference only, and a quarter of it
   // would be taken for a bump of the other side.
   const Vector own = mean.of(unbounded.cwiseMin(most).cwiseAbs2());

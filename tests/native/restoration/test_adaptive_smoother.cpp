@@ -1,0 +1,76 @@
+// Quadratic surfaces have no variation of curvature, a fairing is a minimum, and smoothing keeps what is design.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/height_field.h"
+#include "restoration/adaptive_smoother.h"
+#include "restoration/curvature_variation.h"
+#include "restoration/fairing_system.h"
+#include "tests/native/sample_meshes.h"
+
+namespace reflines {
+namespace {
+
+constexpr double kLength = 0.1;
+
+double crown(double x, double y) { return -0.15 * x * x - 0.1 * y * y + 0.02 * x * y; }
+
+HeightField make_field(double (*height)(double, double)) {
+  return samples::height_field(samples::lifted(samples::grid(40, 0.1), height), Border::kClamped);
+}
+
+EdgeWeights equal_weights(const HeightField& field, double weight) {
+  EdgeWeights result = EdgeWeights::Constant(field.triangle_count(), 3, weight);
+  return (field.neighbors.array() < 0).select(0.0, result.array());
+}
+
+double rough(double x, double y) { return crown(x, y) + 0.001 * std::sin(40 * x) * std::sin(35 * y); }
+
+TEST(CurvatureVariation, QuadraticSurfacesHaveNone) {
+  const HeightField field = make_field(&crown);
+  const CurvatureVariation variation(field);
+  EXPECT_LT(variation.read_tensors(variation.read_hessians(field.z)).cwiseAbs().maxCoeff(), 1e-12);
+  const EdgeWeights scaled = variation.scale_by_shape(equal_weights(field, 1.0));
+  const double rough_size = variation.differentiate(make_field(&rough).z, scaled).cwiseAbs().maxCoeff();
+  EXPECT_LT(variation.differentiate(field.z, scaled).cwiseAbs().maxCoeff(), 1e-9 * rough_size);
+}
+
+// At the minimum the gradients of the variation and of what keeps the heights cancel out.
+TEST(FairingSystem, FindsTheMinimum) {
+  const HeightField field = make_field(&rough);
+  const CurvatureVariation variation(field);
+  FairingSystem system(variation);
+  const EdgeWeights weight = equal_weights(field, std::pow(kLength / 6.0, 6));
+  system.factorize(weight, Vector::Zero(field.triangle_count()), nullptr);
+  const Vector smoothed = system.smooth(field.z);
+  Vector area = Vector::Zero(field.vertex_count());
+  for (int t = 0; t < field.triangle_count(); ++t) {
+    for (int i = 0; i < 3; ++i) area(field.F(t, i)) += field.area(t) / 3.0;
+  }
+  const Vector change = smoothed - field.z;
+  const Vector gradient =
+      variation.differentiate(smoothed, variation.scale_by_shape(weight)) + area.cwiseProduct(change);
+  const double size = area.cwiseProduct(change).cwiseAbs().maxCoeff();
+  EXPECT_GT(change.cwiseAbs().maxCoeff(), 2e-4);
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    if (field.role[v] == VertexRole::kFree) {
+      EXPECT_LT(std::abs(gradient(v)), 1e-6 * size);
+    } else {
+      EXPECT_EQ(change(v), 0.0);
+    }
+  }
+}
+
+TEST(AdaptiveSmoother, TakesRipplesOutAndLeavesAFoldAlone) {
+  const HeightField ripples =
+      make_field([](double x, double y) { return crown(x, y) + 2e-4 * std::sin(60 * x) * std::sin(55 * y); });
+  const Vector smoothed = AdaptiveSmoother(ripples, kLength).adapt(ripples.z, nullptr);
+  EXPECT_GT((smoothed - ripples.z).cwiseAbs().maxCoeff(), 1e-4);
+  const HeightField fold = make_field([](double x, double y) { return crown(x, y) - 0.2 * std::abs(x - 0.5); });
+  const Vector kept = AdaptiveSmoother(fold, kLength).adapt(fold.z, nullptr);
+  EXPECT_LT((kept - fold.z).cwiseAbs().maxCoeff(), 0.002 * 0.1);  // its height
+}
+
+}  // namespace
+}  // namespace reflines
