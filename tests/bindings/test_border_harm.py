@@ -48,9 +48,10 @@ def test_a_strong_bend_of_the_region_is_not_bent_to_the_surroundings(border: str
     """A hem moved to the limit, ten times as far as with a clamped border."""
     panel = make_panel(kind, diagonals)
     moves = {each: np.abs(press(panel, each)[0] - panel.V[panel.used]).max() for each in ("clamped", border)}
+    limit = press(panel, border)[1].limit
     print(f"{kind}, {diagonals}: {moves}")
     assert moves["clamped"] > 0.0
-    assert moves[border] < 3.0 * moves["clamped"]
+    assert moves[border] < max(3.0 * moves["clamped"], 0.75 * limit)
 
 
 @pytest.mark.parametrize("diagonals", DIAGONALS)

@@ -17,6 +17,8 @@ constexpr int kRetries = 3;
 
 constexpr double kVisible = 0.32;  // degrees, root mean square: waves that are worth a word
 
+constexpr double kNoGain = 0.1, kWholeGain = 0.6;  // shares of a cage's unevenness: from none of its move to all
+
 constexpr double kWorse = 1.01;  // times its unevenness at the start: a light that is no worse to the eye
 
 double choose_length(const SmoothPanelOptions& options, const Positions& V) {
@@ -73,7 +75,20 @@ Vector Restoration::find_move() {
     find_shape();
     move = restore();
   }
-  return move;
+  return surface_.controls_every_vertex() ? move : weigh_gain(move) * move;
+}
+
+// Returns the share of a cage's move that is made, 0 to 1, by how much more even it makes the lines. A cage follows the
+// shape without flaws only roughly: clean doors were bent by 1.0 to 1.8 degrees for 2 % less unevenness.
+double Restoration::weigh_gain(const Vector& move) const {
+  const Vector end = start_ + surface_.surface_move(move);
+  const Unevenness before = measure_unevenness(surface_, start_, smooth(start_), report_.length);
+  const Unevenness after = measure_unevenness(surface_, end, smooth(end), report_.length);
+  double gain = 0;
+  for (size_t k = 0; k < before.degrees.size(); ++k)
+    gain += (1.0 - after.degrees[k] / std::max(before.degrees[k], 1e-300)) / static_cast<double>(before.degrees.size());
+  const double t = std::clamp((gain - kNoGain) / (kWholeGain - kNoGain), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
 }
 
 bool Restoration::turns_faces(const Vector& move) const { return find_turned_by(move).any(); }

@@ -54,6 +54,7 @@ class Restoration {
   Mask find_turned_by(const Vector& move) const;
   Vector smooth(const Vector& z) const;
   bool find_longer_waves(const Vector& z);
+  double weigh_gain(const Vector& move) const;
   SmoothPanelResult judge(const Vector& move);
   SmoothPanelResult refuse(const std::string& reason);
 
