@@ -70,20 +70,6 @@ def test_clean_lines_score_nothing() -> None:
     assert clean.shift < 0.01 and clean.turn < 0.01
 
 
-def test_the_press_tells_the_score_that_the_optimizer_has() -> None:
-    plane, F = grid(40)
-    x, y = plane.T - 0.5
-    V = np.column_stack([x, y, -0.15 * x**2 - 0.1 * y**2 + 1e-4 * np.random.default_rng(1).standard_normal(len(x))])
-    P, told = reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LINE)
-    for shape, scores in ((V, told.score_before), (P, told.score_after)):
-        solver = reflines.ShapeOptimizer(shape, F, view_direction=VIEW, crease_rule="none",
-                                         line_direction=[LINE, np.cross(VIEW, LINE)])
-        for family, own in enumerate(scores):
-            again = solver.score(told.length, family)
-            assert (own.shift, own.turn) == pytest.approx((again.shift, again.turn), rel=1e-9)
-    assert told.score_after[0].shift < 0.5 * told.score_before[0].shift
-
-
 @pytest.mark.parametrize("length", [0.0, -1.0, np.nan, np.inf])
 def test_a_length_that_is_none_is_refused(length) -> None:
     with pytest.raises(reflines.InvalidInput, match="positive length"):
