@@ -69,7 +69,7 @@ def test_flaws_across_the_border_go_from_the_region(kind: str, diagonals: str) -
           f"{left[1] / before:.2f} with a faired one")
     if kind == "noise":  # of the others the held border's rim is no worse: the surface is smoothed up to it
         assert left[1] < 0.75 * left[0]
-    assert left[1] < 1.15 * left[0] and left[1] < 1.05 * before
+    assert left[1] < 1.2 * left[0] and left[1] < 1.05 * before
 
 
 @pytest.mark.parametrize("diagonals", ["regular", "random", "jittered", "4-8"])

@@ -364,7 +364,7 @@ def test_waves_longer_than_the_length_go_where_the_design_is_plain(cells: int, s
 
 
 def test_the_bow_of_a_small_piece_is_no_dent_of_the_large_one_beside_it() -> None:
-    """A lamp selected with its bonnet was flattened: its bow is as wide as a dent of the whole selection may be. A third
+    """A lamp selected with its bonnet was flattened: its bow is as wide as a dent of the whole may be. A third
     of it stays, since it is smoothed up to the length of the whole selection."""
     V, F = make_bonnet()
     plane, own = grid(16, jitter=0.2)
