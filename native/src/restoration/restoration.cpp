@@ -75,7 +75,7 @@ Vector Restoration::find_move() {
     find_shape();
     move = restore();
   }
-  return surface_.controls_every_vertex() || report_.limited > 0 ? move : weigh_gain(move) * move;
+  return surface_.controls_every_vertex() ? move : weigh_gain(move) * move;
 }
 
 // Returns the share of a cage's move that is made, 0 to 1, by how much more even it makes the lines. A cage follows the
