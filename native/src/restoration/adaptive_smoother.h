@@ -34,9 +34,6 @@ class AdaptiveSmoother {
   // Returns other heights (#V) smoothed up to the lengths found last.
   Vector smooth(const Vector& z) const { return system_.smooth(z); }
 
-  // Returns for each triangle how far it counts as flawed surface instead of design, 0 to 1.
-  const Vector& smoothness() const { return open_; }
-
  private:
   EdgeWeights presmoothing_weights() const;
   void take_step(const Vector& z, double smoothing_length, const Progress* progress);
@@ -52,7 +49,7 @@ class AdaptiveSmoother {
   PlanePositions centers_;  // #T x 2
   Vector steepness_;        // #T: cos^4 of the angle between normal and view
   EdgeWeights weight_;      // of the last factor
-  Vector open_;             // #T, see smoothness()
+  Vector open_;             // #T: how far each counts as flawed surface, 0 to 1
   int bumps_ = 0;
 };
 
