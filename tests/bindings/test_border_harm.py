@@ -42,16 +42,15 @@ def make_panel(kind: str, diagonals: str) -> Panel:
 
 
 @pytest.mark.parametrize("diagonals", DIAGONALS)
-@pytest.mark.parametrize("kind", ["hem", "hem across", "fillet"])
+@pytest.mark.parametrize("kind", ["hem", "hem across", "fillet", "bulge"])
 @pytest.mark.parametrize("border", CONTINUED)
 def test_a_strong_bend_of_the_region_is_not_bent_to_the_surroundings(border: str, kind: str, diagonals: str) -> None:
-    """A hem moved to the limit, ten times as far as with a clamped border."""
+    """A hem moved to the limit, ten times as far as with a clamped border; a fillet nine times."""
     panel = make_panel(kind, diagonals)
     moves = {each: np.abs(press(panel, each)[0] - panel.V[panel.used]).max() for each in ("clamped", border)}
-    limit = press(panel, border)[1].limit
     print(f"{kind}, {diagonals}: {moves}")
     assert moves["clamped"] > 0.0
-    assert moves[border] < max(3.0 * moves["clamped"], 0.75 * limit)
+    assert moves[border] < 3.001 * moves["clamped"]
 
 
 @pytest.mark.parametrize("diagonals", DIAGONALS)
@@ -70,8 +69,8 @@ def test_no_light_ends_less_even_or_it_is_clamped_to_the_bit(border: str, kind: 
 
 @pytest.mark.parametrize("diagonals", DIAGONALS)
 @pytest.mark.parametrize("border", CONTINUED)
-def test_what_would_be_refused_is_clamped_and_said_and_what_is_good_is_kept(border: str, diagonals: str) -> None:
-    assert is_said(press(make_panel("bulge", diagonals), border)[1])
+def test_what_is_less_even_is_clamped_and_said_and_what_is_good_is_kept(border: str, diagonals: str) -> None:
+    assert is_said(press(make_panel("fillet", "jittered"), border)[1])
     panel = make_panel("dent", diagonals)
     positions, told = press(panel, border)
     assert not is_said(told) and not np.array_equal(positions, press(panel, "clamped")[0])

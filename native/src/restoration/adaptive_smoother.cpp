@@ -30,6 +30,8 @@ constexpr double kTypical = 3.0, kAround = 3.0, kUneven = 0.3, kEven = 0.7;
 // Share of a flaw's variation that counts as none, for the geometric mean.
 constexpr double kNothing = 0.05;
 
+constexpr double kSmoothing = 0.4;  // of a press, for the bar of its progress
+
 // Radius of the structure tensor, relative to the length up to which is smoothed.
 constexpr double kAveraged = 0.35;
 
@@ -125,7 +127,8 @@ Vector AdaptiveSmoother::weigh(const Vector& z, double smoothing_length) const {
 }
 
 // Lets what counts as flawed up to a length, by the curvature of heights z (#V), be smoothed up to it from now on.
-void AdaptiveSmoother::take_step(const Vector& z, double smoothing_length, const Progress* progress) {
+void AdaptiveSmoother::take_step(const Vector& z, double smoothing_length, Progress* progress) {
+  if (progress) progress->enter(kSmoothing, "smoothing the lines");
   const Vector flawed = weigh(z, smoothing_length);
   const double most = stiffness(smoothing_length);
   for (int t = 0; t < field_.triangle_count(); ++t) {
@@ -162,7 +165,7 @@ Vector AdaptiveSmoother::put_back_held(const Vector& z) const {
   return result;
 }
 
-Vector AdaptiveSmoother::smooth_further(const Vector& z, const Progress* progress) {
+Vector AdaptiveSmoother::smooth_further(const Vector& z, Progress* progress) {
   take_step(z, kFurther * length_, progress);
   return system_.smooth(z);
 }

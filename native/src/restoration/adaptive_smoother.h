@@ -27,7 +27,7 @@ class AdaptiveSmoother {
 
   // Returns the result of `adapt` smoothed up to twice the lengths, where it has waves as long as that which do not
   // count as design. Call it last: the lengths found are gone.
-  Vector smooth_further(const Vector& z, const Progress* progress);
+  Vector smooth_further(const Vector& z, Progress* progress);
 
   int bumps() const { return bumps_; }  // that the last call took out
 
@@ -36,7 +36,7 @@ class AdaptiveSmoother {
 
  private:
   EdgeWeights presmoothing_weights() const;
-  void take_step(const Vector& z, double smoothing_length, const Progress* progress);
+  void take_step(const Vector& z, double smoothing_length, Progress* progress);
   Vector weigh(const Vector& z, double smoothing_length) const;
   double stiffness(double smoothing_length) const;
   double slope_unit() const;

@@ -2,12 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <numbers>
 #include <utility>
 
+#include "base/parallel_failure.h"
 #include "reflection/weighted_median.h"
 #include "restoration/grid_cell.h"
 
@@ -28,6 +29,7 @@ constexpr double kSeedSpacing = 0.6;                  // radii
 constexpr int kRounds = 5;                            // of reweighting
 constexpr double kOutlier = 3.0;                      // medians of the misfit
 constexpr double kInliers = 0.5, kCoreInliers = 0.7;  // of the area: else the disk is no good surface with a bump
+constexpr double kSearching = 0.2, kRefining = 0.3;  // of a press, for the bar of its progress
 
 // The samples in square cells, for disks of one size.
 class DiskIndex {
@@ -182,24 +184,32 @@ Bump measure_at(const HessianSamples& samples, const DiskIndex& index, const Vec
   return result;
 }
 
-// Searches the neighbouring centres and radii for the best, with a step that is halved until it is a thousandth of the
-// radius, so that what is found does not depend on where the search began.
+// Returns the place of the top of the parabola through values at -1, 0 and 1, within these; 0 where it has none.
+double find_vertex(double below, double middle, double above) {
+  const double bend = 2.0 * middle - below - above;
+  return bend > 0 ? std::clamp((above - below) / (2.0 * bend), -1.0, 1.0) : 0.0;
+}
+
+// Searches for the centre and radius that explain most: along each coordinate parabolas through neighbours, whose step
+// shrinks until it is a thousandth of the radius, so that what is found does not depend on where the search began. All
+// 27 neighbours each time, instead of 7, took eight times as long for the same bumps.
 Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSearchOptions& options, Bump best) {
-  constexpr int kNeighbours = 27;
   for (double step = 0.3; step > 1e-3;) {
-    std::array<Bump, kNeighbours> near;
-#pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < kNeighbours; ++i) {
-      const Vector2 p = best.center + step * best.radius * Vector2(i % 3 - 1, i / 3 % 3 - 1);
-      const double radius = std::clamp(best.radius * std::pow(1.0 + step / 2, i / 9 - 1), options.smallest_radius,
+    const Bump middle = best;
+    const auto measure = [&](const Vector3& steps) {
+      const Vector2 center = middle.center + step * middle.radius * steps.head<2>();
+      const double radius = std::clamp(middle.radius * std::pow(1.0 + step / 2, steps.z()), options.smallest_radius,
                                        options.largest_radius);
-      near[i] = measure_at(samples, index, p, radius);
-    }
-    const Bump before = best;
-    for (const Bump& bump : near) {
-      if (bump.explained > best.explained) best = bump;
-    }
-    if (!(best.explained > before.explained)) step /= 2;
+      const Bump found = measure_at(samples, index, center, radius);
+      if (found.explained > best.explained) best = found;
+      return found.explained;
+    };
+    Vector3 vertex;
+    for (int c = 0; c < 3; ++c)
+      vertex(c) = find_vertex(measure(-Vector3::Unit(c)), middle.explained, measure(Vector3::Unit(c)));
+    measure(vertex);
+    const double moved = (best.center - middle.center).cwiseAbs().maxCoeff();
+    if (moved < 0.9 * step * middle.radius) step /= 3;
   }
   return best;
 }
@@ -252,42 +262,76 @@ bool is_apart(const Bump& bump, const std::vector<Bump>& others) {
   });
 }
 
+// A bump and the index of the disks of its size.
+struct Candidate {
+  Bump bump;
+  const DiskIndex* index;
+};
+
+bool explains_more(const Candidate& a, const Candidate& b) { return a.bump.explained > b.bump.explained; }
+
+// Returns what explains most, and is apart from all that explains more.
+std::vector<Candidate> pick_tops(std::vector<Candidate> candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(), explains_more);
+  std::vector<Candidate> result;
+  std::vector<Bump> picked;
+  for (const Candidate& candidate : candidates) {
+    if (!is_apart(candidate.bump, picked)) continue;
+    picked.push_back(candidate.bump);
+    result.push_back(candidate);
+  }
+  return result;
+}
+
+// Returns the bumps of one radius, at a grid of places, that are worth refining.
+std::vector<Candidate> search_places(const HessianSamples& samples, const DiskIndex& index,
+                                     const PlanePositions& places, double radius, const BumpSearchOptions& options,
+                                     const Progress* progress) {
+  std::vector<Bump> measured(places.rows());
+  ParallelFailure failure;
+#pragma omp parallel for schedule(dynamic, 64)
+  for (Eigen::Index k = 0; k < places.rows(); ++k) {
+    failure.run([&] {
+      if (!progress || !progress->cancelled()) measured[k] = measure_at(samples, index, places.row(k), radius);
+    });
+  }
+  failure.rethrow();
+  std::vector<Candidate> result;
+  for (const Bump& bump : measured) {
+    if (bump.explained > kWorthRefining * kExplained && is_seen(bump, options)) result.push_back({bump, &index});
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions& seeds,
                              const std::vector<Bump>& removed, const BumpSearchOptions& options, Progress* progress) {
-  struct Candidate {
-    Bump bump;
-    size_t scale;
-  };
-  std::vector<DiskIndex> indexes;
+  if (progress) progress->enter(kSearching, "looking for dents");
+  std::deque<DiskIndex> indexes;
   std::vector<Candidate> candidates;
   for (double radius = options.smallest_radius; radius < 1.01 * options.largest_radius; radius *= kScaleStep) {
     indexes.emplace_back(samples, 1.5 * kReach * radius);  // refined radii are up to 1.3 times larger
-    const DiskIndex& index = indexes.back();
     const PlanePositions places = overlapping(thin(seeds, kSeedSpacing * radius), radius, removed);
-    std::vector<Bump> measured(places.rows());
-#pragma omp parallel for schedule(dynamic, 64)
-    for (Eigen::Index k = 0; k < places.rows(); ++k) {
-      if (progress && progress->cancelled()) continue;
-      measured[k] = measure_at(samples, index, places.row(k), radius);
-    }
-    if (progress) progress->enter(0.5, "looking for dents");
-    for (const Bump& bump : measured) {
-      if (bump.explained > kWorthRefining * kExplained && is_seen(bump, options))
-        candidates.push_back({bump, indexes.size() - 1});
-    }
+    const std::vector<Candidate> found = search_places(samples, indexes.back(), places, radius, options, progress);
+    candidates.insert(candidates.end(), found.begin(), found.end());
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.bump.explained > b.bump.explained; });
-  std::vector<Bump> found, result;
-  for (const Candidate& candidate : candidates) {
-    if (!is_apart(candidate.bump, found)) continue;
-    Bump best = refine(samples, indexes[candidate.scale], options, candidate.bump);
-    if (best.explained < kExplained || !is_seen(best, options) || !is_apart(best, found)) continue;
-    best.weight = weigh(best, options);
-    found.push_back(best);
-    if (best.weight > 0) result.push_back(best);
+  candidates = pick_tops(std::move(candidates));
+  ParallelFailure failure;
+#pragma omp parallel for schedule(dynamic)
+  for (size_t k = 0; k < candidates.size(); ++k) {
+    failure.run([&] {
+      if (progress && progress->cancelled()) return;
+      candidates[k].bump = refine(samples, *candidates[k].index, options, candidates[k].bump);
+    });
+  }
+  failure.rethrow();
+  if (progress) progress->enter(kRefining, "looking for dents");
+  std::erase_if(candidates, [&](const Candidate& each) { return !is_seen(each.bump, options); });
+  std::vector<Bump> result;
+  for (Candidate& candidate : pick_tops(std::move(candidates))) {
+    candidate.bump.weight = weigh(candidate.bump, options);
+    if (candidate.bump.weight > 0) result.push_back(candidate.bump);
   }
   return result;
 }

@@ -19,6 +19,8 @@ namespace {
 // the last by 0.27. Of eight lines round the circle 0.05 degrees are a thousandth of the distance.
 constexpr double kLessEven = 1.01, kSeen = 0.05;
 
+constexpr double kMostAdded = 2.0;  // see bound_addition
+
 ShapeOptions clamp_instead(const ShapeOptions& shape) {
   ShapeOptions result = shape;
   for (Border& border : result.border) border = std::min(border, Border::kClamped);
@@ -54,15 +56,24 @@ std::string explain_clamped(bool continued_applied, const std::optional<Strays>&
   return start + text;
 }
 
-// Presses the surface with its own borders. Empty where the solver breaks down with the curvature continued: what lies
-// beside the region is no reason to refuse it.
-std::optional<SmoothPanelResult> press_as_given(MeshSurface& surface, const SmoothPanelOptions& options) {
+// Finds the move with the curvature continued. Empty where the solver breaks down: what lies beside the region is no
+// reason to refuse it.
+std::optional<Vector> find_continued_move(Restoration& press) {
   try {
-    return Restoration(surface, options).run();
+    return press.find_move();
   } catch (const SolverFailure&) {
-    if (!surface.optimizer().continues_curvature()) throw;
     return std::nullopt;
   }
+}
+
+// Returns the clamped move and as much of what continuing the curvature adds as is no larger than kMostAdded times it.
+// What lies beside the region tells how its flaws go on, and is no reason to bend a design: beside a fillet the skirt of
+// a panel went by 7 and 9 times what flaws there moved.
+Vector bound_addition(const Vector& clamped, const Vector& continued) {
+  const double most = kMostAdded * clamped.cwiseAbs().maxCoeff();
+  const double added = (continued - clamped).cwiseAbs().maxCoeff();
+  if (added <= most) return continued;
+  return clamped + most / added * (continued - clamped);
 }
 
 }  // namespace
@@ -71,18 +82,22 @@ SmoothPanelResult press_held_border(const Positions& V, const Triangles& F, cons
                                     const std::vector<Vector3>& families, const ShapeOptions& shape,
                                     const SmoothPanelOptions& options) {
   MeshSurface surface(V, F, view, families, shape);
-  std::optional<SmoothPanelResult> result = press_as_given(surface, options);
-  if (!surface.optimizer().continues_curvature()) return *result;
+  Restoration press(surface, options);
+  if (!surface.optimizer().continues_curvature()) return press.run();
   MeshSurface clamped_surface(V, F, view, families, clamp_instead(shape));
-  SmoothPanelResult clamped = Restoration(clamped_surface, options).run();
-  if (!result) {
+  Restoration clamped_press(clamped_surface, options);
+  const Vector clamped_move = clamped_press.find_move();
+  SmoothPanelResult clamped = clamped_press.judge(clamped_move);
+  const std::optional<Vector> continued_move = find_continued_move(press);
+  if (!continued_move) {
     clamped.report.messages.emplace_back(
         "The border is only clamped: with its curvature continued, the solver breaks down.");
     return clamped;
   }
-  const std::optional<Strays> strays = find_less_even(result->report, clamped.report);
-  if (!clamped.report.applied || (result->report.applied && !strays)) return *result;
-  clamped.report.messages.push_back(explain_clamped(result->report.applied, strays));
+  const SmoothPanelResult continued = press.judge(bound_addition(clamped_move, *continued_move));
+  const std::optional<Strays> strays = find_less_even(continued.report, clamped.report);
+  if (!clamped.report.applied || (continued.report.applied && !strays)) return continued;
+  clamped.report.messages.push_back(explain_clamped(continued.report.applied, strays));
   return clamped;
 }
 

@@ -75,11 +75,12 @@ Vector Restoration::find_move() {
     find_shape();
     move = restore();
   }
-  return surface_.controls_every_vertex() ? move : weigh_gain(move) * move;
+  return surface_.controls_every_vertex() ? move : weigh_gain(unlimited_) * move;
 }
 
-// Returns the share of a cage's move that is made, 0 to 1, by how much more even it makes the lines. A cage follows the
-// shape without flaws only roughly: clean doors were bent by 1.0 to 1.8 degrees for 2 % less unevenness.
+// Returns the share of a cage's move that is made, 0 to 1, by how much more even the whole move, which no limit holds
+// back, makes the lines. A cage follows the shape without flaws only roughly: clean doors were bent by 1.0 to 1.8
+// degrees for 2 % less unevenness.
 double Restoration::weigh_gain(const Vector& move) const {
   const Vector end = start_ + surface_.surface_move(move);
   const Unevenness before = measure_unevenness(surface_, start_, smooth(start_), report_.length);

@@ -32,7 +32,11 @@ class Restoration {
   // Finds the flaws and solves for the shape without them. Positions (#C x 3) are those of the control vertices.
   SmoothPanelResult run() { return judge(find_move()); }
 
-  Vector find_move();                                          // of the control vertices (#C), not judged yet
+  Vector find_move();  // of the control vertices (#C), not judged yet
+
+  // Judges a move of the control vertices (#C), after find_move.
+  SmoothPanelResult judge(const Vector& move);
+
   const SmoothPanelReport& report() const { return report_; }  // so far: length and limit from the beginning
   const Mask& limited() const { return limited_; }             // #C: those that wanted to go beyond the limit
   bool turns_faces(const Vector& move) const;  // a move of the control vertices, by more than 45 degrees
@@ -55,7 +59,6 @@ class Restoration {
   Vector smooth(const Vector& z) const;
   bool find_longer_waves(const Vector& z);
   double weigh_gain(const Vector& move) const;
-  SmoothPanelResult judge(const Vector& move);
   SmoothPanelResult refuse(const std::string& reason);
 
   ControlledSurface& surface_;
