@@ -23,7 +23,7 @@ def smooth(panel: bpy.types.Object) -> None:
     print(f"demo: {report.termination}: {report.message}")
     print(f"demo: {report.unknowns} free vertices, {report.iterations} iterations, {report.seconds:.2f} s, "
           f"largest move {1000.0 * report.largest_move:.2f} mm")
-    print(f"demo: wobble of the lines {report.score_before:.3f} degrees before, {report.score_after:.3f} after")
+    print(f"demo: {report.headline()}")
 
 
 def main(folder: pathlib.Path) -> None:
@@ -34,7 +34,7 @@ def main(folder: pathlib.Path) -> None:
     pictures.picture(before, "before")
     smooth(panel)
     report = panel.reflection_lines.report
-    change = f"wobble {report.score_before:.2f} to {report.score_after:.2f} degrees"
+    change = f"worst {report.worst_before:.2f} to {report.worst_after:.2f} degrees"
     pictures.picture(after, f"after: {change}, {1000.0 * report.seconds:.0f} ms")
     pictures.side_by_side([before, after], folder / "comparison.png")
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "hood_smoothed.blend"), compress=True, copy=True)

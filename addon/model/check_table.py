@@ -18,10 +18,10 @@ class TableRow:
 
 
 def describe_solve(score: tuple[float, float], move: float, limit: float | None) -> list[TableRow]:
-    """Returns the lines of the last solve: the wobble of its lines (degrees, before and after), and its largest move
+    """Returns the lines of the last solve: the deviation of its lines (degrees, before and after), and its largest move
     along the view against its limit.
     """
-    return [TableRow("wobble of the lines", "degrees", *score, None, True),
+    return [TableRow("deviation of the lines", "degrees", *score, None, True),
             TableRow("move along the view", "length", 0.0, move, limit, limit is None or move <= limit)]
 
 

@@ -1,6 +1,26 @@
 """The gain of a solve, in an artist's words."""
 from dataclasses import dataclass
 
+SEEN = 0.005  # share of a panel below which nothing is said of its area
+
+
+def format_change(before: float, after: float) -> str:
+    """Formats degrees before and after a solve, with two digits each."""
+    return f"{before:.2g} to {after:.2g} degrees"
+
+
+@dataclass(frozen=True)
+class Healed:
+    """What an automatic press of Smooth healed: native.HealedFlaws."""
+    area: float          # share of the region, 0 to 1
+    worst_before: float  # degrees that lines are off their course at the worst place
+    worst_after: float
+
+    def describe(self) -> str:
+        """Says where flaws went, and how far the worst lines were and are off their course."""
+        where = f"Flaws healed on {self.area:.0%} of the panel" if self.area >= SEEN else "Lines evened out a little"
+        return f"{where}: worst {format_change(self.worst_before, self.worst_after)}"
+
 
 @dataclass(frozen=True)
 class Gain:
@@ -11,10 +31,10 @@ class Gain:
     residual_after: float
 
     def describe(self, *, smoothed: bool) -> str:
-        """Says how much smoother a smoothing made the lines; of other tools, how much of the target was reached."""
-        if smoothed and min(self.score_before, self.score_after) > 0.0:
-            ratio = self.score_before / self.score_after
-            times, word = (ratio, "smoother") if ratio >= 1.0 else (1.0 / ratio, "rougher")
-            return f"Lines {times:.{1 if times < 10.0 else 0}f} x {word}"
+        """Says how far lines that were smoothed are off their course; of other tools, how much of the target was
+        reached.
+        """
+        if smoothed:
+            return f"Lines off their course by {format_change(self.score_before, self.score_after)}"
         share = 1.0 - self.residual_after / self.residual_before if self.residual_before else 1.0
         return f"{max(share, 0.0):.0%} of the target reached"

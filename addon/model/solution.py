@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
+from .gain import Healed
 from .patch import Patch
 
 
@@ -15,7 +16,7 @@ BuildCrossed = Callable[["native.ShapeOptimizer"], "Awaitable[native.Target]"]
 class SolveSettings:
     """The parameters that every solve needs beside its target."""
     border: str
-    length: float  # detail finer than this counts as wobble, world units; 0: a fraction of the patch's diagonal
+    length: float  # detail finer than this counts as a deviation, world units; 0: a fraction of the patch's diagonal
     limit: float = 0.0  # largest move along the view, world units; 0: a fraction of the patch's diagonal
     limit_length: float = 0.0  # the length that an automatic limit is a share of; 0: the patch's diagonal
     build_crossed: BuildCrossed | None = None  # of the lines that cross the wanted ones; None leaves them to themselves
@@ -67,6 +68,9 @@ class Solution:
     turn_before: float = 0.0
     turn_after: float = 0.0
     automatic_limit: float = 0.0  # what the limit 0 stood for, world units; 0 where it is not known
+    kept: tuple[str, ...] = ()  # what of the region was left as it is, and why
+    healed: Healed | None = None  # by an automatic press of Smooth
+    longer_waves: bool = False  # that may be flaws, too, were left by it
 
     def to_last_solve(self) -> "LastSolve":
         return LastSolve(self.patch, self.positions, self.residual)

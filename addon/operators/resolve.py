@@ -18,10 +18,14 @@ before that run, unless the mesh has been changed since"""
     border: bpy.props.StringProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Another border than the last run's")
     limit: bpy.props.FloatProperty(min=0.0, unit='LENGTH', options={'HIDDEN', 'SKIP_SAVE'},
                                    description="Another limit than the last run's; 0: the same")
+    flaw_size: bpy.props.FloatProperty(min=0.0, options={'HIDDEN', 'SKIP_SAVE'},
+                                       description="Another size of flaws than the last run's; 0: the same")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip with another border or limit; empty without, for the docstring."""
+        """Returns the tooltip with another border, limit or size of flaws; empty without, for the docstring."""
+        if properties.flaw_size:
+            return "Run the last tool again with flaws twice as long: what is as long as that counts as a flaw, too"
         if properties.limit:
             return "Run the last tool again with twice the limit of the move, which held vertices back"
         return f"Run the last tool again with the border {properties.border.capitalize()}" if properties.border else ""
@@ -62,7 +66,7 @@ before that run, unless the mesh has been changed since"""
         if not isinstance(kind, type) or not issubclass(kind, SolveTool):
             raise Refusal(f"{ob.name}: the stored run names no tool ({run.operator[:40]}): run a tool again")
         tool = getattr(bpy.ops.reflines, run.operator.split("_OT_")[1])
-        changed = {name: getattr(self, name) for name in ("border", "limit") if getattr(self, name)}
+        changed = {name: getattr(self, name) for name in ("border", "limit", "flaw_size") if getattr(self, name)}
         try:
             settings = {**json.loads(run.settings), **changed, "anew": True, "edited": edited}
             tool('EXEC_DEFAULT', **settings)

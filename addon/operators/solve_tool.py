@@ -59,7 +59,7 @@ class SolveTool:
         return ()
 
     def read_detail_length(self, scene: bpy.types.Scene) -> float:
-        """Returns the length below which detail counts as wobble in the score; 0 is a share of the patch's diagonal."""
+        """Returns the length below which detail counts as a deviation; 0 is a share of the patch's diagonal."""
         return scene.reflection_lines.length
 
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
@@ -161,5 +161,8 @@ class SolveTool:
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")
         faces = f", {solution.patch.faces.sum()} faces kept as the region; in Edit Mode the selected ones are taken"
+        kept = " ".join(stored.report.kept.splitlines())
+        if kept:
+            self.report({'INFO'}, f"{ob.name}: Kept: {kept}")
         # The status bar shows the last report, and cuts off its end.
         self.report({'INFO'}, f"{stored.report.headline()} ({ob.name}{faces if self.region_stored else ''})")

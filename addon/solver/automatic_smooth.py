@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
+from ..model.gain import Healed
 from ..model.patch import Patch
 from ..model.solution import SolveReport, Solution
 from ..model.view import View
@@ -51,7 +52,10 @@ async def smooth_panel(patch: Patch, seen: View, border: str, settings: Automati
     shifts, turns = np.mean([[(score.shift, score.turn) for score in each] for each in scores], axis=1).T.tolist()
     return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *shifts,
                     choose_notes(formulation, told), told.length, automatic_limit=0.0 if settings.limit else told.limit,
-                    cage_move=press.cage_move, turn_before=turns[0], turn_after=turns[1])
+                    cage_move=press.cage_move, turn_before=turns[0], turn_after=turns[1],
+                    kept=(*remarks.describe_marked_creases(patch), *told.region.messages),
+                    healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after),
+                    longer_waves=told.longer_waves)
 
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:
@@ -62,9 +66,7 @@ def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveRepor
 
 
 def choose_notes(formulation: Formulation, told: "native.SmoothPanelReport") -> tuple[str, ...]:
-    """Returns the most important sentences: those of the press first, then what of the region was held."""
+    """Returns the most important sentences."""
     told_of_limit = told.applied and told.limited > 0  # by the first sentence; the headline of the result has it too
     lopsided = () if told.mirrored else remarks.describe_mirror(formulation)
-    marked = remarks.describe_marked_creases(formulation.patch)
-    every = (*told.messages[told_of_limit:], *lopsided, *marked, *told.region.messages)
-    return tuple(dict.fromkeys(every))[:MOST_NOTES]
+    return (*told.messages[told_of_limit:], *lopsided)[:MOST_NOTES]

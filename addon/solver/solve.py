@@ -20,7 +20,7 @@ MOST_HOLDS = 3  # times that faces are held and the rest is solved again
 
 
 def choose_length(patch: Patch, length: float) -> float:
-    """Returns the length below which detail counts as wobble: the given one, or for 0 a fraction of the diagonal.
+    """Returns the length below which detail counts as a deviation: the given one, or for 0 a fraction of the diagonal.
     """
     return length or AUTOMATIC_LENGTH * patch.diagonal
 
@@ -59,8 +59,8 @@ async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: 
         if left.sum() >= turned.sum():
             break
         solution, turned, count = firmer, left, count + live.patch.count_faces(turned & ~left)
-    return replace(solution, notes=(*solution.notes, *remarks.describe_held_faces(count),
-                                    *remarks.describe_turned_faces(live.patch.count_faces(turned))))
+    return replace(solution, kept=(*solution.kept, *remarks.describe_held_faces(count)),
+                   notes=(*solution.notes, *remarks.describe_turned_faces(live.patch.count_faces(turned))))
 
 
 async def solve_held(live: LiveOptimizer, held: np.ndarray, build_target: BuildTarget, settings: SolveSettings,
@@ -90,11 +90,11 @@ async def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: S
                     (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
                      *remarks.describe_unfinished(report),
                      *remarks.describe_limit(report.limited, limit, automatic=not settings.limit),
-                     *optimizer.region.messages, *remarks.describe_mirror(formulation),
+                     *remarks.describe_mirror(formulation),
                      *remarks.describe_far_move(live.patch, report.largest_move, live.border)),
                     choose_length(live.patch, 0.0), "free" if short and live.border != "free" else "",
                     formulation.measure_cage_move(optimizer), automatic_limit=0.0 if settings.limit else limit,
-                    turn_before=before.turn, turn_after=after.turn)
+                    turn_before=before.turn, turn_after=after.turn, kept=tuple(optimizer.region.messages))
 
 
 def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lacking: float, left: float) -> bool:

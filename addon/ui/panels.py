@@ -315,13 +315,15 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         report, run = ob.reflection_lines.report, ob.reflection_lines.run
         column = self.layout.column(align=True)
         good = report.termination in {"converged", "already_optimal"} and not report.remedy
-        draw_paragraph(column, context, report.headline(), 'CHECKMARK' if good else 'INFO')
         if context.window_manager.reflection_lines.is_undone(ob):
-            draw_paragraph(column, context, "The mesh is no longer as this solve left it", 'ERROR')
+            draw_paragraph(column, context, "Undone: the mesh is no longer as the last solve left it", 'LOOP_BACK')
+            self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
+            return
+        draw_paragraph(column, context, report.headline(), 'CHECKMARK' if good else 'INFO')
         if report.fit:
             draw_paragraph(column, context, report.fit, 'MOD_SHRINKWRAP')
         for note in report.notes.splitlines():
-            draw_paragraph(column, context, note, 'ERROR')
+            draw_paragraph(column, context, note, 'INFO' if good else 'ERROR')
         keys = ob.data.shape_keys.key_blocks if ob.type == 'MESH' and ob.data.shape_keys is not None else {}
         if run.key in keys:
             self.layout.prop(keys[run.key], "value", text="Strength", slider=True)
@@ -334,8 +336,28 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if report.limited and run.operator and limit:
             shown = run.format_length(limit)
             self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
+        if report.longer_waves and run.operator:
+            self.layout.operator("reflines.resolve", text="Take Longer Waves Too").flaw_size = 2.0
         self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
         self.layout.operator("reflines.store_result", icon='GROUP_VERTEX')
+
+
+class VIEW3D_PT_reflines_kept(ReflinesPanel, bpy.types.Panel):
+    """What of the region was left as it is: fillets, edges, the hidden side."""
+    bl_label = "Kept"
+    bl_parent_id = "VIEW3D_PT_reflines_result"
+    bl_options = {'DEFAULT_CLOSED'}
+    manual = "result"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return (VIEW3D_PT_reflines_result.poll.__func__(cls, context)
+                and context.view_layer.objects.active.reflection_lines.report.kept != "")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = self.layout.column(align=True)
+        for sentence in context.view_layer.objects.active.reflection_lines.report.kept.splitlines():
+            draw_paragraph(column, context, sentence, 'DOT')
 
 
 class VIEW3D_PT_reflines_numbers(ReflinesPanel, bpy.types.Panel):
@@ -353,7 +375,7 @@ class VIEW3D_PT_reflines_numbers(ReflinesPanel, bpy.types.Panel):
         column = self.layout.column(align=True)
         column.label(text=report.termination.replace('_', ' ').capitalize())
         column.label(text=f"{report.iterations} iterations, {report.seconds:.2f} s")
-        column.label(text=f"Wobble {report.wobble()}")
+        column.label(text=f"Line deviation {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
         column.label(text=f"Turn {report.turn_before:.3g}\u00b0 \u2192 {report.turn_after:.3g}\u00b0")
         column.label(text=f"at length {report.measured_length()}")
         column.label(text=f"Residual {report.residual_before:.3g} \u2192 {report.residual_after:.3g}")
@@ -364,4 +386,4 @@ register, unregister = bpy.utils.register_classes_factory([
     VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_pull,
     VIEW3D_PT_reflines_brush, VIEW3D_PT_reflines_direction,
     VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
-    VIEW3D_PT_reflines_numbers])
+    VIEW3D_PT_reflines_kept, VIEW3D_PT_reflines_numbers])

@@ -7,7 +7,7 @@ from bpy.props import (BoolProperty, EnumProperty, FloatProperty, FloatVectorPro
 from mathutils import Vector
 
 from ..bridge import light_angles, modifiers, scene_objects, units
-from ..model.gain import Gain
+from ..model.gain import Gain, Healed
 from ..model.solution import Solution
 from .automatic_values import shown_property, switch_property
 from .check_properties import ReflinesCheck, ReflinesMarks
@@ -63,7 +63,8 @@ class ReflinesReport(bpy.types.PropertyGroup):
     """The report of the last solve of an object."""
     termination: StringProperty(name="Termination")
     message: StringProperty(name="Message")
-    notes: StringProperty(name="Notes", description="What was held fixed or left out, one sentence a line")
+    notes: StringProperty(name="Notes", description="What else there is to know or to do, one sentence a line")
+    kept: StringProperty(name="Kept", description="What of the region was left as it is, one sentence a line")
     fit: StringProperty(name="Fit", description="How far a fitted cage is from the other mesh")
     iterations: IntProperty(name="Iterations")
     seconds: FloatProperty(name="Time", unit='NONE')
@@ -72,9 +73,17 @@ class ReflinesReport(bpy.types.PropertyGroup):
     automatic_length: FloatProperty(name="Automatic Length", unit='LENGTH', precision=4)
     automatic_limit: FloatProperty(name="Automatic Limit", unit='LENGTH', precision=5)
     limited: IntProperty(name="Limited", description="Vertices that the limit of the move held back")
-    score_before: FloatProperty(name="Wobble Before", description="Mean sideways shift of the reflection lines from "
+    healed: BoolProperty(name="Healed", description="Whether it is known where flaws were healed")
+    healed_area: FloatProperty(name="Healed Area", subtype='FACTOR', description="Share of the region's area whose lines "
+                               "were visibly off their course and are so no more")
+    worst_before: FloatProperty(name="Worst Before", description="Degrees that lines were off their course where they "
+                                "were so most, without what counts as design")
+    worst_after: FloatProperty(name="Worst After", description="The same after the solve")
+    longer_waves: BoolProperty(name="Longer Waves", description="Waves longer than the flaws were left, which may be "
+                               "flaws, too")
+    score_before: FloatProperty(name="Line Deviation Before", description="Mean sideways shift of the reflection lines from "
                                 "their smooth course within one length, in degrees of the light's turn")
-    score_after: FloatProperty(name="Wobble After", description="The same after the solve")
+    score_after: FloatProperty(name="Line Deviation After", description="The same after the solve")
     turn_before: FloatProperty(name="Turn Before", description="Mean angle between the reflection lines and their "
                                "smooth course as they are drawn, in degrees")
     turn_after: FloatProperty(name="Turn After", description="The same after the solve")
@@ -89,6 +98,11 @@ class ReflinesReport(bpy.types.PropertyGroup):
         """Copies the numbers of a finished solve."""
         for name in ("termination", "message", "iterations", "seconds", "unknowns", "largest_move", "limited"):
             setattr(self, name, getattr(solution.report, name))
+        self.longer_waves, self.kept, healed = solution.longer_waves, "\n".join(solution.kept), solution.healed
+        self.healed = healed is not None
+        if healed is not None:
+            self.healed_area, self.worst_before, self.worst_after = (healed.area, healed.worst_before,
+                                                                     healed.worst_after)
         for name in ("length", "score_before", "score_after", "turn_before", "turn_after", "residual_before",
                      "residual_after", "remedy", "automatic_length", "automatic_limit", "cage_move"):
             setattr(self, name, getattr(solution, name))
@@ -108,18 +122,15 @@ class ReflinesReport(bpy.types.PropertyGroup):
         return f", its cage {units.format_length(self.cage_move, bpy.context.scene, 2)}"
 
     def gain(self) -> str:
-        """Says how much smoother the lines became, or how much of the target was reached."""
+        """Says what was healed, how far lines are off their course, or how much of the target was reached."""
+        if self.healed:
+            return Healed(self.healed_area, self.worst_before, self.worst_after).describe()
         smoothed = self.id_data.reflection_lines.run.operator == "REFLINES_OT_smooth"
         return Gain(self.score_before, self.score_after, self.residual_before,
                     self.residual_after).describe(smoothed=smoothed)
 
-    def wobble(self) -> str:
-        """Says how far the lines shifted and shift now, in spacings of the stripes as they are drawn now."""
-        spacing = 360.0 / bpy.context.scene.reflection_lines.stripes.count
-        return f"{self.score_before / spacing:.2g} \u2192 {self.score_after / spacing:.2g} spacings"
-
     def measured_length(self) -> str:
-        """Says the length at which the wobble was measured."""
+        """Says the length at which the line deviation was measured."""
         return units.format_length(self.length, bpy.context.scene, 3)
 
     def moved(self, precision: int = 5) -> str:

@@ -185,6 +185,15 @@ class LineScore:
                   # round the circle it is n / 360 times as many distances of two lines
     turn: float   # mean along the lines, degrees in the image plane: angle between a line and its smooth course
 
+class HealedFlaws:
+    """What a press healed. The deviation of lines is how far they are from the course that they would have without flaws:
+    degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most."""
+    area: float          # share of the region's area where lines deviated visibly and most of that went
+    worst_before: float  # deviation of the worst place of the region
+    worst_after: float
+    mean_before: float   # likewise, root mean square over the healed area
+    mean_after: float
+
 class SmoothPanelReport:
     """The report of `smooth_panel`."""
     solve: Report              # of the last solve
@@ -202,6 +211,7 @@ class SmoothPanelReport:
     score_after: list[LineScore]
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
     unevenness_after: list[float]   # length, degrees, root mean square; creases are those of both shapes
+    healed: HealedFlaws
     stray: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,
                                # radians / length; by area its root mean square is the first unevenness over the length
     region: Region             # of the panel as it came

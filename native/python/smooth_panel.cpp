@@ -95,6 +95,12 @@ py::object smooth_cage(const Positions& V, const Indices& face_offsets, const In
 void bind_smooth_panel(py::module_& module) {
   const SmoothPanelOptions defaults;
   using Told = SmoothPanelReport;
+  py::class_<HealedFlaws>(module, "HealedFlaws", py::module_local())
+      .def_readonly("area", &HealedFlaws::area)
+      .def_readonly("worst_before", &HealedFlaws::worst_before)
+      .def_readonly("worst_after", &HealedFlaws::worst_after)
+      .def_readonly("mean_before", &HealedFlaws::mean_before)
+      .def_readonly("mean_after", &HealedFlaws::mean_after);
   py::class_<Told>(module, "SmoothPanelReport", py::module_local())
       .def_readonly("solve", &Told::solve)
       .def_readonly("length", &Told::length)
@@ -110,6 +116,7 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("score_after", &Told::score_after)
       .def_readonly("unevenness_before", &Told::unevenness_before)
       .def_readonly("unevenness_after", &Told::unevenness_after)
+      .def_readonly("healed", &Told::healed)
       .def_readonly("stray", &Told::stray)
       .def_readonly("region", &Told::region)
       .def_readonly("applied", &Told::applied)

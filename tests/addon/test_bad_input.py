@@ -159,7 +159,7 @@ def test_some_faces_cannot_be_used_and_are_held(change, sentence) -> None:
     ob.update_from_editmode()
     before = scenes.positions(ob)
     assert scenes.smooth(length=0.5) == {'FINISHED'}
-    assert sentence in ob.reflection_lines.report.notes
+    assert sentence in ob.reflection_lines.report.kept
     assert (scenes.positions(ob) != before).any()
 
 
@@ -168,7 +168,7 @@ def test_the_result_is_told_last(capfd) -> None:
     edited(one_face_flipped)
     scenes.smooth()
     note, result = capfd.readouterr().out.splitlines()[-2:]
-    assert note.startswith("Warning: Panel: ") and "away from the view" in note
+    assert note.startswith("Info: Panel: Kept: ") and "away from the view" in note
     assert result.startswith("Info: Lines ") and ", moved at most " in result and result.endswith(" (Panel)")
 
 

@@ -277,7 +277,7 @@ def test_flow_joins_as_curvature_does_and_says_nothing_where_the_faces_tell_its_
     clamped, flow = (measure_border_curvature(border) for border in ("clamped", "flow"))
     print(f"{clamped:.1f} % clamped, {flow:.1f} % with the flow of the faces beside")
     assert flow < 0.75 * clamped
-    notes = bpy.context.view_layer.objects.active.reflection_lines.report.notes
+    notes = bpy.context.view_layer.objects.active.reflection_lines.report.kept
     assert "Flow is the same as Curvature" not in notes
 
 
@@ -296,7 +296,7 @@ def test_flow_by_segment_is_said_to_fall_back_where_noise_hides_the_rate() -> No
     assert (stored(ob)[segment] == 5).all()
     scenes.select_faces(ob, scenes.inner(CELLS, MARGIN))
     assert scenes.smooth(length=0.3, border='clamped') == {'FINISHED'}
-    said = re.search(r"At (\d+) vertices .* Flow is the same as Curvature", ob.reflection_lines.report.notes)
+    said = re.search(r"At (\d+) vertices .* Flow is the same as Curvature", ob.reflection_lines.report.kept)
     assert 0.8 * len(segment) <= int(said[1]) <= len(segment)
 
 
@@ -307,7 +307,7 @@ def test_without_faces_beside_it_is_said(border: str) -> None:
     scenes.edit(ob)
     bpy.ops.mesh.select_all(action='SELECT')
     assert scenes.smooth(length=0.6, border=border) == {'FINISHED'}
-    assert "No faces beside the region tell the curvature" in ob.reflection_lines.report.notes
+    assert "No faces beside the region tell the curvature" in ob.reflection_lines.report.kept
 
 
 def test_a_half_below_a_mirror_takes_the_curvature_on_both_sides() -> None:

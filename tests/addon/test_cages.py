@@ -326,7 +326,7 @@ def test_sharp_creases_are_said_to_be_kept_and_not_held() -> None:
     before = scenes.positions(ob)
     scenes.edit_inner(ob, CELLS)
     scenes.smooth(length=0.8)
-    notes = ob.reflection_lines.report.notes
+    notes = ob.reflection_lines.report.kept
     assert "kept sharp" in notes and "held, the lines" not in notes
     middle = np.abs(before[:, 1]) < 1e-6
     assert (scenes.positions(ob) != before)[middle].any()

@@ -51,7 +51,7 @@ def test_a_run_is_told_before_and_after(name: str) -> None:
     table, report = check(ob), ob.reflection_lines.report
     assert table["move along the view"].after == pytest.approx(report.largest_move)
     assert table["move along the view"].mark == pytest.approx(report.automatic_limit)
-    assert table["wobble of the lines"].before == pytest.approx(report.score_before)
+    assert table["deviation of the lines"].before == pytest.approx(report.score_before)
     assert 0.0 < table["deviation"].after <= report.largest_move * (1.0 + 1e-5)
     assert table["deviation of 95 %"].after <= table["deviation"].after
     assert table["border curvature"].after != table["border curvature"].before
@@ -96,7 +96,7 @@ def test_after_a_change_the_shape_is_checked_as_it_is() -> None:
     ob = solved_panel(length=0.6)
     scenes.object_mode()
     ob.data.vertices[144].co.z += 0.01
-    assert "wobble of the lines" not in check(ob)
+    assert "deviation of the lines" not in check(ob)
 
 
 def find_distance(some: np.ndarray, others: np.ndarray) -> float:

@@ -46,7 +46,7 @@ def test_marked_edges_stay(mark: str, rule: str) -> None:
     before = scenes.positions(ob)
     assert scenes.smooth() == {'FINISHED'}
     assert not has_moved(ob, before)
-    assert "14 edges are marked as creases" in ob.reflection_lines.report.notes
+    assert "14 edges are marked as creases" in ob.reflection_lines.report.kept
 
 
 @pytest.mark.parametrize(("rule", "marks"), [('NONE', {'SHARP'}), ('AUTOMATIC', {'SEAM'}), ('MARKED', set())])
@@ -79,4 +79,4 @@ def test_blenders_default_cylinder_is_no_crease() -> None:
     scenes.select_faces(ob, lambda face: ob.data.polygons[face].normal.z > 0.5)
     bpy.context.scene.reflection_lines.border = 'free'
     assert scenes.smooth() == {'FINISHED'}
-    assert "bend" not in ob.reflection_lines.report.notes
+    assert "bend" not in ob.reflection_lines.report.kept

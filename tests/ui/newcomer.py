@@ -62,7 +62,7 @@ def use_sample(note: Note) -> Steps:
     yield from ended(driver)
     after = shown(driver)
     assert np.abs(after - before).max() > 1e-4
-    assert headline().startswith("Lines ") and " x smoother, moved at most 1.7" in headline(), headline()
+    assert headline().startswith("Flaws healed on ") and " degrees, moved at most 1.7" in headline(), headline()
     driver.move(300, 300)
     yield from note("smoothed")
     driver.key('Z', ctrl=True)
@@ -119,6 +119,6 @@ def use_own_model(driver: window.Window, note: Note) -> Steps:
     yield from press_button(driver, "smooth")
     yield from ended(driver)
     assert np.abs(shown(driver) - before).max() > 1e-4 and ob.mode == 'EDIT'
-    assert headline().startswith("Lines ") and "smoother" in headline(), headline()
+    assert headline().startswith("Flaws healed on "), headline()
     driver.move(300, 300)
     yield from note("own_smoothed")

@@ -58,6 +58,14 @@ struct SmoothPanelOptions {
   std::shared_ptr<Progress> progress;  // or none
 };
 
+// What a press healed. The deviation of lines is how far they are from the course that they would have without flaws:
+// degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most.
+struct HealedFlaws {
+  double area = 0.0;  // share of the region's area where lines deviated visibly and most of that went
+  double worst_before = 0.0, worst_after = 0.0;  // deviation of the worst place of the region
+  double mean_before = 0.0, mean_after = 0.0;    // likewise, root mean square over the healed area
+};
+
 struct SmoothPanelReport {
   Report solve;                       // of the last solve
   double length = 0.0, limit = 0.0;   // those used
@@ -70,6 +78,7 @@ struct SmoothPanelReport {
   bool longer_waves = false;          // that may be flaws, too, were left; see Restoration::find_longer_waves
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
+  HealedFlaws healed;
   Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
                   // result, radians / length
   Region region;  // of the shape at the start

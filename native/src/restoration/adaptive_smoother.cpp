@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "restoration/bump_removal.h"
+#include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
+#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {
@@ -45,18 +47,6 @@ constexpr double kSlope = 0.5, kDesignSlope = 7.0;
 
 double square(double x) { return x * x; }
 
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
-PlanePositions find_centroids(const HeightField& field) {
-  PlanePositions result(field.triangle_count(), 2);
-  for (int t = 0; t < field.triangle_count(); ++t)
-    result.row(t) = (field.xy.row(field.F(t, 0)) + field.xy.row(field.F(t, 1)) + field.xy.row(field.F(t, 2))) / 3.0;
-  return result;
-}
-
 Vector measure_steepness(const HeightField& field, const Stencils& stencils) {
   TriangleDerivatives u;
   apply_stencils(stencils, field.z, u);
@@ -77,7 +67,7 @@ AdaptiveSmoother::AdaptiveSmoother(const HeightField& field, double length)
       length_(length),
       variation_(field),
       system_(variation_),
-      centers_(find_centroids(field)),
+      centers_(find_centroids(field.xy, field.F)),
       steepness_(measure_steepness(field, variation_.stencils())),
       open_(Vector::Ones(field.triangle_count())) {}
 

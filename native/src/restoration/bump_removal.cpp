@@ -5,6 +5,9 @@
 #include <numbers>
 #include <vector>
 
+#include "restoration/centroids.h"
+#include "restoration/smoothstep.h"
+
 namespace reflines {
 namespace {
 
@@ -37,13 +40,6 @@ constexpr int kRounds = 3;
 
 double square(double x) { return x * x; }
 
-PlanePositions centroids(const HeightField& field) {
-  PlanePositions result(field.triangle_count(), 2);
-  for (int t = 0; t < field.triangle_count(); ++t)
-    result.row(t) = (field.xy.row(field.F(t, 0)) + field.xy.row(field.F(t, 1)) + field.xy.row(field.F(t, 2))) / 3.0;
-  return result;
-}
-
 Vector largest_radii(const HeightField& field) {
   const Vector diagonal = field.piece_diagonals();
   Vector result(field.triangle_count());
@@ -64,11 +60,6 @@ Eigen::Index find_nearest(const PlanePositions& centers, const Vector2& place) {
   Eigen::Index nearest = 0;
   (centers.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
   return nearest;
-}
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
 }
 
 // Returns the Hessian of a bump at a place, in the components of CurvatureVariation.
@@ -115,7 +106,7 @@ BumpRemoval remove_bumps(const CurvatureVariation& variation, const Vector& z, d
                          const std::function<Vector(const Vector&)>& smooth, Progress* progress) {
   const HeightField& field = variation.field();
   const BumpSearchOptions options{kSmallestRadius * length, kLargestRadius * length, kLeastHeight * length, kSteepness};
-  const PlanePositions seeds = free_vertices(field), centers = centroids(field);
+  const PlanePositions seeds = free_vertices(field), centers = find_centroids(field.xy, field.F);
   const Vector largest = largest_radii(field);
   BumpRemoval result{z, 0};
   std::vector<Bump> removed;

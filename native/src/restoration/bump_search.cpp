@@ -11,6 +11,7 @@
 #include "base/parallel_failure.h"
 #include "reflection/weighted_median.h"
 #include "restoration/grid_cell.h"
+#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {
@@ -237,11 +238,6 @@ PlanePositions overlapping(const PlanePositions& places, double radius, const st
     if (std::any_of(bumps.begin(), bumps.end(), overlaps)) result.row(count++) = p;
   }
   return result.topRows(count);
-}
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
 }
 
 bool is_seen(const Bump& bump, const BumpSearchOptions& options) {

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-// Degrees that count of a shift at most: beyond, lines have no course.
-constexpr double kFarthest = 45.0;
+// Radians that count of an offset at most: beyond, lines have no course. On triangles seen at a grazing angle gradients
+// are of any size: on a coarse bonnet one such triangle made a root mean square of 357 degrees.
+constexpr double kFarthest = std::numbers::pi / 4.0;
 
 // Returns the root mean square over each triangle (#F) of what is `off` in its middle and changes by `gradient` (#F x
 // 2) from there: the mean over a triangle of (g . (p - c))^2 is a 36th of the sum over its edges e of (g . e)^2. By the
@@ -32,7 +33,20 @@ Vector spread_over_triangles(const Vector& off, const PlaneVectors& gradient, co
   return result;
 }
 
+Vector compare(const ShapeOptimizer::Lines& lines, const ShapeOptimizer::Lines& course, ControlledSurface& surface) {
+  const Vector middle = (lines.theta - course.theta).unaryExpr([](double angle) { return wrap_angle(angle); });
+  return spread_over_triangles(middle, lines.target.gradient - course.target.gradient, surface.optimizer().xy(),
+                               surface.triangles())
+      .cwiseMin(kFarthest);
+}
+
 }  // namespace
+
+Vector measure_offsets(ControlledSurface& surface, const Vector& z, const Vector& course, int family) {
+  ShapeOptimizer& optimizer = surface.optimizer();
+  const Vector known = Vector::Ones(z.size());
+  return compare(optimizer.evaluate_lines(z, known, family), optimizer.evaluate_lines(course, known, family), surface);
+}
 
 Unevenness measure_unevenness(ControlledSurface& surface, const Vector& z, const Vector& smoothed, double length) {
   ShapeOptimizer& optimizer = surface.optimizer();
@@ -41,12 +55,10 @@ Unevenness measure_unevenness(ControlledSurface& surface, const Vector& z, const
   for (int k = 0; k < optimizer.family_count(); ++k) {
     const ShapeOptimizer::Lines lines = optimizer.evaluate_lines(z, known, k);
     const ShapeOptimizer::Lines course = optimizer.evaluate_lines(smoothed, known, k);
-    const Vector middle = (lines.theta - course.theta).unaryExpr([](double angle) { return wrap_angle(angle); });
-    const Vector off = spread_over_triangles(middle, lines.target.gradient - course.target.gradient, optimizer.xy(),
-                                             surface.triangles());
+    const Vector off = compare(lines, course, surface);
     result.degrees.push_back(kDegrees * std::sqrt(area.dot(off.cwiseAbs2()) / area.sum()));
     LineScore score = compare_lines(lines.target.gradient, course.target.gradient, area, length).score();
-    score.shift = area.dot((kDegrees * off).cwiseMin(kFarthest)) / area.sum();
+    score.shift = kDegrees * area.dot(off) / area.sum();
     result.score.push_back(score);
     if (k == 0) result.stray = surface.gather_faces(off / length);
   }

@@ -16,6 +16,10 @@ struct Unevenness {
   Vector stray;                  // #F or of a cage #faces: see SmoothPanelReport::stray
 };
 
+// Returns how far the lines of heights z (#V) are from those of the heights `course` (#V) in the light with index
+// `family`: #F, radians of theta, root mean square over each triangle.
+Vector measure_offsets(ControlledSurface& surface, const Vector& z, const Vector& course, int family);
+
 // Compares the lines of heights z (#V) with those of their smoothed selves (#V); `length` is the size of flaws.
 Unevenness measure_unevenness(ControlledSurface& surface, const Vector& z, const Vector& smoothed, double length);
 

@@ -12,6 +12,7 @@
 #include "geometry/cage_symmetry.h"
 #include "restoration/designed_difference.h"
 #include "restoration/disk_mean.h"
+#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {
@@ -75,8 +76,7 @@ Images pair_across(const PlanePositions& xy, const Vector& z, double diagonal, c
     squared += difference * difference;
   }
   const double share = found / static_cast<double>(partner.size());
-  const double t = std::clamp((share - kUnpaired) / (kPaired - kUnpaired), 0.0, 1.0);
-  return {std::move(partner), t * t * (3.0 - 2.0 * t), squared};
+  return {std::move(partner), smoothstep(kUnpaired, kPaired, share), squared};
 }
 
 // The distance of each height from a quadratic least-squares fit of the vertices within two edges: an operator that

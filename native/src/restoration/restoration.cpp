@@ -6,8 +6,10 @@
 
 #include "geometry/bounding_box.h"
 #include "reflines/errors.h"
+#include "restoration/healed_flaws.h"
 #include "restoration/line_fields.h"
 #include "restoration/press_messages.h"
+#include "restoration/smoothstep.h"
 #include "restoration/turned_faces.h"
 
 namespace reflines {
@@ -88,8 +90,7 @@ double Restoration::weigh_gain(const Vector& move) const {
   double gain = 0;
   for (size_t k = 0; k < before.degrees.size(); ++k)
     gain += (1.0 - after.degrees[k] / std::max(before.degrees[k], 1e-300)) / static_cast<double>(before.degrees.size());
-  const double t = std::clamp((gain - kNoGain) / (kWholeGain - kNoGain), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
+  return smoothstep(kNoGain, kWholeGain, gain);
 }
 
 bool Restoration::turns_faces(const Vector& move) const { return find_turned_by(move).any(); }
@@ -156,6 +157,14 @@ bool Restoration::find_longer_waves(const Vector& z) {
   return *std::max_element(waves.degrees.begin(), waves.degrees.end()) > kVisible;
 }
 
+// Compares heights z (#V) with the start. The course of the lines is that of the shape without flaws, smoothed: what
+// counts as design is in it, and what a limit or the strength leaves of a flaw is not.
+HealedFlaws Restoration::find_healed(const Vector& z) {
+  const Vector course = smooth(shape_);
+  return compare_deviations(measure_deviation(surface_, start_, course, report_.length),
+                            measure_deviation(surface_, z, course, report_.length), surface_.optimizer().area());
+}
+
 SmoothPanelResult Restoration::judge(const Vector& move) {
   const Vector end = start_ + surface_.surface_move(move);
   const Unevenness before = measure_unevenness(surface_, start_, smooth(start_), report_.length);
@@ -165,12 +174,14 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.unevenness_before = before.degrees;
   report_.unevenness_after = after.degrees;
   report_.stray = before.stray;
+  report_.healed = find_healed(start_);
   if (turns_faces(move)) return refuse(explain_turned_faces());
   for (size_t k = 0; k < after.degrees.size(); ++k) {
     if (after.degrees[k] > kWorse * before.degrees[k])
       return refuse(explain_worse_light(before.degrees[k], after.degrees[k]));
   }
   report_.stray = after.stray;
+  report_.healed = find_healed(end);
   report_.largest_move = surface_.surface_move(move).cwiseAbs().maxCoeff();
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
   if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = find_longer_waves(end);

@@ -1,0 +1,49 @@
+#include "restoration/healed_flaws.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "restoration/centroids.h"
+#include "restoration/disk_mean.h"
+#include "restoration/line_evenness.h"
+#include "restoration/smoothstep.h"
+
+namespace reflines {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+// Radius of the mean, relative to the length: a flaw counts as one place, and the facets of a mesh are none.
+constexpr double kRadius = 0.35;
+
+// Degrees from which on a deviation counts, and counts whole; the share of it that has to go for the place to count as
+// healed, and as healed whole.
+constexpr double kLeast = 0.2, kWhole = 0.6, kPart = 0.3, kMost = 0.7;
+
+double mean_of(const Vector& degrees, const Vector& weight) {
+  return std::sqrt(weight.dot(degrees.cwiseAbs2()) / std::max(weight.sum(), 1e-300));
+}
+
+}  // namespace
+
+Vector measure_deviation(ControlledSurface& surface, const Vector& z, const Vector& course, double length) {
+  ShapeOptimizer& optimizer = surface.optimizer();
+  Eigen::MatrixXd squares(surface.triangles().rows(), optimizer.family_count());
+  for (int k = 0; k < optimizer.family_count(); ++k)
+    squares.col(k) = (kDegrees * measure_offsets(surface, z, course, k)).cwiseAbs2();
+  const DiskMean around(find_centroids(optimizer.xy(), surface.triangles()), optimizer.area(), kRadius * length);
+  return around.of_columns(squares).rowwise().maxCoeff().cwiseSqrt();
+}
+
+HealedFlaws compare_deviations(const Vector& before, const Vector& after, const Vector& area) {
+  Vector weight(area.size());
+  for (Eigen::Index t = 0; t < area.size(); ++t) {
+    const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
+    weight(t) = area(t) * smoothstep(kLeast, kWhole, before(t)) * smoothstep(kPart, kMost, gone);
+  }
+  return {weight.sum() / area.sum(), before.maxCoeff(), after.maxCoeff(), mean_of(before, weight),
+          mean_of(after, weight)};
+}
+
+}  // namespace reflines
