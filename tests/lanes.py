@@ -83,7 +83,7 @@ def judged(counts: Counts, code: int, what: str) -> Counts:
 
 
 def run_with_junit(command: Sequence[str], report: Path, env: dict[str, str] | None = None,
-                   timeout: int = 1500) -> Counts:
+                   timeout: int = 2700) -> Counts:
     """Runs a command that writes a JUnit report."""
     report.parent.mkdir(parents=True, exist_ok=True)
     report.unlink(missing_ok=True)

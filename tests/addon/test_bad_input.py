@@ -169,7 +169,7 @@ def test_the_result_is_told_last(capfd) -> None:
     scenes.smooth()
     note, result = capfd.readouterr().out.splitlines()[-2:]
     assert note.startswith("Info: Panel: Kept: ") and "away from the view" in note
-    assert result.startswith("Info: Lines ") and ", moved at most " in result and result.endswith(" (Panel)")
+    assert result.startswith("Info: Flaws healed on ") and ", moved at most " in result and result.endswith(" (Panel)")
 
 
 def test_held_vertices_stay() -> None:

@@ -21,16 +21,32 @@ double hash_index(int index) {
   return x - std::floor(x);
 }
 
-// Returns the nearest vertex without a partner within the tolerance of a place, the first of equally near ones; -1
+// The vertices in the order of their place along a direction in which few rows of a grid lie at one place: sorted by x,
+// each search among 100,000 vertices of a grid looked at a whole column.
+struct SortedVertices {
+  explicit SortedVertices(const Positions& vertices) : V(vertices), place(V * kAlong), order(V.rows()) {
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return place(a) < place(b); });
+  }
+
+  static inline const Vector3 kAlong = Vector3(0.8, 0.49, 0.35).normalized();
+  const Positions& V;
+  Vector place;            // #V
+  std::vector<int> order;  // #V
+};
+
+// Returns the nearest vertex without a partner within the tolerance of a point, the first of equally near ones; -1
 // where there is none.
-int find_nearest(const Positions& V, const std::vector<int>& by_x, const IndexVector& partner, const Vector3& place,
-                 double tolerance) {
-  const auto left = [&](int vertex, double x) { return V(vertex, 0) < x; };
+int find_nearest(const SortedVertices& sorted, const IndexVector& partner, const Vector3& point, double tolerance) {
+  const double middle = point.dot(SortedVertices::kAlong);
+  const double reach = tolerance + 1e-14 * (std::abs(middle) + tolerance);  // more than rounding
+  const auto before = [&](int vertex, double x) { return sorted.place(vertex) < x; };
   int best = -1;
   double best_distance = tolerance;
-  for (auto it = std::lower_bound(by_x.begin(), by_x.end(), place.x() - tolerance, left); it != by_x.end(); ++it) {
-    if (V(*it, 0) > place.x() + tolerance) break;
-    const double distance = (V.row(*it).transpose() - place).norm();
+  for (auto it = std::lower_bound(sorted.order.begin(), sorted.order.end(), middle - reach, before);
+       it != sorted.order.end(); ++it) {
+    if (sorted.place(*it) > middle + reach) break;
+    const double distance = (sorted.V.row(*it).transpose() - point).norm();
     const bool closer = distance < best_distance || (distance == best_distance && (best < 0 || *it < best));
     if (partner[*it] >= 0 || !closer) continue;
     best = *it;
@@ -53,9 +69,7 @@ IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double to
   check(plane, tolerance);
   const Vector3 normal = plane.normal.stableNormalized();
   const Vector side = (V.rowwise() - plane.point.transpose()) * normal;
-  std::vector<int> by_x(V.rows());
-  std::iota(by_x.begin(), by_x.end(), 0);
-  std::stable_sort(by_x.begin(), by_x.end(), [&](int a, int b) { return V(a, 0) < V(b, 0); });
+  const SortedVertices sorted(V);
   IndexVector partner = IndexVector::Constant(V.rows(), -1);
   for (int v = 0; v < V.rows(); ++v) {
     if (std::abs(side[v]) <= tolerance / 2) partner[v] = v;  // its image is within the tolerance of itself
@@ -63,7 +77,7 @@ IndexVector mirror_pairs(const Positions& V, const MirrorPlane& plane, double to
   for (int v = 0; v < V.rows(); ++v) {
     if (partner[v] >= 0) continue;
     const Vector3 image = V.row(v).transpose() - 2 * side[v] * normal;
-    const int other = find_nearest(V, by_x, partner, image, tolerance);
+    const int other = find_nearest(sorted, partner, image, tolerance);
     if (other < 0 || other == v) continue;
     partner[v] = other;
     partner[other] = v;

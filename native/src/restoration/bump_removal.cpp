@@ -33,8 +33,7 @@ constexpr double kTooWide = 1.2;  // times that: from where on it is none at all
 // bump to all.
 constexpr double kLeastGain = 0.1, kWholeGain = 0.35, kAround = 2.0;
 
-constexpr double kFarthest = 4.0;  // radii from the centre: a bump is nothing beyond
-constexpr double kCounts = 0.5;    // least weight of a bump that is reported
+constexpr double kCounts = 0.5;  // least weight of a bump that is reported
 
 constexpr int kRounds = 3;
 
@@ -70,23 +69,35 @@ Eigen::RowVector3d differentiate(const Bump& bump, const Vector2& place) {
          Eigen::RowVector3d(4 * p.x() * p.x() - 2, std::numbers::sqrt2 * 4 * p.x() * p.y(), 4 * p.y() * p.y() - 2);
 }
 
-// Returns the share of the curvature's variation around a bump that goes with it; below 0 where it grows.
-double measure_gain(const Bump& bump, const CurvatureVariation& variation, const PlanePositions& centers,
-                    const TriangleFields& hessian) {
-  TriangleFields without = hessian;
-  Vector weight(hessian.rows());
-  for (Eigen::Index t = 0; t < hessian.rows(); ++t) {
-    const double squared = (centers.row(t).transpose() - bump.center).squaredNorm();
-    weight(t) = variation.field().area(t) * std::max(1.0 - squared / square(kAround * bump.radius), 0.0);
-    if (squared < square(kFarthest * bump.radius)) without.row(t) -= differentiate(bump, centers.row(t));
+// The variation of curvature with and without bumps.
+class BumpGain {
+ public:
+  BumpGain(const CurvatureVariation& variation, const PlanePositions& centers, const TriangleFields& hessian)
+      : variation_(variation), centers_(centers), hessian_(hessian) {}
+
+  // Returns the share of the variation around a bump that goes with it; below 0 where it grows.
+  double of(const Bump& bump) const {
+    double sum = 0, weights = 0;
+    const auto without = [&](int t) -> Eigen::RowVector3d {
+      return hessian_.row(t) - differentiate(bump, centers_.row(t));
+    };
+    for (int t = 0; t < hessian_.rows(); ++t) {
+      const double squared = (centers_.row(t).transpose() - bump.center).squaredNorm();
+      if (squared >= square(kAround * bump.radius)) continue;
+      const double weight = variation_.field().area(t) * (1.0 - squared / square(kAround * bump.radius));
+      const double before = variation_.read_variation(t, [&](int k) { return hessian_.row(k); });
+      sum += weight * std::log(std::max(variation_.read_variation(t, without), kLeast) / std::max(before, kLeast));
+      weights += weight;
+    }
+    return 1.0 - std::exp(sum / std::max(weights, kLeast));
   }
-  const auto read = [&](const TriangleFields& each) {
-    const Eigen::MatrixXd tensor = variation.read_tensors(each);
-    return Vector((tensor.col(0) + tensor.col(2)).array().max(1e-300));
-  };
-  const Vector ratio = (read(without).array() / read(hessian).array()).log();
-  return 1.0 - std::exp(weight.dot(ratio) / std::max(weight.sum(), 1e-300));
-}
+
+ private:
+  static constexpr double kLeast = 1e-300;
+  const CurvatureVariation& variation_;
+  const PlanePositions& centers_;
+  const TriangleFields& hessian_;
+};
 
 // Returns how much of a bump is to go, 0 to 1: none where it is wide for the piece of the surface that it is on, of
 // which it is a shape, nor where the surface around it is hardly smoother without it.
@@ -112,10 +123,13 @@ BumpRemoval remove_bumps(const CurvatureVariation& variation, const Vector& z, d
   std::vector<Bump> removed;
   for (int round = 0; round < kRounds && (round == 0 || !removed.empty()); ++round) {
     const HessianSamples samples{centers, field.area, variation.read_hessians(smooth(result.heights))};
-    removed = find_bumps(samples, seeds, removed, options, progress);
-    for (const Bump& bump : removed) {
-      const double weight = weigh(bump, largest(find_nearest(centers, bump.center)),
-                                  measure_gain(bump, variation, centers, samples.hessian));
+    const std::vector<Bump> found = find_bumps(samples, seeds, removed, options, progress);
+    removed.clear();
+    const BumpGain gain(variation, centers, samples.hessian);
+    for (const Bump& bump : found) {
+      const double weight = weigh(bump, largest(find_nearest(centers, bump.center)), gain.of(bump));
+      if (weight == 0) continue;
+      removed.push_back(bump);
       result.heights -= weight * evaluate(bump, field.xy);
       result.count += weight > kCounts;
     }

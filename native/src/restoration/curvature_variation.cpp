@@ -81,15 +81,8 @@ Eigen::MatrixXd CurvatureVariation::read_tensors(const TriangleFields& hessian) 
   Eigen::MatrixXd result(field_.triangle_count(), 3);
 #pragma omp parallel for schedule(static) if (field_.triangle_count() > kWorthThreads)
   for (int t = 0; t < field_.triangle_count(); ++t) {
-    Vector3 x = Vector3::Zero(), y = Vector3::Zero();
-    for (int i = 0; i < 3; ++i) {
-      const int other = field_.neighbors(t, i);
-      if (other < 0) continue;
-      const Vector3 change = (hessian.row(other) - hessian.row(t)).transpose();
-      x += slope_(t, 2 * i) * change;
-      y += slope_(t, 2 * i + 1) * change;
-    }
-    result.row(t) << x.squaredNorm(), x.dot(y), y.squaredNorm();
+    const Eigen::Matrix<double, 3, 2> slope = differentiate(t, [&](int k) { return hessian.row(k); });
+    result.row(t) << slope.col(0).squaredNorm(), slope.col(0).dot(slope.col(1)), slope.col(1).squaredNorm();
   }
   return result;
 }

@@ -32,6 +32,12 @@ class CurvatureVariation {
   // length^4.
   Eigen::MatrixXd read_tensors(const TriangleFields& hessian) const;
 
+  // Returns the trace of the structure tensor of triangle t, with `hessian` returning that of a triangle (1 x 3).
+  template <typename Hessian>
+  double read_variation(int t, const Hessian& hessian) const {
+    return differentiate(t, hessian).squaredNorm();
+  }
+
   // Returns w_e a_e / d_e^2 for weights w_e of the edges.
   EdgeWeights scale_by_shape(const EdgeWeights& weight) const { return weight.cwiseProduct(shape_); }
 
@@ -43,6 +49,21 @@ class CurvatureVariation {
   const StencilEntries& entries() const { return entries_; }
 
  private:
+  // Returns the derivatives (3 x 2) of the Hessian along x and y in triangle t.
+  template <typename Hessian>
+  Eigen::Matrix<double, 3, 2> differentiate(int t, const Hessian& hessian) const {
+    Eigen::Matrix<double, 3, 2> result = Eigen::Matrix<double, 3, 2>::Zero();
+    const Vector3 own = hessian(t).transpose();
+    for (int i = 0; i < 3; ++i) {
+      const int other = field_.neighbors(t, i);
+      if (other < 0) continue;
+      const Vector3 change = hessian(other).transpose() - own;
+      result.col(0) += slope_(t, 2 * i) * change;
+      result.col(1) += slope_(t, 2 * i + 1) * change;
+    }
+    return result;
+  }
+
   const HeightField& field_;
   Stencils stencils_;  // the weights of f_xy times sqrt(2)
   StencilEntries entries_;

@@ -38,14 +38,15 @@ FlawlessShape even_halves(ControlledSurface& surface, const Vector& start, doubl
   const ShapeOptimizer& optimizer = surface.optimizer();
   const ImagePlane& frame = optimizer.frame();
   const PlanePositions axes = project_axes(frame);
-  const MirrorEvidence evidence = find_mirror_evidence(optimizer.xy(), start, surface.triangles(),
-                                                       bounding_box_diagonal(surface.positions()), length, axes);
+  MirrorEvidence evidence = find_mirror_evidence(optimizer.xy(), start, surface.triangles(),
+                                                 bounding_box_diagonal(surface.positions()), length, axes);
   FlawlessShape result{.heights = start + evidence.correction, .mirrored = evidence.vertices};
   if (evidence.vertices == 0 || has_partners) return result;  // given mirror images move alike whatever was found
   const Positions& C = surface.control_positions();
   const Mask design = surface.controls_of(evidence.design);
-  for (MirrorPartners& found :
-       find_mirror_partners(frame.project(C), frame.heights(C), bounding_box_diagonal(C), axes)) {
+  if (!surface.controls_every_vertex())
+    evidence.partners = find_mirror_partners(frame.project(C), frame.heights(C), bounding_box_diagonal(C), axes);
+  for (MirrorPartners& found : evidence.partners) {
     for (Eigen::Index c = 0; c < found.partner.size(); ++c) {
       if (design(c)) found.partner(c) = static_cast<int>(c);
     }

@@ -67,8 +67,8 @@ std::optional<Vector> find_continued_move(Restoration& press) {
 }
 
 // Returns the clamped move and as much of what continuing the curvature adds as is no larger than kMostAdded times it.
-// What lies beside the region tells how its flaws go on, and is no reason to bend a design: beside a fillet the skirt of
-// a panel went by 7 and 9 times what flaws there moved.
+// What lies beside the region tells how its flaws go on, and is no reason to bend a design: beside a fillet the skirt
+// of a panel went by 7 and 9 times what flaws there moved.
 Vector bound_addition(const Vector& clamped, const Vector& continued) {
   const double most = kMostAdded * clamped.cwiseAbs().maxCoeff();
   const double added = (continued - clamped).cwiseAbs().maxCoeff();

@@ -21,6 +21,7 @@ constexpr double kPairTolerance = 1e-4, kDeepest = 3e-3;  // of the diagonal
 // Shares of the vertices with partners: from none of the evidence to all of it.
 constexpr double kUnpaired = 0.95, kPaired = 0.98;
 constexpr double kLeastAxis = 0.3;       // of an axis's length, in the image plane
+constexpr double kSameLine = 1e-7;       // of the direction, and of the diagonal: far below kPairTolerance
 constexpr double kLeastMoment = 1e-9;    // relative: a smaller one has no direction
 constexpr double kNeighbourhood = 0.56;  // of the length: over which roughness is compared
 // Roughness counts up to this many root mean squares of the difference's own: fillets are rough on both sides.
@@ -139,18 +140,38 @@ class Roughness {
   std::vector<std::vector<int>> neighbors_;
 };
 
-// Finds the images across all planes of symmetry, the nearest to a symmetry first: an order that a turned or scaled
+// A line n . p = offset in the image plane.
+struct Line {
+  Vector2 normal;
+  double offset;
+};
+
+// Lists the lines that may be of symmetry, each once: across a normal through the middle and through the mean.
+std::vector<Line> list_lines(const PlanePositions& xy, double diagonal, const PlanePositions& axes) {
+  std::vector<Line> result;
+  for (const Vector2& n : list_normals(xy, axes)) {
+    const Vector across = xy * n;
+    for (const double offset : {(across.minCoeff() + across.maxCoeff()) / 2, across.mean()}) {
+      const auto is_same = [&](const Line& line) {
+        const double turn = std::min((line.normal - n).norm(), (line.normal + n).norm());
+        const double shift = std::abs(line.offset - std::copysign(offset, offset * line.normal.dot(n)));
+        return turn < kSameLine && shift < kSameLine * diagonal;
+      };
+      if (std::none_of(result.begin(), result.end(), is_same)) result.push_back({n, offset});
+    }
+  }
+  return result;
+}
+
+// Finds the images across all lines of symmetry, the nearest to a symmetry first: an order that a turned or scaled
 // panel keeps.
 std::vector<Images> find_images(const PlanePositions& xy, const Vector& z, double diagonal,
                                 const PlanePositions& axes) {
   std::vector<Images> result;
-  for (const Vector2& n : list_normals(xy, axes)) {
-    const Vector across = xy * n;
-    for (const double offset : {(across.minCoeff() + across.maxCoeff()) / 2, across.mean()}) {
-      Images images = pair_across(xy, z, diagonal, n, offset);
-      const auto is_same = [&](const Images& other) { return other.partner == images.partner; };
-      if (images.weight > 0 && std::none_of(result.begin(), result.end(), is_same)) result.push_back(std::move(images));
-    }
+  for (const Line& line : list_lines(xy, diagonal, axes)) {
+    Images images = pair_across(xy, z, diagonal, line.normal, line.offset);
+    const auto is_same = [&](const Images& other) { return other.partner == images.partner; };
+    if (images.weight > 0 && std::none_of(result.begin(), result.end(), is_same)) result.push_back(std::move(images));
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const Images& a, const Images& b) { return a.difference < b.difference; });
@@ -159,11 +180,10 @@ std::vector<Images> find_images(const PlanePositions& xy, const Vector& z, doubl
 
 // Returns the heights (#V) to add so that images are equally high, each the more the rougher it is for the difference;
 // marks in `design` (#V) where they differ by design.
-Vector correct_halves(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal, double length,
-                      const Images& images, Mask& design) {
+Vector correct_halves(const PlanePositions& xy, const Vector& z, const Triangles& F, const Roughness& roughness,
+                      double diagonal, double length, const Images& images, Mask& design) {
   const Vector difference = z - z(images.partner);
   if ((difference.array() == 0).all()) return Vector::Zero(z.size());
-  const Roughness roughness(xy, F);
   const DiskMean mean(xy, Vector::Ones(z.size()), kNeighbourhood * length);
   const Vector unbounded = roughness.of(difference).cwiseAbs();
   const Vector most = kRoughest * mean.of(unbounded.cwiseAbs2()).cwiseSqrt();
@@ -186,12 +206,10 @@ Vector correct_halves(const PlanePositions& xy, const Vector& z, const Triangles
   return result;
 }
 
-}  // namespace
-
-std::vector<MirrorPartners> find_mirror_partners(const PlanePositions& xy, const Vector& z, double diagonal,
-                                                 const PlanePositions& axes) {
+// Returns the images as partners of heights z (#V): none where differences are deeper than flaws are.
+std::vector<MirrorPartners> pair_alike(std::vector<Images> found, const Vector& z, double diagonal) {
   std::vector<MirrorPartners> result;
-  for (Images& images : find_images(xy, z, diagonal, axes)) {
+  for (Images& images : found) {
     for (Eigen::Index v = 0; v < z.size(); ++v) {
       if (std::abs(z(v) - z(images.partner(v))) >= kDeepest * diagonal) images.partner(v) = static_cast<int>(v);
     }
@@ -200,13 +218,24 @@ std::vector<MirrorPartners> find_mirror_partners(const PlanePositions& xy, const
   return result;
 }
 
+}  // namespace
+
+std::vector<MirrorPartners> find_mirror_partners(const PlanePositions& xy, const Vector& z, double diagonal,
+                                                 const PlanePositions& axes) {
+  return pair_alike(find_images(xy, z, diagonal, axes), z, diagonal);
+}
+
 MirrorEvidence find_mirror_evidence(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal,
                                     double length, const PlanePositions& axes) {
-  MirrorEvidence result{0, Vector::Zero(z.size()), Mask::Constant(z.size(), false)};
-  for (const Images& images : find_images(xy, z, diagonal, axes)) {
-    result.vertices = static_cast<int>(z.size());
-    result.correction += correct_halves(xy, z + result.correction, F, diagonal, length, images, result.design);
-  }
+  MirrorEvidence result{.correction = Vector::Zero(z.size()), .design = Mask::Constant(z.size(), false)};
+  std::vector<Images> found = find_images(xy, z, diagonal, axes);
+  if (found.empty()) return result;
+  result.vertices = static_cast<int>(z.size());
+  const Roughness roughness(xy, F);
+  for (const Images& images : found)
+    result.correction +=
+        correct_halves(xy, z + result.correction, F, roughness, diagonal, length, images, result.design);
+  result.partners = pair_alike(std::move(found), z, diagonal);
   return result;
 }
 

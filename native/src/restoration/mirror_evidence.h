@@ -9,16 +9,17 @@
 
 namespace reflines {
 
-struct MirrorEvidence {
-  int vertices;       // those of a symmetric panel; 0: no symmetry
-  Vector correction;  // #V: heights to add so that partners are equally high; 0 where they are
-  Mask design;        // #V: where they differ by design
-};
-
 // The images of vertices across one plane of symmetry.
 struct MirrorPartners {
   IndexVector partner;  // #V: the vertex in each one's place on the other side, itself where there is none
   double weight;        // 0 to 1: how surely the panel is symmetric about the plane
+};
+
+struct MirrorEvidence {
+  int vertices = 0;                      // those of a symmetric panel; 0: no symmetry
+  Vector correction;                     // #V: heights to add so that partners are equally high; 0 where they are
+  Mask design;                           // #V: where they differ by design
+  std::vector<MirrorPartners> partners;  // see find_mirror_partners
 };
 
 // Finds the partners of vertices xy (#V x 2), z (#V) across all planes of symmetry; none where differences are deeper

@@ -124,6 +124,10 @@ Vector Restoration::restore() {
 void Restoration::solve(const std::vector<Target>& targets, const MoveLimit& limit) {
   report_.solve = surface_.optimizer().solve(targets, {}, progress(), limit);
   if (report_.solve.termination == Termination::kCancelled) throw Cancelled();
+  // A mesh's solve begins at the shape without flaws: that it finds nothing to do there is how a press converges.
+  const bool moved = (surface_.control_move().array() != 0).any();
+  if (moved && report_.solve.termination == Termination::kAlreadyOptimal)
+    report_.solve.termination = Termination::kConverged;
 }
 
 // Returns the last solve's moves of the control vertices (#C), those of partners averaged.
@@ -174,14 +178,13 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.unevenness_before = before.degrees;
   report_.unevenness_after = after.degrees;
   report_.stray = before.stray;
-  report_.healed = find_healed(start_);
+  report_.healed = find_healed(end);
   if (turns_faces(move)) return refuse(explain_turned_faces());
   for (size_t k = 0; k < after.degrees.size(); ++k) {
     if (after.degrees[k] > kWorse * before.degrees[k])
       return refuse(explain_worse_light(before.degrees[k], after.degrees[k]));
   }
   report_.stray = after.stray;
-  report_.healed = find_healed(end);
   report_.largest_move = surface_.surface_move(move).cwiseAbs().maxCoeff();
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
   if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = find_longer_waves(end);
@@ -193,6 +196,7 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
 
 SmoothPanelResult Restoration::refuse(const std::string& reason) {
   report_.applied = false;
+  report_.healed = {.worst_before = report_.healed.worst_before, .worst_after = report_.healed.worst_before};
   report_.messages.push_back(reason);
   return {surface_.control_positions(), report_};
 }
