@@ -8,11 +8,13 @@ import numpy as np
 
 from ..model.cage import Cage
 from ..model.refusal import Refusal
+from ..model.solution import LastSolve
 from . import modifiers, read_cage, read_mesh, region_faces
 
 
-def read_viewport_cage(ob: bpy.types.Object) -> tuple[Cage, np.ndarray] | None:
-    """Reads the cage in object space, its region the visible faces, and which faces (#faces) are selected.
+def read_viewport_cage(ob: bpy.types.Object, before: LastSolve | None = None) -> tuple[Cage, np.ndarray] | None:
+    """Reads the cage in object space, its region the visible faces, and which faces (#faces) are selected; with the
+    vertices of a solve where they were `before` it.
 
     None where what is shown is not the surface of a cage, or of one with modifiers that are not followed.
     """
@@ -29,6 +31,10 @@ def read_viewport_cage(ob: bpy.types.Object) -> tuple[Cage, np.ndarray] | None:
     if state is None or not np.isfinite(state[0]).all() or not state[1].any():
         return None
     local, visible, selected = state
+    if before is not None:
+        if before.patch.index[-1] >= len(local):
+            return None
+        local[before.patch.index] = before.patch.local
     axis = -1 if mirror is None else next(k for k in range(3) if mirror.use_axis[k])
     whole = read_cage.read_cage(ob.data, visible, np.eye(4), modifier, mirror, axis, local)
     return whole, np.tile(selected, 1 if mirror is None else 2)

@@ -162,10 +162,13 @@ def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types
     shown.topology, shown.kind, shown.stale = read.topology, kind, False
 
 
-def read_limit_surface(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> Surface | None:
-    """Returns the limit surface of a cage where the cage is solved for, else None."""
+def read_limit_surface(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
+                       before: LastSolve | None = None) -> Surface | None:
+    """Returns the limit surface of a cage where the cage is solved for, else None; with `before` that of the shape
+    before this solve.
+    """
     wanted = settings.id_data.reflection_lines.solve_for == 'CAGE' and native.STATE.usable
-    read = viewport_cage.read_viewport_cage(ob) if wanted else None
+    read = viewport_cage.read_viewport_cage(ob, before) if wanted else None
     return None if read is None else _cache.limits.update_surface(ob.name_full, *read)
 
 
@@ -176,6 +179,9 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
         make = solve_maps.build_residual_map if settings.mode == 'RESIDUAL' else solve_maps.build_deviation_map
         return make(solution, settings.map_range) if solution is not None else NOTHING
     if settings.before and solution is not None:
+        cage = read_limit_surface(ob, settings, solution) if read.normals is not None else None
+        if cage is not None:  # its old limit normals; a coarse cage's own would show none of its surface's dents
+            return read.V, read.F, cage.normals
         V, F, old = solve_maps.build_shape_before(solution, read.V, read.F, len(ob.data.vertices))
         shaded = _cache.fits.update_shaded(BEFORE + ob.name_full, old, F)
         return V[shaded.vertex], shaded.F, shaded.normals
