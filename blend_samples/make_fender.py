@@ -23,6 +23,7 @@ def main() -> None:
     bpy.context.scene.cursor.location = (panel_shapes.fender_clean(y, z), y, z)
     settings = bpy.context.scene.reflection_lines.untwist
     settings.angle, settings.centre = 0.8 * panel_shapes.TWIST, 'CURSOR'
+    settings.border = 'free'  # of a whole fender: no face beside it could be creased
     settings.radius = 1.4 * panel_shapes.TWIST_RADIUS
     studio.save(fender, str(HERE / "fender.blend"))
 

@@ -19,6 +19,7 @@ class SolveSettings:
     length: float  # detail finer than this counts as a deviation, world units; 0: a fraction of the patch's diagonal
     limit: float = 0.0  # largest move along the view, world units; 0: a fraction of the patch's diagonal
     limit_length: float = 0.0  # the length that an automatic limit is a share of; 0: the patch's diagonal
+    explains_share: bool = True  # whether a small share of the target that was reached is worth a word
     build_crossed: BuildCrossed | None = None  # of the lines that cross the wanted ones; None leaves them to themselves
 
 
@@ -63,13 +64,14 @@ class Solution:
     score_after: float
     notes: tuple[str, ...]
     automatic_length: float = 0.0  # what the length 0 stands for in this patch, world units
-    remedy: str = ""  # a border with which more of the target could be reached; empty where there is none
+    remedy: str = ""  # a border that would serve better; empty where there is none
     cage_move: float = 0.0  # largest move of a cage's vertices; its surface, which report tells, moves less
     turn_before: float = 0.0
     turn_after: float = 0.0
     automatic_limit: float = 0.0  # what the limit 0 stood for, world units; 0 where it is not known
     kept: tuple[str, ...] = ()  # what of the region was left as it is, and why
     healed: Healed | None = None  # by an automatic press of Smooth
+    fit: str = ""  # how far a cage that was fitted is from the other mesh
     longer_waves: bool = False  # that may be flaws, too, were left by it
 
     def to_last_solve(self) -> "LastSolve":

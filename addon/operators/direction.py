@@ -14,7 +14,7 @@ from ..solver.live_optimizer import BuildTarget
 from ..targets import direction
 from ..targets.direction import Direction
 from ..targets.falloff import Falloff
-from ..ui.tool_properties import DirectionSettings, border_property
+from ..ui.tool_properties import DirectionSettings
 from .dragged_tool import DraggedTool, build_radius_handle
 
 
@@ -23,8 +23,6 @@ class REFLINES_OT_direction(DraggedTool, DirectionSettings, bpy.types.Operator):
 evenly spaced"""
     bl_idname = "reflines.direction"
     bl_label = "Direction and Density"
-
-    border: border_property('free')
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.direction

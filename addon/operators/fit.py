@@ -1,5 +1,6 @@
 """The operator Fit Cage to Mesh."""
 import math
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -47,18 +48,14 @@ has its lines. Select that mesh, then the cage"""
         patch = self.gather_patch(ob)
         seen = facing.read_patch_view(context.scene, patch)
         fit = Fit(dense_mesh.read_dense_mesh(context, ob), seen.view_direction, seen.line_direction)
-        settings = SolveSettings(self.border, self.read_detail_length(context.scene), math.inf)
+        settings = SolveSettings(self.border, self.read_detail_length(context.scene), math.inf,
+                                 explains_share=False)
         solution = optimizer_cache.solve_with_cache(patch, seen, settings, fit)
         before, after = fit.before, fit.misfit()
-        self.said = (f"Distance from {fit.dense.name} {format_distance(before)} before, {format_distance(after)} "
-                     f"after; lines off by {np.degrees(before.angle):.3g} degrees before, "
-                     f"{np.degrees(after.angle):.3g} after")
-        return solution
-
-    def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
-        super().record_solution(ob, solution)
-        ob.reflection_lines.report.fit = self.said
-        self.report({'INFO'}, self.said)
+        said = (f"Distance from {fit.dense.name} {format_distance(before)} before, {format_distance(after)} "
+                f"after; lines off by {np.degrees(before.angle):.3g} degrees before, "
+                f"{np.degrees(after.angle):.3g} after")
+        return replace(solution, fit=said)
 
 
 def format_distance(misfit: Misfit) -> str:

@@ -11,7 +11,7 @@ from ..solver.live_optimizer import BuildTarget
 from ..targets import untwist
 from ..targets.falloff import Falloff
 from ..targets.untwist import Untwist
-from ..ui.tool_properties import UntwistSettings, border_property
+from ..ui.tool_properties import UntwistSettings
 from .dragged_tool import DraggedTool, build_radius_handle
 
 
@@ -20,8 +20,6 @@ class REFLINES_OT_untwist(DraggedTool, UntwistSettings, bpy.types.Operator):
 less with the distance from a centre"""
     bl_idname = "reflines.untwist"
     bl_label = "Untwist Lines"
-
-    border: border_property('free')
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.untwist

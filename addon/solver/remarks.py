@@ -31,6 +31,12 @@ def describe_small_share(reached: float, border: str) -> tuple[str, ...]:
     return (f"Only {max(reached, 0.0):.0%} of the target was reached: {why}",)
 
 
+def describe_bent_rim(bend: float) -> tuple[str, ...]:
+    """Warns where the rim of the region bends by more than before, and says what to press."""
+    return (f"The border of the region bends by up to {np.degrees(bend):.1f} degrees more against the faces beside it: "
+            "with the border Clamped it keeps its tangents",) if bend else ()
+
+
 def describe_far_move(patch: Patch, move: float, border: str) -> tuple[str, ...]:
     """Warns where vertices moved by more than FAR_MOVE of the patch's diagonal."""
     if move <= FAR_MOVE * patch.diagonal:

@@ -8,7 +8,7 @@ from .. import native
 from ..model.patch import Patch
 from ..model.solution import LastSolve, Solution, SolveSettings
 from ..native_call import call
-from . import live_optimizer, remarks, turned_faces
+from . import live_optimizer, remarks, rim, turned_faces
 from .formulation import choose_formulation
 from .limited_solve import choose_limit, solve_within_limit
 from .live_optimizer import BuildTarget, LiveOptimizer
@@ -84,17 +84,36 @@ async def solve_once(live: LiveOptimizer, build_target: BuildTarget, settings: S
     formulation = choose_formulation(live.patch, live.view)
     positions, left = formulation.read_positions(optimizer), await wanted.measure(optimizer)
     after = await call(optimizer.score, length)
-    short = not report.limited and wanted.is_plain and falls_short(optimizer, target, lacking, left)
+    short = (settings.explains_share and not report.limited and wanted.is_plain
+             and falls_short(optimizer, target, lacking, left))
+    bend = measure_bend(live, positions)
     return Solution(live.patch, positions, report, target, formulation.read_residual(optimizer, target), lacking, left,
                     length, before.shift, after.shift,
                     (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
-                     *remarks.describe_unfinished(report),
+                     *remarks.describe_unfinished(report), *remarks.describe_bent_rim(bend),
                      *remarks.describe_limit(report.limited, limit, automatic=not settings.limit),
                      *remarks.describe_mirror(formulation),
                      *remarks.describe_far_move(live.patch, report.largest_move, live.border)),
-                    choose_length(live.patch, 0.0), "free" if short and live.border != "free" else "",
+                    choose_length(live.patch, 0.0), choose_remedy(live.border, short=short, bent=bend > 0.0),
                     formulation.measure_cage_move(optimizer), automatic_limit=0.0 if settings.limit else limit,
                     turn_before=before.turn, turn_after=after.turn, kept=tuple(optimizer.region.messages))
+
+
+def measure_bend(live: LiveOptimizer, positions: np.ndarray) -> float:
+    """Measures how far a solve bent the rim of a region of a mesh, radians; 0 where that is not seen. The surface of a
+    cage has no rim: its faces beside the region follow.
+    """
+    bend = rim.measure_bend(live.patch, positions) if type(live.patch) is Patch else 0.0
+    return bend if bend > rim.BENT else 0.0
+
+
+def choose_remedy(border: str, *, short: bool, bent: bool) -> str:
+    """Returns the border that would serve better: Free where too little of a target is reached, Clamped where the rim
+    bends; empty where this one is good.
+    """
+    if short and border != "free":
+        return "free"
+    return "clamped" if bent and border in {"free", "fixed"} else ""
 
 
 def falls_short(optimizer: "native.ShapeOptimizer", target: "native.Target", lacking: float, left: float) -> bool:

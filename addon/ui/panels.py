@@ -314,14 +314,12 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         ob = context.view_layer.objects.active
         report, run = ob.reflection_lines.report, ob.reflection_lines.run
         column = self.layout.column(align=True)
-        good = report.termination in {"converged", "already_optimal"} and not report.remedy
+        good = report.termination in {"converged", "already_optimal"} and report.remedy != 'free'
         if context.window_manager.reflection_lines.is_undone(ob):
             draw_paragraph(column, context, "Undone: the mesh is no longer as the last solve left it", 'LOOP_BACK')
             self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
             return
         draw_paragraph(column, context, report.headline(), 'CHECKMARK' if good else 'INFO')
-        if report.fit:
-            draw_paragraph(column, context, report.fit, 'MOD_SHRINKWRAP')
         for note in report.notes.splitlines():
             draw_paragraph(column, context, note, 'INFO' if good else 'ERROR')
         keys = ob.data.shape_keys.key_blocks if ob.type == 'MESH' and ob.data.shape_keys is not None else {}

@@ -92,7 +92,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
     residual_before: FloatProperty(name="Residual Before", description="What the lines' gradient lacked of the "
                                    "wanted one: root mean square, radians per unit of length")
     residual_after: FloatProperty(name="Residual After", description="What it still lacks")
-    remedy: StringProperty(name="Remedy", description="The border with which more of the target can be reached")
+    remedy: StringProperty(name="Remedy", description="The border that would serve better")
 
     def fill(self, solution: Solution, notes: tuple[str, ...]) -> None:
         """Copies the numbers of a finished solve."""
@@ -106,7 +106,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
         for name in ("length", "score_before", "score_after", "turn_before", "turn_after", "residual_before",
                      "residual_after", "remedy", "automatic_length", "automatic_limit", "cage_move"):
             setattr(self, name, getattr(solution, name))
-        self.notes, self.fit = "\n".join(notes), ""
+        self.notes, self.fit = "\n".join(notes), solution.fit
 
     def headline(self) -> str:
         """Says what the solve did in an artist's words, the largest first."""
@@ -122,7 +122,9 @@ class ReflinesReport(bpy.types.PropertyGroup):
         return f", its cage {units.format_length(self.cage_move, bpy.context.scene, 2)}"
 
     def gain(self) -> str:
-        """Says what was healed, how far lines are off their course, or how much of the target was reached."""
+        """Says how far a fitted cage is from the other mesh, what was healed, how far lines are off their course, or how much of the target was reached."""
+        if self.fit:
+            return self.fit
         if self.healed:
             return Healed(self.healed_area, self.worst_before, self.worst_after).describe()
         smoothed = self.id_data.reflection_lines.run.operator == "REFLINES_OT_smooth"

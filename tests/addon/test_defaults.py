@@ -1,4 +1,7 @@
 """What a press with the default settings does, and what a tool says and offers where it did next to nothing."""
+import re
+
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -29,12 +32,35 @@ def reached(ob: bpy.types.Object) -> float:
     return 1.0 - report.residual_after / report.residual_before
 
 
+def bend(ob: bpy.types.Object) -> float:
+    """The largest angle of an edge between a selected face and one beside it, degrees."""
+    mesh = bmesh.from_edit_mesh(ob.data)
+    mesh.normal_update()
+    rim = [edge for edge in mesh.edges if len({face.select for face in edge.link_faces}) == 2]
+    return float(np.degrees(max(edge.calc_face_angle() for edge in rim)))
+
+
 @pytest.mark.parametrize("press", PRESSES.values(), ids=PRESSES)
-def test_a_press_with_the_defaults_does_more_than_half_of_what_it_is_asked_for(panel, press) -> None:
+def test_a_press_with_the_defaults_does_not_bend_the_rim(panel, press) -> None:
+    before = bend(panel)
     press()
+    assert panel.reflection_lines.report.largest_move > 1e-5
+    assert bend(panel) < before + 0.1 and "border of the region bends" not in panel.reflection_lines.report.notes
+
+
+@pytest.mark.parametrize("press", ["angle", "untwist"])
+def test_what_the_border_keeps_from_its_target_is_offered_and_what_that_bends_is_said_and_offered_back(panel,
+                                                                                                       press) -> None:
+    before = bend(panel)
+    PRESSES[press]()
     report = panel.reflection_lines.report
-    assert reached(panel) > 0.5
-    assert "of the target" not in report.notes and report.remedy == ""
+    assert reached(panel) < 0.2 and report.remedy == "free"
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border=report.remedy) == {'FINISHED'}
+    assert reached(panel) > 0.5 and report.remedy == "clamped"
+    said = float(re.search(r"bends by up to ([0-9.]+) degrees more", report.notes)[1])
+    assert said > 3.0 and bend(panel) - before == pytest.approx(said, abs=0.3)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border=report.remedy) == {'FINISHED'}
+    assert bend(panel) < before + 0.1
 
 
 def test_the_automatic_fall_off_ends_inside_a_long_region(panel) -> None:
@@ -59,7 +85,7 @@ def test_a_border_in_the_way_is_named_and_the_remedy_does_it(panel, border) -> N
     first = report.notes.splitlines()[0]
     assert first.startswith("Only ") and f"the border {border.capitalize()} keeps the lines' mean" in first
     assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border=report.remedy) == {'FINISHED'}
-    assert reached(panel) > 0.8 and report.remedy == "" and "of the target" not in report.notes
+    assert reached(panel) > 0.8 and report.remedy == "clamped" and "of the target" not in report.notes
     remedied = scenes.positions(panel)
     bpy.ops.ed.undo()
     bpy.ops.ed.undo()

@@ -117,7 +117,7 @@ def test_the_angle_is_that_of_the_lines_in_the_picture(panel) -> None:
 
 def test_untwist_turns_the_middle_counter_clockwise(panel) -> None:
     before = lines_of(panel).field()
-    bpy.ops.reflines.untwist(angle=0.2, centre='REGION', radius=0.8, emphasis=100.0)
+    bpy.ops.reflines.untwist(angle=0.2, centre='REGION', radius=0.8, emphasis=100.0, border='free')
     optimizer = lines_of(panel)
     inside = near(optimizer, 0.2)
     old, new = before[inside].mean(axis=0), optimizer.field()[inside].mean(axis=0)
