@@ -55,7 +55,7 @@ NAMES = (
     "overlay.draw_cage", "overlay.legend",
     "overlay.draw", "overlay.surface_lines", "overlay.draw_borders", "overlay.draw_check",
     "operators.add_light_direction", "operators.camera_aim", "operators.add_view_camera",
-    "operators.camera_from_view", "operators.check",
+    "operators.camera_from_view", "operators.set_up", "operators.check",
     "operators.look_through", "operators.save_stripes_preset", "operators.solve_tool",
     "operators.add_warp_lattice", "operators.bake_handles",
     "operators.dragged_tool", "operators.direction", "operators.fair_brush",

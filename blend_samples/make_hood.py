@@ -12,7 +12,6 @@ HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS, ROWS = 136, 110                 # 14,960 quads of about 11 mm
 VIEW_DIRECTION = (0.10, -0.70, 1.0)      # somebody who stands before the car, a step to its left
 LINE_DIRECTION = (0.0, 1.0, 0.12)        # lamps along the car, as in an inspection tunnel
-LENGTH = 0.4                             # twice the widest dent: 6 % of waves that long are left
 
 
 def add_hood() -> bpy.types.Object:
@@ -33,7 +32,7 @@ def main() -> None:
     hood = add_hood()
     view = studio.add_view_camera(VIEW_DIRECTION, centre=(0.0, 0.0, -0.03), width=1.70)
     light = studio.add_light_direction(LINE_DIRECTION, location=(0.95, -0.3, 0.25))
-    studio.set_up_add_on(view, light, studio.Stripes(), LENGTH)
+    studio.set_up_add_on(view, light, studio.Stripes(), length=0.0)
     studio.light_the_room(view, light, studio.Stripes())
     studio.set_up_render(1400, 1000, samples=8)
     studio.look_through_camera()

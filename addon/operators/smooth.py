@@ -37,7 +37,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         """Draws the redo panel."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
-        for name in ("border", "solve_for", "result"):
+        for name in ("strength", "border", "solve_for", "result"):
             layout.prop(self, name)
         self.draw_smooth(layout, automatic_values.draw_plain_value)
         layout.prop(self, "lights")

@@ -1,11 +1,14 @@
-"""The panels of the sidebar tab "Reflection", in the order of the work: stripes (stripes_panel.py), view and light,
-region, tools, and last the result, which pushes no other panel away.
+"""The panels of the sidebar tab "Reflection": first Smooth Lines with its button, below it the result, and folded what
+is set up once (stripes, in stripes_panel.py, view and light, region), and the other tools.
 """
 import textwrap
 
 import bpy
 
 from . import automatic_values, manual_links, rows
+
+
+BIG = 1.5  # height of the one button to press, in rows
 
 
 def draw_paragraph(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
@@ -21,7 +24,7 @@ class ReflinesPanel:
     bl_space_type = 'VIEW_3D'
     bl_region_type = 'UI'
     bl_category = "Reflection"
-    bl_order = 1  # the stripes are 0: this decides before the order of registration
+    bl_order = 3  # this decides before the order of registration
     manual = ""  # section of the manual that describes the panel
 
     def draw_header_preset(self, _context: bpy.types.Context) -> None:
@@ -32,13 +35,12 @@ class ReflinesPanel:
 
 class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
     bl_label = "View and Light"
+    bl_options = {'DEFAULT_CLOSED'}
     manual = "view-and-light"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reflection_lines
-        layout = self.layout
-        self.draw_problem(layout, context)
-        column = layout.column()
+        column = self.layout.column()
         row = column.row(align=True)
         row.prop(settings, "camera", text="", icon='CAMERA_DATA')
         if settings.picture_camera() is not None:
@@ -54,7 +56,7 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
         if settings.is_perspective():
             draw_paragraph(column, context, "Perspective camera: its direction to the panel's centre is used", 'INFO')
         self.draw_unfollowed(column, context, settings.camera)
-        column = layout.column()
+        column = self.layout.column()
         column.prop(settings, "light", text="", icon='EMPTY_SINGLE_ARROW')
         self.draw_unfollowed(column, context, settings.light)
         if not settings.present(settings.light):
@@ -76,14 +78,6 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
         column.prop(settings, "light_turn")
         column.prop(settings, "light_tilt")
         column.operator("reflines.sweep_light", icon='LIGHT_SUN')
-
-    def draw_problem(self, layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-        session = context.window_manager.reflection_lines
-        if session.problem:
-            box = layout.box()
-            box.alert = True
-            draw_paragraph(box, context, session.problem, 'ERROR')
-            draw_paragraph(box, context, session.remedy, 'BLANK1')
 
 
 class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
@@ -174,11 +168,41 @@ class ToolPanel(ReflinesPanel):
 
 class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
     bl_label = "Smooth Lines"
+    bl_order = 0
+    manual = "reflines.smooth"
+
+    def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
+                  settings: bpy.types.PropertyGroup) -> None:
+        self.draw_problem(layout, context)
+        row = layout.row(align=True)
+        row.scale_y = BIG
+        if settings.picture_camera() is None or not settings.present(settings.light):
+            row.operator("reflines.set_up", icon='VIEW_CAMERA')
+            return
+        row.operator("reflines.smooth", icon='MOD_SMOOTH')
+        row.operator("reflines.smooth", text="", icon='ARROW_LEFTRIGHT').follow_mouse = True
+        layout.prop(settings, "strength")
+
+    def draw_problem(self, layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+        session = context.window_manager.reflection_lines
+        if session.problem:
+            box = layout.box()
+            box.alert = True
+            draw_paragraph(box, context, session.problem, 'ERROR')
+            draw_paragraph(box, context, session.remedy, 'BLANK1')
+
+
+class VIEW3D_PT_reflines_smooth_settings(ToolPanel, bpy.types.Panel):
+    bl_label = "Settings"
+    bl_parent_id = "VIEW3D_PT_reflines_smooth"
+    bl_options = {'DEFAULT_CLOSED'}
     manual = "reflines.smooth"
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         settings.draw_smooth(layout, automatic_values.draw_value)
-        self.draw_buttons(layout, settings, "reflines.smooth", 'MOD_SMOOTH')
+        layout.prop(settings, "lights")
+        automatic_values.draw_value(layout, settings, "limit")
+        layout.prop(settings, "border")
 
 
 class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
@@ -303,6 +327,7 @@ class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
 
 class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
     bl_label = "Result"
+    bl_order = 1
     manual = "result"
 
     @classmethod
@@ -334,6 +359,8 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if report.limited and run.operator and limit:
             shown = run.format_length(limit)
             self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
+        self.layout.prop(context.scene.reflection_lines.stripes, "before", text="Compare with Before", toggle=True,
+                         icon='MOD_MIRROR')
         if report.longer_waves and run.operator:
             self.layout.operator("reflines.resolve", text="Take Longer Waves Too").flaw_size = 2.0
         self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
@@ -381,7 +408,8 @@ class VIEW3D_PT_reflines_numbers(ReflinesPanel, bpy.types.Panel):
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth, VIEW3D_PT_reflines_pull,
+    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth,
+    VIEW3D_PT_reflines_smooth_settings, VIEW3D_PT_reflines_pull,
     VIEW3D_PT_reflines_brush, VIEW3D_PT_reflines_direction,
     VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
     VIEW3D_PT_reflines_kept, VIEW3D_PT_reflines_numbers])

@@ -16,7 +16,8 @@ class REFLINES_UL_stripes(bpy.types.UIList):
 
 class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
     bl_label = "Stripes"
-    bl_order = 0
+    bl_order = 2
+    bl_options = {'DEFAULT_CLOSED'}
     manual = "stripes"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:

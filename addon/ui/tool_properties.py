@@ -132,9 +132,10 @@ class SmoothSettings:
     limit: limit_property()
 
     def draw_smooth(self, layout: bpy.types.UILayout, draw_value: Callable) -> None:
-        """Draws the settings but the border, for the sidebar and the redo panel, which draw automatic values apart."""
+        """Draws the settings but strength and border, for the sidebar and the redo panel, which draw automatic values
+        apart.
+        """
         draw_value(layout, self, "length")
-        layout.prop(self, "strength")
         draw_switch(layout, self, "directional")
         automatic = layout.column()
         automatic.active = not self.length and not self.directional

@@ -23,7 +23,7 @@ CHANGING = {
 # Of the scene rather than of the object.
 OTHERS = {
     "add_warp_lattice": {}, "start_live_warp": {}, "apply_live_warp": {}, "discard_live_warp": {},
-    "camera_from_view": {}, "use_panel_view": {}, "add_light_direction": {}, "add_view_camera": {},
+    "camera_from_view": {}, "set_up": {}, "use_panel_view": {}, "add_light_direction": {}, "add_view_camera": {},
     "delete_handles": {},
 }
 

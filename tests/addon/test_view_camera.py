@@ -46,6 +46,31 @@ def test_the_view_camera_is_turned_and_frames_the_panel(direction, kind) -> None
     assert is_framed(np.array([ob.matrix_world @ Vector(corner) for corner in ob.bound_box]))
 
 
+@pytest.mark.parametrize("direction", [(0.0, 0.0, 1.0), (1.0, 2.0, 1.5)])
+def test_the_set_up_adds_camera_light_and_stripes_at_once_and_a_press_can_follow(direction) -> None:
+    ob = scenes.panel()
+    scenes.edit_inner(ob)
+    settings().stripes.show = False
+    assert bpy.ops.reflines.set_up(direction=direction) == {'FINISHED'}
+    bpy.context.view_layer.update()
+    assert axis_z(settings().camera) == pytest.approx(np.array(direction) / np.linalg.norm(direction), abs=1e-5)
+    assert settings().missing() == "" and settings().stripes.show
+    assert abs(axis_z(settings().light) @ axis_z(settings().camera)) < 1e-5
+    assert scenes.smooth() == {'FINISHED'}
+
+
+def test_the_set_up_keeps_the_camera_and_the_light_that_are_there() -> None:
+    scenes.panel()
+    scenes.look_from_above()
+    camera, light = settings().camera, settings().light
+    before = [ob.matrix_world.copy() for ob in (camera, light)]
+    assert bpy.ops.reflines.set_up(direction=(1.0, 0.0, 0.3)) == {'FINISHED'}
+    assert (settings().camera, settings().light) == (camera, light)
+    assert [camera.matrix_world, light.matrix_world] == before
+    settings().light = None
+    assert bpy.ops.reflines.set_up() == {'FINISHED'} and settings().camera == camera and settings().light is not None
+
+
 def track(camera: bpy.types.Object, other: bpy.types.Object) -> None:
     camera.constraints.new('TRACK_TO').target = other
 

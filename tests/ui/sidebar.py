@@ -27,7 +27,7 @@ def open_tab(driver: window.Window) -> Steps:
     """Blender 3.4 does not tell which tab is where, so the mouse tries one after the other until a panel is drawn."""
     drawn: list[bool] = []
     driver.area().spaces.active.show_region_ui = True
-    panel, note = bpy.types.VIEW3D_PT_reflines_setup, lambda *_: drawn.append(True)
+    panel, note = bpy.types.VIEW3D_PT_reflines_smooth, lambda *_: drawn.append(True)
     panel.append(note)
     yield 0.3
     sidebar = driver.region('UI')
@@ -44,7 +44,7 @@ def open_tab(driver: window.Window) -> Steps:
 def shows_tab(driver: window.Window) -> Generator[float, None, bool]:
     """Returns whether the add-on's tab is the one in front of the open sidebar."""
     drawn: list[bool] = []
-    panel, note = bpy.types.VIEW3D_PT_reflines_setup, lambda *_: drawn.append(True)
+    panel, note = bpy.types.VIEW3D_PT_reflines_smooth, lambda *_: drawn.append(True)
     panel.append(note)
     driver.redraw()
     yield 0.5

@@ -13,8 +13,8 @@ from dragging import ended, panel
 
 Steps = Generator[float, None, None]
 
-ORDER = ("stripes", "setup", "region", "smooth", "direction", "untwist", "warp", "pattern", "result")
-FOLDED = ("region", "direction", "untwist", "warp", "pattern", "look", "numbers")
+ORDER = ("smooth", "result", "stripes", "setup", "region", "direction", "untwist", "warp", "pattern")
+FOLDED = ("smooth_settings", "stripes", "setup", "region", "direction", "untwist", "warp", "pattern", "look", "numbers")
 BESIDE_CONTENT = 57  # pixels of the sidebar's width that tabs, scroll bar and margins take in Blender 3.4
 LABEL_SHARE = 0.4    # of a row that Blender gives to the label
 ICON, MARGIN = 20, 6  # pixels
