@@ -6,7 +6,7 @@ from .panels import ReflinesPanel, draw_paragraph
 
 class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
     bl_label = "Check"
-    bl_order = 2  # after the result
+    bl_order = 4  # after the result
     bl_options = {'DEFAULT_CLOSED'}
     manual = "reflines.check"
 
