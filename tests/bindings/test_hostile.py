@@ -119,6 +119,14 @@ def test_settings_of_a_pattern_that_are_no_numbers_are_refused(solver, name, val
         reflines.pattern(solver, image=np.random.default_rng(0).random((8, 8)), **{name: value})
 
 
+@pytest.mark.parametrize("length", [1e8, 1e100, 1e300])
+def test_a_length_far_beyond_the_panel_smooths_as_a_long_one(solver, length) -> None:
+    """The fourth power of 1e100 is no number."""
+    long = 1e7
+    assert solver.score(length).shift == solver.score(long).shift
+    assert np.array_equal(reflines.smooth(solver, length=length).gradient, reflines.smooth(solver, length=long).gradient)
+
+
 @pytest.mark.parametrize("width", [1e-300, 1e300])
 def test_patterns_of_any_width_are_sampled(solver, width) -> None:
     image = np.random.default_rng(0).random((8, 8))

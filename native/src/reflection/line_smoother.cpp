@@ -1,5 +1,6 @@
 #include "reflection/line_smoother.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -34,6 +35,9 @@ constexpr double kFeatureWeight = 1e-3;
 
 // The least weight of untrusted data, which determine the smoothed field where nothing else does.
 constexpr double kLeastTrust = 1e-6;
+
+// Longest length relative to the region's size: all that is longer smooths as much, and 1e100 would overflow.
+constexpr double kLongest = 1e6;
 
 // The coefficients of H^3, H^2, H and 1 in p(H) / H^4.
 constexpr double kSharpened[4] = {-20.0, 70.0, -84.0, 35.0};
@@ -97,6 +101,11 @@ void append_element(const int* vertex, Eigen::Index count, Stencils& stencils) {
   stencils.offset.push_back(static_cast<int>(stencils.vertex.size()));
 }
 
+double bound_length(const HeightField& field, double length) {
+  const double size = (field.xy.colwise().maxCoeff() - field.xy.colwise().minCoeff()).norm();
+  return std::min(length, kLongest * size);
+}
+
 }  // namespace
 
 SmootherElements make_smoother_elements(const HeightField& field) {
@@ -128,19 +137,20 @@ LineSmoother::LineSmoother(const HeightField& field, const SmootherElements& sha
     throw InvalidInput("The smoothing length must be a positive length in scene units, not " +
                        std::to_string(options.length) + ".");
   }
+  options_.length = bound_length(field, options.length);
   const StencilEntries entries(shared.stencils, field.vertex_count());
   throw_if_cancelled(progress);
   std::vector<int> column(field.vertex_count());
   std::iota(column.begin(), column.end(), 0);
   HessianAssembly assembly(shared.stencils, entries, column, field.vertex_count());
   throw_if_cancelled(progress);
-  const Energy::ElementHessians hessians = weigh_elements(field, shared, options, along, weight_);
+  const Energy::ElementHessians hessians = weigh_elements(field, shared, options_, along, weight_);
   throw_if_cancelled(progress);
   solve_ = factorize(assembly.assemble(hessians, corner_weights(field, weight_)));
 }
 
 bool LineSmoother::is_same(double length, const Vector& trust, const Mask& features) const {
-  return !options_.directional && options_.length == length && (features_ == features).all() &&
+  return !options_.directional && options_.length == bound_length(field_, length) && (features_ == features).all() &&
          weight_ == data_weights(field_, trust, features);
 }
 

@@ -17,6 +17,8 @@ namespace {
 
 constexpr int kRetries = 3;
 
+constexpr double kLongest = 1e3;  // length, relative to the diagonal: all that is longer smooths as much
+
 constexpr double kVisible = 0.32;  // degrees, root mean square: waves that are worth a word
 
 constexpr double kNoGain = 0.1, kWholeGain = 0.6;  // shares of a cage's unevenness: from none of its move to all
@@ -24,7 +26,9 @@ constexpr double kNoGain = 0.1, kWholeGain = 0.6;  // shares of a cage's unevenn
 constexpr double kWorse = 1.01;  // times its unevenness at the start: a light that is no worse to the eye
 
 double choose_length(const SmoothPanelOptions& options, const Positions& V) {
-  return options.length > 0 ? options.length : options.flaw_size * kAutomaticLength * bounding_box_diagonal(V);
+  const double diagonal = bounding_box_diagonal(V);
+  const double length = options.length > 0 ? options.length : options.flaw_size * kAutomaticLength * diagonal;
+  return std::min(length, kLongest * diagonal);
 }
 
 SmoothPanelReport start_report(ControlledSurface& surface, const SmoothPanelOptions& options) {
