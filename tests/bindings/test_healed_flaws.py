@@ -1,0 +1,131 @@
+"""What a press says that it healed: degrees off the lines' course at the worst place, and the share of the panel.
+
+The panel is a dome with dents, given by formulas, so that how far its lines are off those of the clean dome is known
+without the module.
+"""
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import reflines
+
+VIEW, TILT = np.array([0.0, 0.0, 1.0]), np.radians(70.0)
+LIGHT = np.array([np.sin(TILT), 0.0, np.cos(TILT)])
+SIDE = 1.9
+RADIUS, DEPTH = 0.09, 0.002
+CENTRES = ((0.2, 0.1), (-0.4, 0.5), (-0.3, -0.5), (0.55, -0.45))
+Height = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+def clean(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    return -0.15 * x * x - 0.1 * y * y - 0.03 * x**3
+
+
+def dented(depth: float = DEPTH, radius: float = RADIUS, count: int = 1) -> Height:
+    return lambda x, y: clean(x, y) - depth * sum(np.exp(-((x - a) ** 2 + (y - b) ** 2) / radius**2)
+                                                  for a, b in CENTRES[:count])
+
+
+def grid(height: Height, cells: int = 60, rows: int | None = None, *, turned: bool = False) -> tuple[np.ndarray, ...]:
+    rows = rows or cells
+    x, y = (each.ravel() for each in np.meshgrid(np.linspace(-0.5 * SIDE, 0.5 * SIDE, cells + 1),
+                                                 np.linspace(-0.5 * SIDE, 0.5 * SIDE, rows + 1)))
+    corner = (np.arange(rows)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+    quads = np.stack([corner, corner + 1, corner + cells + 2, corner + cells + 1], axis=1)
+    quads = np.roll(quads, -1, axis=1) if turned else quads
+    return np.stack([x, y, height(x, y)], axis=1), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def press(height: Height, *mesh: int, turned: bool = False, **settings: float) -> reflines.SmoothPanelReport:
+    return reflines.smooth_panel(*grid(height, *mesh, turned=turned), view_direction=VIEW, line_direction=LIGHT,
+                                 **settings)[1]
+
+
+def theta(height: Height, x: np.ndarray, y: np.ndarray, across: np.ndarray) -> np.ndarray:
+    """Equation 1 of the paper, with derivatives by central differences of the formula."""
+    step = 1e-5
+    slope = [(height(x + step, y) - height(x - step, y)) / (2.0 * step),
+             (height(x, y + step) - height(x, y - step)) / (2.0 * step)]
+    n = np.stack([-slope[0], -slope[1], np.ones_like(x)], axis=-1)
+    r = 2.0 * n[..., 2:] * n / (n * n).sum(axis=-1, keepdims=True) - VIEW
+    third = VIEW - (VIEW @ across) * across
+    third /= np.linalg.norm(third)
+    return np.arctan2(r @ np.cross(across, third), r @ third)
+
+
+def worst_deviation(height: Height, length: float) -> float:
+    """Degrees: root mean square over a disk of 0.35 lengths with weights 1 - (distance / radius)^2, the largest around
+    the first dent, in the light in which it is largest.
+    """
+    reach = 0.35 * length
+    u, v = (each.ravel() for each in np.meshgrid(*2 * [np.linspace(-reach, reach, 25)]))
+    weight = np.maximum(1.0 - (u * u + v * v) / reach**2, 0.0)
+    places = np.stack(np.meshgrid(*2 * [np.linspace(-1.5 * RADIUS, 1.5 * RADIUS, 31)]), axis=-1).reshape(-1, 2)
+    x, y = places[:, :1] + u + CENTRES[0][0], places[:, 1:] + v + CENTRES[0][1]
+    lights = (LIGHT, np.cross(VIEW, LIGHT))
+    off = [np.degrees(theta(height, x, y, a / np.linalg.norm(a)) - theta(clean, x, y, a / np.linalg.norm(a)))
+           for a in lights]
+    return max(float(np.sqrt((each**2 @ weight / weight.sum()).max())) for each in off)
+
+
+def test_the_worst_place_is_as_far_off_as_the_formulas_say() -> None:
+    report = press(dented(), 120)
+    assert report.healed.worst_before == pytest.approx(worst_deviation(dented(), report.length), rel=0.04)
+
+
+MESHES = {"40": (40,), "90": (90,), "120": (120,), "aspect 2": (50, 100)}
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("mesh", MESHES.values(), ids=MESHES)
+def test_it_is_a_number_of_the_surface(mesh, turned) -> None:
+    """However it is sampled and cut."""
+    told, wanted = press(dented(), *mesh, turned=turned).healed, press(dented()).healed
+    assert told.worst_before == pytest.approx(wanted.worst_before, rel=0.08)
+    assert told.mean_before == pytest.approx(wanted.mean_before, rel=0.05)
+    assert told.area == pytest.approx(wanted.area, rel=0.05)
+    assert told.worst_after < 0.05
+
+
+def test_facets_of_a_clean_panel_are_no_flaws() -> None:
+    for cells in (40, 60):
+        told = press(clean, cells).healed
+        assert told.worst_before < 0.05 and told.area == 0.0
+
+
+def test_a_deeper_dent_has_larger_numbers_in_proportion() -> None:
+    told = [press(dented(depth)).healed for depth in (5e-4, 1e-3, 2e-3, 4e-3)]
+    assert [each.worst_before / told[2].worst_before for each in told] == pytest.approx([0.25, 0.5, 1.0, 2.0], rel=0.01)
+    assert all(a.area < b.area and a.mean_before < b.mean_before for a, b in zip(told, told[1:]))
+
+
+def test_more_dents_have_more_area_and_are_no_worse() -> None:
+    told = [press(dented(count=count)).healed for count in (1, 2, 3)]
+    assert [each.area / told[0].area for each in told] == pytest.approx([1.0, 2.0, 3.0], rel=0.05)
+    assert [each.worst_before / told[0].worst_before for each in told] == pytest.approx([1.0, 1.0, 1.0], rel=0.02)
+
+
+def test_what_strength_and_limit_leave_is_told() -> None:
+    whole = press(dented()).healed
+    for strength in (0.0, 0.25, 0.5, 0.75):
+        told = press(dented(), strength=strength).healed
+        assert told.worst_before == whole.worst_before
+        assert told.worst_after == pytest.approx((1.0 - strength) * whole.worst_before, rel=0.03)
+    limited = [press(dented(), limit=limit).healed.worst_after for limit in (1e-4, 5e-4, 1e-3, 2e-3)]
+    assert all(a > b for a, b in zip(limited, limited[1:]))
+
+
+def test_results_are_ranked_as_by_their_true_distance_from_the_design() -> None:
+    """Twelve of them: strengths, limits and lengths; correlation of the ranks, in either light."""
+    start = dented(count=3)
+    V, F = grid(start)
+    design = grid(clean)[0]
+    settings = [{"strength": strength} for strength in (0.1, 0.3, 0.5, 0.7, 0.9, 1.0)]
+    settings += [{"limit": limit} for limit in (2e-4, 6e-4, 1e-3, 1.4e-3, 1.8e-3)] + [{"strength": 0.0}]
+    told, true = [], []
+    for each in settings:
+        positions, report = reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LIGHT, **each)
+        told.append(report.healed.worst_after)
+        true.append(np.abs(positions - design).max())
+    ranks = [np.argsort(np.argsort(values)) for values in (told, true)]
+    assert np.corrcoef(ranks)[0, 1] > 0.9
