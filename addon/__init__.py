@@ -35,7 +35,7 @@ NAMES = (
     "bridge.live_warp_start", "bridge.matcap", "bridge.read_falloff", "bridge.solve_record",
     "bridge.units", "bridge.view_and_light", "bridge.view_region", "bridge.places_beside",
     "bridge.read_edges", "bridge.screen_surface", "bridge.pinned_faces", "bridge.viewport_cage",
-    "bridge.warp_lattice", "bridge.view_camera", "bridge.facing",
+    "bridge.warp_lattice", "bridge.view_camera", "bridge.facing", "bridge.shown_surface",
     "solver.formulation", "solver.live_optimizer", "solver.limited_solve", "solver.turned_faces",
     "solver.rim", "solver.remarks", "solver.solve",
     "solver.automatic_smooth", "solver.brush", "solver.brushed_cage", "solver.panel_check",

@@ -116,8 +116,8 @@ def theta_of_direction(nodes: NodeChain, view: Vector, line: Vector) -> bpy.type
 
 
 def set_up_add_on(view: bpy.types.Object, light: bpy.types.Object, stripes: Stripes, length: float) -> None:
-    """The settings that the add-on saves with the scene: one press of its button smooths detail finer than `length`, with
-    0 what counts as flaws.
+    """The settings that the add-on saves with the scene: one press of its button smooths detail finer than `length`,
+    with 0 what counts as flaws.
     """
     settings = bpy.context.scene.reflection_lines
     settings.camera, settings.light, settings.length = view, light, length

@@ -11,7 +11,7 @@ def format_change(before: float, after: float) -> str:
 
 @dataclass(frozen=True)
 class Healed:
-    """What an automatic press of Smooth healed: native.HealedFlaws."""
+    """The account of what an automatic press of Smooth healed: native.HealedFlaws."""
     area: float          # share of the region, 0 to 1
     worst_before: float  # degrees that lines are off their course at the worst place
     worst_after: float

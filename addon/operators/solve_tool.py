@@ -3,8 +3,8 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
-from ..bridge import (facing, gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, view_and_light,
-                      write_mesh)
+from ..bridge import (facing, gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, shown_surface,
+                      view_and_light, write_mesh)
 from ..bridge.mesh_checks import Purpose
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -155,7 +155,8 @@ class SolveTool:
         stored.keep_view(bpy.context.scene)
         stored.run.fill(self, ob.data, solution.patch.key)
         lost = (LOST_START,) if self.lost_start else ()
-        shown = (*shape_keys.describe_hidden_key(ob, solution.patch.key),
+        shown = (*shape_keys.describe_hidden_key(ob, solution.patch.key), *shown_surface.describe_custom_normals(ob),
+                 *shown_surface.describe_shared_mesh(ob),
                  *modifiers.describe_unsolved_modifiers(ob, self.solve_for))
         stored.report.fill(solution, (*solution.notes, *self.describe_solution(solution), *shown, *lost))
         for note in stored.report.notes.splitlines():

@@ -9,7 +9,8 @@ DRAGGED = (
 TOOLS = (*DRAGGED, ("reflines.pull_line", 'VIEW_PAN'), ("reflines.fair_brush", 'BRUSH_DATA'),
          ("reflines.fit", 'MOD_SHRINKWRAP'))
 SETUP = (
-    ("reflines.set_up", 'VIEW_CAMERA'), ("reflines.camera_from_view", 'VIEW_CAMERA'), ("reflines.add_view_camera", 'CAMERA_DATA'),
+    ("reflines.set_up", 'VIEW_CAMERA'), ("reflines.camera_from_view", 'VIEW_CAMERA'),
+    ("reflines.add_view_camera", 'CAMERA_DATA'),
     ("reflines.look_through", 'HIDE_OFF'), ("reflines.add_light_direction", 'EMPTY_SINGLE_ARROW'),
     ("reflines.sweep_light", 'LIGHT_SUN'),
     ("reflines.add_warp_lattice", 'LATTICE_DATA'),

@@ -361,6 +361,8 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
             self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
         self.layout.prop(context.scene.reflection_lines.stripes, "before", text="Compare with Before", toggle=True,
                          icon='MOD_MIRROR')
+        if ob.type == 'MESH' and ob.data.has_custom_normals:
+            self.layout.operator("mesh.customdata_custom_splitnormals_clear", text="Reset Custom Normals")
         if report.longer_waves and run.operator:
             self.layout.operator("reflines.resolve", text="Take Longer Waves Too").flaw_size = 2.0
         self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
@@ -368,7 +370,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
 
 
 class VIEW3D_PT_reflines_kept(ReflinesPanel, bpy.types.Panel):
-    """What of the region was left as it is: fillets, edges, the hidden side."""
+    """The list of what in the region was left as it is: fillets, edges, the hidden side."""
     bl_label = "Kept"
     bl_parent_id = "VIEW3D_PT_reflines_result"
     bl_options = {'DEFAULT_CLOSED'}

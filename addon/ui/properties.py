@@ -74,15 +74,15 @@ class ReflinesReport(bpy.types.PropertyGroup):
     automatic_limit: FloatProperty(name="Automatic Limit", unit='LENGTH', precision=5)
     limited: IntProperty(name="Limited", description="Vertices that the limit of the move held back")
     healed: BoolProperty(name="Healed", description="Whether it is known where flaws were healed")
-    healed_area: FloatProperty(name="Healed Area", subtype='FACTOR', description="Share of the region's area whose lines "
-                               "were visibly off their course and are so no more")
+    healed_area: FloatProperty(name="Healed Area", subtype='FACTOR', description="Share of the region's area whose "
+                               "lines were visibly off their course and are so no more")
     worst_before: FloatProperty(name="Worst Before", description="Degrees that lines were off their course where they "
                                 "were so most, without what counts as design")
     worst_after: FloatProperty(name="Worst After", description="The same after the solve")
     longer_waves: BoolProperty(name="Longer Waves", description="Waves longer than the flaws were left, which may be "
                                "flaws, too")
-    score_before: FloatProperty(name="Line Deviation Before", description="Mean sideways shift of the reflection lines from "
-                                "their smooth course within one length, in degrees of the light's turn")
+    score_before: FloatProperty(name="Line Deviation Before", description="Mean sideways shift of the reflection lines "
+                                "from their smooth course within one length, in degrees of the light's turn")
     score_after: FloatProperty(name="Line Deviation After", description="The same after the solve")
     turn_before: FloatProperty(name="Turn Before", description="Mean angle between the reflection lines and their "
                                "smooth course as they are drawn, in degrees")
@@ -122,7 +122,9 @@ class ReflinesReport(bpy.types.PropertyGroup):
         return f", its cage {units.format_length(self.cage_move, bpy.context.scene, 2)}"
 
     def gain(self) -> str:
-        """Says how far a fitted cage is from the other mesh, what was healed, how far lines are off their course, or how much of the target was reached."""
+        """Says how far a fitted cage is from the other mesh, what was healed, how far lines are off their course, or how
+        much of the target was reached.
+        """
         if self.fit:
             return self.fit
         if self.healed:

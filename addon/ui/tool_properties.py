@@ -69,9 +69,9 @@ BORDERS = (
 
 
 def border_property() -> object:
-    """Defines the setting of a tool's border. A tool that changes the mean of the lines over the region does more with a
-    free one, and bends the rim: of a turn by 0.2 rad on a crowned panel 10 % and 65 %, with 0 and 6 to 12 degrees of a
-    crease against the faces beside the region. So it is asked for, by a button.
+    """Defines the setting of a tool's border. A tool that changes the mean of the lines over the region does more with
+    a free one, and bends the rim: of a turn by 0.2 rad on a crowned panel 10 % and 65 %, with 0 and 6 to 12 degrees of
+    a crease against the faces beside the region. So it is asked for, by a button.
     """
     return EnumProperty(name="Border", items=BORDERS, default='clamped', **SAVED,
                         description="What happens at the border of the region")

@@ -186,7 +186,7 @@ class LineScore:
     turn: float   # mean along the lines, degrees in the image plane: angle between a line and its smooth course
 
 class HealedFlaws:
-    """What a press healed. The deviation of lines is how far they are from the course that they would have without flaws:
+    """Tells what a press healed. The deviation of lines is how far they are from the course that they would have without flaws:
     degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most."""
     area: float          # share of the region's area where lines deviated visibly and most of that went
     worst_before: float  # deviation of the worst place of the region

@@ -96,7 +96,7 @@ def test_facets_of_a_clean_panel_are_no_flaws() -> None:
 def test_a_deeper_dent_has_larger_numbers_in_proportion() -> None:
     told = [press(dented(depth)).healed for depth in (5e-4, 1e-3, 2e-3, 4e-3)]
     assert [each.worst_before / told[2].worst_before for each in told] == pytest.approx([0.25, 0.5, 1.0, 2.0], rel=0.01)
-    assert all(a.area < b.area and a.mean_before < b.mean_before for a, b in zip(told, told[1:]))
+    assert all(a.area < b.area and a.mean_before < b.mean_before for a, b in zip(told, told[1:], strict=False))
 
 
 def test_more_dents_have_more_area_and_are_no_worse() -> None:
@@ -112,7 +112,7 @@ def test_what_strength_and_limit_leave_is_told() -> None:
         assert told.worst_before == whole.worst_before
         assert told.worst_after == pytest.approx((1.0 - strength) * whole.worst_before, rel=0.03)
     limited = [press(dented(), limit=limit).healed.worst_after for limit in (1e-4, 5e-4, 1e-3, 2e-3)]
-    assert all(a > b for a, b in zip(limited, limited[1:]))
+    assert all(a > b for a, b in zip(limited, limited[1:], strict=False))
 
 
 def test_results_are_ranked_as_by_their_true_distance_from_the_design() -> None:

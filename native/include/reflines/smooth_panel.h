@@ -58,8 +58,8 @@ struct SmoothPanelOptions {
   std::shared_ptr<Progress> progress;  // or none
 };
 
-// What a press healed. The deviation of lines is how far they are from the course that they would have without flaws:
-// degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most.
+// Tells what a press healed. The deviation of lines is how far they are from the course that they would have without
+// flaws: degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most.
 struct HealedFlaws {
   double area = 0.0;  // share of the region's area where lines deviated visibly and most of that went
   double worst_before = 0.0, worst_after = 0.0;  // deviation of the worst place of the region
