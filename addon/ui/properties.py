@@ -122,8 +122,8 @@ class ReflinesReport(bpy.types.PropertyGroup):
         return f", its cage {units.format_length(self.cage_move, bpy.context.scene, 2)}"
 
     def gain(self) -> str:
-        """Says how far a fitted cage is from the other mesh, what was healed, how far lines are off their course, or how
-        much of the target was reached.
+        """Says how far a fitted cage is from the other mesh, what was healed, how far lines are off their course, or
+        how much of the target was reached.
         """
         if self.fit:
             return self.fit
