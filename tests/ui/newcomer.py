@@ -31,7 +31,8 @@ def press_button(driver: window.Window, command: str) -> Steps:
 
 
 def scroll_up(driver: window.Window) -> Steps:
-    sidebar.point(driver, driver.region('UI').width // 2, 60)
+    region = driver.region('UI')
+    sidebar.point(driver, region.width // 2, region.height - 20)  # the wheel below the last panel is the view's
     for _ in range(40):
         driver.event('WHEELUPMOUSE', 'PRESS')
     yield 0.3
