@@ -5,8 +5,8 @@ SEEN = 0.005  # share of a panel below which nothing is said of its area
 
 
 def format_change(before: float, after: float) -> str:
-    """Formats degrees before and after a solve, with two digits each."""
-    return f"{before:.2g} to {after:.2g} degrees"
+    """Formats degrees before and after a solve, with two digits each: short enough for the header of a drag."""
+    return f"{before:.2g}\u00b0 \u2192 {after:.2g}\u00b0"
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,6 @@ class Gain:
         reached.
         """
         if smoothed:
-            return f"Lines off their course by {format_change(self.score_before, self.score_after)}"
+            return f"Lines off by {format_change(self.score_before, self.score_after)}"
         share = 1.0 - self.residual_after / self.residual_before if self.residual_before else 1.0
         return f"{max(share, 0.0):.0%} of the target reached"

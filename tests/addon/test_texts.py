@@ -33,8 +33,8 @@ def solved(**settings: object) -> bpy.types.PropertyGroup:
 
 def test_a_smoothing_tells_first_how_far_lines_are_off_their_course(capfd: pytest.CaptureFixture) -> None:
     report = solved(length=0.414)
-    change = f"{report.score_before:.2g} to {report.score_after:.2g} degrees"
-    assert report.headline().startswith(f"Lines off their course by {change}, moved at most 1.4 mm")
+    change = f"{report.score_before:.2g}\u00b0 \u2192 {report.score_after:.2g}\u00b0"
+    assert report.headline().startswith(f"Lines off by {change}, moved at most 1.4 mm")
     told = [line for line in capfd.readouterr().out.splitlines() if line.startswith("Info: Lines")]
     assert told == [f"Info: {report.headline()} (Panel)"]  # the solver's numbers are in the panel Numbers
 
@@ -42,7 +42,7 @@ def test_a_smoothing_tells_first_how_far_lines_are_off_their_course(capfd: pytes
 def test_an_automatic_press_tells_first_where_flaws_went() -> None:
     report = solved()
     assert report.healed_area > 0.1 and report.worst_after < 0.5 * report.worst_before
-    change = f"{report.worst_before:.2g} to {report.worst_after:.2g} degrees"
+    change = f"{report.worst_before:.2g}\u00b0 \u2192 {report.worst_after:.2g}\u00b0"
     where = f"Flaws healed on {report.healed_area:.0%} of the panel"
     assert report.headline().startswith(f"{where}: worst {change}, moved ")
 

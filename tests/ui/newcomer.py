@@ -52,7 +52,7 @@ def use_sample(note: Note) -> Steps:
     yield from ended(driver)
     after = shown(driver)
     assert np.abs(after - before).max() > 1e-4
-    assert headline().startswith("Flaws healed on ") and " degrees, moved at most 2." in headline(), headline()
+    assert headline().startswith("Flaws healed on ") and ", moved at most 2." in headline(), headline()
     driver.move(300, 300)
     yield from note("smoothed")
     driver.key('Z', ctrl=True)
