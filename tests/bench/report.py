@@ -14,7 +14,7 @@ from dataclasses import asdict
 from datetime import date
 from pathlib import Path
 
-from bench import design_tools, handle_steps, live, restoration
+from bench import continuity, design_tools, handle_steps, live, restoration
 from bench.row import Row
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -52,6 +52,7 @@ REACH = {
     "restoration_cage_move": (3.0, True), "two_lights_over_one": (1.6, True),
     "handle_step_ms_10k": (16.0, True), "handle_step_ms_100k": (60.0, True),
     "brush_dab_ms_100k": (33.0, True), "handle_first_ms_10k": (100.0, True), "handle_first_ms_100k": (500.0, True),
+    "press_over_solve_10k": (5.0, True), "press_over_solve_100k": (5.0, True), **continuity.find_limits(),
     "tools_crossed": (1.0, True), "tools_move": (5.0, True), "tools_turned": (0.0, True),
 }
 
@@ -224,7 +225,7 @@ def main() -> None:
     cages = medians(run("bench_solve", "^(cage_solve|dense_solve|cage_warm_step)", REPETITIONS)[0])
     bounded = run("bench_solve", "^bounded.*/10k", REPETITIONS)[0] | run("bench_solve", "^bounded.*/100k", 1)[0]
     rows = [*solve_rows(times), *bounded_rows(bounded), *cgal_rows(times), *strategy_rows(sizes), *cage_rows(cages),
-            *restoration.rows(), *design_tools.rows(), *handle_steps.rows()]
+            *restoration.rows(), *continuity.rows(), *design_tools.rows(), *handle_steps.rows()]
     if not quick:
         rows += [*million_rows(times), *live.rows()]
     values = [asdict(row) | {"value": row.value if math.isfinite(row.value) else None} for row in rows]  # JSON

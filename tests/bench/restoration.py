@@ -20,7 +20,7 @@ from bench.row import Row
 ROOT = Path(__file__).resolve().parents[2]
 JUDGE = ROOT.parent / "shared/restoration/restoration.py"
 REPETITIONS = 3
-CELLS = 99
+CELLS, LARGE = 99, 315
 LIGHTS = ("given", "crossed")
 
 
@@ -75,14 +75,39 @@ def cage_row() -> Row:
     return Row("restoration_cage_move", moves[worst], "mm", f"largest on {len(moves)} clean selections: {worst}")
 
 
+def make_noisy_panel(cells: int) -> tuple[np.ndarray, np.ndarray]:
+    """Returns vertices and triangles of a dome; the noise is a hundredth of an edge."""
+    x, y = (grid.ravel() for grid in np.meshgrid(*2 * [np.linspace(-0.5, 0.5, cells + 1)]))
+    noise = 0.01 / cells * np.random.default_rng(5).standard_normal(len(x))
+    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+    a, b, c, d = corner, corner + 1, corner + cells + 2, corner + cells + 1
+    F = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)]).astype(np.int32)
+    return np.stack([x, y, -0.15 * x**2 - 0.1 * y**2 + noise], 1), F
+
+
+def press_row(name: str, cells: int) -> Row:
+    """Returns how many times as long a press takes as a whole solve from the bare mesh, by turns."""
+    V, F = make_noisy_panel(cells)
+    seen = {"view_direction": (0, 0, 1), "line_direction": (0, 1, 0)}
+
+    def solve() -> None:
+        optimizer = reflines.ShapeOptimizer(V, F, **seen)
+        optimizer.solve(reflines.smooth(optimizer, length=0.1))
+
+    times: dict[str, list[float]] = {"press": [], "solve": []}
+    for _ in range(REPETITIONS):
+        for work, run in (("press", lambda: reflines.smooth_panel(V, F, **seen)), ("solve", solve)):
+            start = time.perf_counter()
+            run()
+            times[work].append(1000 * (time.perf_counter() - start))
+    press, whole = (statistics.median(times[work]) for work in ("press", "solve"))
+    return Row(f"press_over_solve_{name}", press / whole, "",
+               f"{press:.0f} ms / {whole:.0f} ms with its target, from the bare mesh on, medians of {REPETITIONS}")
+
+
 def lights_row() -> Row:
     """Returns how many times as long a press for two lights takes as one for one, by turns."""
-    x, y = (grid.ravel() for grid in np.meshgrid(*2 * [np.linspace(-0.5, 0.5, CELLS + 1)]))
-    noise = 1e-4 * np.random.default_rng(5).standard_normal(len(x))
-    corner = (np.arange(CELLS)[:, None] * (CELLS + 1) + np.arange(CELLS)).ravel()
-    a, b, c, d = corner, corner + 1, corner + CELLS + 2, corner + CELLS + 1
-    F = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)]).astype(np.int32)
-    V = np.stack([x, y, -0.15 * x**2 - 0.1 * y**2 + noise], 1)
+    V, F = make_noisy_panel(CELLS)
     times: dict[str, list[float]] = {"crossed": [], "single": []}
     for _ in range(REPETITIONS):
         for lights, taken in times.items():
@@ -95,7 +120,8 @@ def lights_row() -> Row:
 
 
 def rows() -> list[Row]:
-    return [*([*panel_rows(), cage_row()] if JUDGE.is_file() else []), lights_row()]
+    return [*([*panel_rows(), cage_row()] if JUDGE.is_file() else []), lights_row(),
+            press_row("10k", CELLS), press_row("100k", LARGE)]
 
 
 if __name__ == "__main__":
