@@ -130,8 +130,10 @@ void Restoration::solve(const std::vector<Target>& targets, const MoveLimit& lim
   if (report_.solve.termination == Termination::kCancelled) throw Cancelled();
   // A mesh's solve begins at the shape without flaws: that it finds nothing to do there is how a press converges.
   const bool moved = (surface_.control_move().array() != 0).any();
-  if (moved && report_.solve.termination == Termination::kAlreadyOptimal)
+  if (moved && report_.solve.termination == Termination::kAlreadyOptimal) {
     report_.solve.termination = Termination::kConverged;
+    report_.solve.message = "The shape without flaws was reached.";
+  }
 }
 
 // Returns the last solve's moves of the control vertices (#C), those of partners averaged.
