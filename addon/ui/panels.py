@@ -369,17 +369,21 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         self.layout.operator("reflines.store_result", icon='GROUP_VERTEX')
 
 
-class VIEW3D_PT_reflines_kept(ReflinesPanel, bpy.types.Panel):
-    """The list of what in the region was left as it is: fillets, edges, the hidden side."""
-    bl_label = "Kept"
+class ResultPart(ReflinesPanel):
+    """The base of folded panels within the result."""
     bl_parent_id = "VIEW3D_PT_reflines_result"
     bl_options = {'DEFAULT_CLOSED'}
     manual = "result"
 
+
+class VIEW3D_PT_reflines_kept(ResultPart, bpy.types.Panel):
+    """The list of what in the region was left as it is: fillets, edges, the hidden side."""
+    bl_label = "Kept"
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return (VIEW3D_PT_reflines_result.poll.__func__(cls, context)
-                and context.view_layer.objects.active.reflection_lines.report.kept != "")
+        ob = context.view_layer.objects.active
+        return ob is not None and ob.reflection_lines.report.kept != ""
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.layout.column(align=True)
@@ -387,15 +391,8 @@ class VIEW3D_PT_reflines_kept(ReflinesPanel, bpy.types.Panel):
             draw_paragraph(column, context, sentence, 'DOT')
 
 
-class VIEW3D_PT_reflines_numbers(ReflinesPanel, bpy.types.Panel):
+class VIEW3D_PT_reflines_numbers(ResultPart, bpy.types.Panel):
     bl_label = "Numbers"
-    bl_parent_id = "VIEW3D_PT_reflines_result"
-    bl_options = {'DEFAULT_CLOSED'}
-    manual = "result"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return VIEW3D_PT_reflines_result.poll.__func__(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
         report = context.view_layer.objects.active.reflection_lines.report

@@ -78,10 +78,10 @@ struct SmoothPanelReport {
   bool longer_waves = false;          // that may be flaws, too, were left; see Restoration::find_longer_waves
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
-  HealedFlaws healed;
-  Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
-                  // result, radians / length
-  Region region;  // of the shape at the start
+  HealedFlaws healed;  // of a press that was not applied nothing: the worst place after it is that before
+  Vector stray;        // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
+                       // result, radians / length
+  Region region;       // of the shape at the start
   bool applied = true;  // false: some light would have become worse, and nothing was moved
   // Sentences for the user, the most important first: why nothing was moved, or else what the limit holds back.
   std::vector<std::string> messages;

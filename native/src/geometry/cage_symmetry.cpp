@@ -39,7 +39,7 @@ struct SortedVertices {
 // where there is none.
 int find_nearest(const SortedVertices& sorted, const IndexVector& partner, const Vector3& point, double tolerance) {
   const double middle = point.dot(SortedVertices::kAlong);
-  const double reach = tolerance + 1e-14 * (std::abs(middle) + tolerance);  // more than rounding
+  const double reach = tolerance + 1e-14 * (point.lpNorm<1>() + tolerance);  // more than the rounding of the products
   const auto before = [&](int vertex, double x) { return sorted.place(vertex) < x; };
   int best = -1;
   double best_distance = tolerance;

@@ -227,8 +227,7 @@ Vector3 find_top(const Bump& middle, const std::vector<Bump>& found) {
 }
 
 // Searches for the centre and radius that explain most, by Newton's method with finite differences whose step shrinks,
-// so that what is found does not depend on where the search began. A parabola along each coordinate alone ended 3 %
-// beside the top of a dent.
+// so that what is found does not depend on where the search began.
 Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSearchOptions& options, Bump best) {
   static const std::vector<Vector3> kProbes = list_probes();
   std::vector<Bump> found(kProbes.size());

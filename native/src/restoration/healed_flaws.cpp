@@ -25,18 +25,16 @@ double mean_of(const Vector& degrees, const Vector& weight) {
   return std::sqrt(weight.dot(degrees.cwiseAbs2()) / std::max(weight.sum(), 1e-300));
 }
 
-}  // namespace
-
-Vector measure_deviation(ControlledSurface& surface, const Vector& z, const Vector& course, double length) {
-  ShapeOptimizer& optimizer = surface.optimizer();
-  Eigen::MatrixXd squares(surface.triangles().rows(), optimizer.family_count());
-  for (int k = 0; k < optimizer.family_count(); ++k)
-    squares.col(k) = (kDegrees * measure_offsets(surface, z, course, k)).cwiseAbs2();
-  const DiskMean around(find_centroids(optimizer.xy(), surface.triangles()), optimizer.area(), kRadius * length);
-  return around.of_columns(squares).rowwise().maxCoeff().cwiseSqrt();
+// Returns the squared deviations of heights z (#V) in each light: #F x lights, degrees^2.
+Eigen::MatrixXd measure_squares(ControlledSurface& surface, const Vector& z, const Vector& course) {
+  Eigen::MatrixXd result(surface.triangles().rows(), surface.optimizer().family_count());
+  for (int k = 0; k < result.cols(); ++k)
+    result.col(k) = (kDegrees * measure_offsets(surface, z, course, k)).cwiseAbs2();
+  return result;
 }
 
-HealedFlaws compare_deviations(const Vector& before, const Vector& after, const Vector& area) {
+// Sums deviations (#F) up; `area` (#F) is that of the triangles.
+HealedFlaws sum_up(const Vector& before, const Vector& after, const Vector& area) {
   Vector weight(area.size());
   for (Eigen::Index t = 0; t < area.size(); ++t) {
     const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
@@ -44,6 +42,21 @@ HealedFlaws compare_deviations(const Vector& before, const Vector& after, const 
   }
   return {weight.sum() / area.sum(), before.maxCoeff(), after.maxCoeff(), mean_of(before, weight),
           mean_of(after, weight)};
+}
+
+}  // namespace
+
+HealedFlaws measure_healed(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
+                           double length) {
+  ShapeOptimizer& optimizer = surface.optimizer();
+  const Vector area = optimizer.area();
+  const int lights = optimizer.family_count();
+  Eigen::MatrixXd squares(area.size(), 2 * lights);
+  squares << measure_squares(surface, before, course), measure_squares(surface, after, course);
+  const DiskMean around(find_centroids(optimizer.xy(), surface.triangles()), area, kRadius * length);
+  const Eigen::MatrixXd mean = around.of_columns(squares);
+  return sum_up(mean.leftCols(lights).rowwise().maxCoeff().cwiseSqrt(),
+                mean.rightCols(lights).rowwise().maxCoeff().cwiseSqrt(), area);
 }
 
 }  // namespace reflines

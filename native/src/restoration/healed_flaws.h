@@ -7,11 +7,9 @@
 
 namespace reflines {
 
-// Returns how far the lines of heights z (#V) are from those of the heights `course` (#V) around each triangle (#F):
-// degrees of theta, root mean square over a disk, in the light in which that is most. `length` is the size of flaws.
-Vector measure_deviation(ControlledSurface& surface, const Vector& z, const Vector& course, double length);
-
-// Sums deviations (#F) before and after a press up; `area` (#F) is that of the triangles.
-HealedFlaws compare_deviations(const Vector& before, const Vector& after, const Vector& area);
+// Compares how far the lines of heights `before` and `after` (#V) a press are from those of the heights `course` (#V);
+// `length` is the size of flaws. See HealedFlaws.
+HealedFlaws measure_healed(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
+                           double length);
 
 }  // namespace reflines

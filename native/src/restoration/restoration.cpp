@@ -167,14 +167,6 @@ bool Restoration::find_longer_waves(const Vector& z) {
   return *std::max_element(waves.degrees.begin(), waves.degrees.end()) > kVisible;
 }
 
-// Compares heights z (#V) with the start. The course of the lines is that of the shape without flaws, smoothed: what
-// counts as design is in it, and what a limit or the strength leaves of a flaw is not.
-HealedFlaws Restoration::find_healed(const Vector& z) {
-  const Vector course = smooth(shape_);
-  return compare_deviations(measure_deviation(surface_, start_, course, report_.length),
-                            measure_deviation(surface_, z, course, report_.length), surface_.optimizer().area());
-}
-
 SmoothPanelResult Restoration::judge(const Vector& move) {
   const Vector end = start_ + surface_.surface_move(move);
   const Unevenness before = measure_unevenness(surface_, start_, smooth(start_), report_.length);
@@ -184,7 +176,9 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.unevenness_before = before.degrees;
   report_.unevenness_after = after.degrees;
   report_.stray = before.stray;
-  report_.healed = find_healed(end);
+  // The course of the lines is that of the shape without flaws, smoothed: what counts as design is in it, and what a
+  // limit or the strength leaves of a flaw is not.
+  report_.healed = measure_healed(surface_, start_, end, smooth(shape_), report_.length);
   if (turns_faces(move)) return refuse(explain_turned_faces());
   for (size_t k = 0; k < after.degrees.size(); ++k) {
     if (after.degrees[k] > kWorse * before.degrees[k])

@@ -59,7 +59,6 @@ class Restoration {
   Vector smooth(const Vector& z) const;
   bool find_longer_waves(const Vector& z);
   double weigh_gain(const Vector& move) const;
-  HealedFlaws find_healed(const Vector& z);
   SmoothPanelResult refuse(const std::string& reason);
 
   ControlledSurface& surface_;
