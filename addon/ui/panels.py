@@ -339,7 +339,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         ob = context.view_layer.objects.active
         report, run = ob.reflection_lines.report, ob.reflection_lines.run
         column = self.layout.column(align=True)
-        good = report.termination in {"converged", "already_optimal"} and report.remedy != 'free'
+        good = report.termination in {"converged", "already_optimal"} and not report.remedy
         if context.window_manager.reflection_lines.is_undone(ob):
             draw_paragraph(column, context, "Undone: the mesh is no longer as the last solve left it", 'LOOP_BACK')
             self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
