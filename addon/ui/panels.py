@@ -375,6 +375,10 @@ class ResultPart(ReflinesPanel):
     bl_options = {'DEFAULT_CLOSED'}
     manual = "result"
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return VIEW3D_PT_reflines_result.poll.__func__(cls, context)
+
 
 class VIEW3D_PT_reflines_kept(ResultPart, bpy.types.Panel):
     """The list of what in the region was left as it is: fillets, edges, the hidden side."""
@@ -382,8 +386,7 @@ class VIEW3D_PT_reflines_kept(ResultPart, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = context.view_layer.objects.active
-        return ob is not None and ob.reflection_lines.report.kept != ""
+        return super().poll(context) and context.view_layer.objects.active.reflection_lines.report.kept != ""
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.layout.column(align=True)
