@@ -42,7 +42,7 @@ NAMES = (
     "ui.rows", "ui.automatic_values", "ui.tool_properties", "ui.stripe_properties",
     "ui.handle_properties", "ui.check_properties", "ui.properties",
     "state.last_checks", "state.last_looks",
-    "state.last_panels", "state.optimizer_cache", "state.solve_history", "state.persistence",
+    "state.last_panels", "state.optimizer_cache", "state.press_cache", "state.solve_history", "state.persistence",
     "interactive.background_work", "interactive.drag_handles", "interactive.solve_job",
     "interactive.running_operators",
     "overlay.brush_circle", "overlay.falloff_circle", "overlay.handle_marks",

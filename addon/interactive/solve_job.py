@@ -19,11 +19,11 @@ from ..model.solution import JointTargets, Solution, SolveSettings
 from ..model.view import View
 from ..native_call import call
 from ..solver import live_optimizer, solve
-from ..solver.automatic_smooth import AutomaticSmooth, smooth_panel
+from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.formulation import choose_formulation
 from ..solver.limited_solve import choose_limit, clip_to_shares, scale_to_limit
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
-from ..state import optimizer_cache
+from ..state import optimizer_cache, press_cache
 
 # Seconds. The gain that takes longer to measure is measured when the mouse rests, so that the panel follows at once.
 MEASURE_BUDGET = 0.03
@@ -117,10 +117,8 @@ class SolveJob:
     async def press(self, request: SolveRequest) -> SolveOutcome:
         """Presses Smooth on every patch, which needs no optimizer of the job's own."""
         self.stage = "Smoothing"
-        solutions = []
-        for patch, seen in zip(self.patches, self.views, strict=True):
-            with live_optimizer.convert_native_errors(patch):
-                solutions.append(await smooth_panel(patch, seen, self.border, request.press, self.progress))
+        solutions = [await press_cache.smooth_with_cache(patch, seen, self.border, request.press, self.progress)
+                     for patch, seen in zip(self.patches, self.views, strict=True)]
         return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
 
     async def follow(self, request: SolveRequest) -> SolveOutcome:
@@ -209,3 +207,4 @@ class SolveJob:
             if start is not None:
                 optimizer_cache.return_optimizer(start)
         optimizer_cache.drop_surplus({patch.name for patch in self.patches})
+        press_cache.keep_only({patch.name for patch in self.patches})

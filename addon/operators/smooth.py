@@ -9,9 +9,10 @@ from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
 from ..model.solution import BuildCrossed, Solution, SolveSettings
 from ..native_call import run_now
-from ..solver import automatic_smooth, live_optimizer, solve
+from ..solver import solve
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
+from ..state import press_cache
 from ..targets import smooth
 from ..targets.smooth import Smooth
 from ..ui import automatic_values
@@ -87,8 +88,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
             return super().solve_patch(context, ob, patch)
         settings = self.choose_press()
         seen = facing.read_patch_view(context.scene, patch)
-        with live_optimizer.convert_native_errors(patch):
-            return run_now(automatic_smooth.smooth_panel(patch, seen, self.border, settings))
+        return run_now(press_cache.smooth_with_cache(patch, seen, self.border, settings))
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_smooth])

@@ -10,7 +10,7 @@ from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..solver.live_optimizer import BuildTarget
-from ..state import optimizer_cache, solve_history
+from ..state import optimizer_cache, press_cache, solve_history
 from ..ui.properties import result_property, solve_for_property
 from ..ui.tool_properties import border_property
 
@@ -84,6 +84,7 @@ class SolveTool:
             return {'CANCELLED'}
         finally:
             optimizer_cache.drop_surplus({ob.name for ob in subjects})
+            press_cache.keep_only({ob.name for ob in subjects})
         for solution in solutions:  # before writing: a result in a shape key ends Edit Mode for all objects
             region_faces.keep_region(bpy.data.objects[solution.patch.name], solution.patch)
         for solution in solutions:

@@ -1,6 +1,6 @@
 """The automatic press of Smooth: the native rules find the flaws of a patch and leave its design alone."""
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from ..model.gain import Healed
 from ..model.patch import Patch
 from ..model.solution import SolveReport, Solution
 from ..model.view import View
+from ..native_call import call
 from . import live_optimizer, remarks
 from .formulation import Formulation, choose_formulation
 
@@ -26,24 +27,55 @@ class AutomaticSmooth:
     flaw_size: float = 1.0      # of the automatic length
     fair_border: bool = False   # the border moves, too; see native/include/reflines/smooth_panel.h
 
+    def choose_flaws(self) -> dict[str, "str | bool | float"]:
+        """Returns what tells flaws from design, as arguments of the native smoother."""
+        return {"lights": self.lights, "symmetric": self.symmetric, "flaw_size": self.flaw_size}
+
     def choose_reach(self) -> float:
         """Returns how far beside the region faces are needed, in diagonals of the region."""
         within = native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * self.flaw_size
         return REACH_MARGIN * within if self.fair_border else 0.0
 
 
-async def smooth_panel(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
-                       progress: "native.Progress | None" = None) -> Solution:
-    """Calls the native press once; raises the native module's errors. `progress` lets the caller watch and cancel.
+@dataclass(frozen=True)
+class KeptPress:
+    """A native smoother with what it was built from: another strength or limit costs it a tenth of the first press."""
+    patch: Patch
+    view: View
+    border: str
+    settings: AutomaticSmooth  # of the first press
+    smoother: "native.PanelSmoother"
+
+    def suits(self, patch: Patch, view: View, border: str, settings: AutomaticSmooth) -> bool:
+        """Returns whether the smoother serves this patch, view, border and settings."""
+        amount = {"strength": self.settings.strength, "limit": self.settings.limit}
+        return (self.border == border and self.settings == replace(settings, **amount)
+                and np.array_equal(self.view.view_direction, view.view_direction)
+                and np.array_equal(self.view.line_direction, view.line_direction)
+                and self.patch.same(patch))
+
+
+async def build_press(patch: Patch, seen: View, border: str, settings: AutomaticSmooth) -> KeptPress:
+    """Builds the native smoother of a patch, which does its work in the first press; raises the native module's errors.
+    """
+    smoother = await choose_formulation(patch, seen).build_smoother(border, settings.choose_flaws(),
+                                                                    fair=settings.fair_border)
+    return KeptPress(patch, seen, border, settings, smoother)
+
+
+async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
+                      progress: "native.Progress | None" = None) -> Solution:
+    """Presses once; raises the native module's errors. `progress` lets the caller watch and cancel.
 
     All numbers are its own: scores are means over the lights, and the residual is how far the field of the light given
     strays from its smoothed self. After a refusal both are those of the start.
     """
     begin = time.perf_counter()
-    formulation = choose_formulation(patch, seen)
-    arguments = {**vars(settings), "progress": progress}
-    press = await formulation.press_smooth(border, arguments, fair=arguments.pop("fair_border"))
-    told = press.told
+    patch = kept.patch
+    formulation = choose_formulation(patch, kept.view)
+    positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
+                                 limit_share=formulation.choose_share(), progress=progress)
+    press = formulation.read_press(positions, told)
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
     report = build_report(told, time.perf_counter() - begin)
     unevenness = told.unevenness_before, told.unevenness_after if told.applied else told.unevenness_before

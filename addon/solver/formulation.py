@@ -20,8 +20,8 @@ from ..model.view import View
 from ..native_call import call
 from ..targets import mirror_target
 
-# Arguments of reflines.smooth_panel by their names.
-PressSettings = Mapping[str, "str | float | bool | native.Progress | None"]
+# Arguments of reflines.PanelSmoother by their names.
+PressSettings = Mapping[str, "str | float | bool"]
 
 
 @dataclass(frozen=True)
@@ -153,12 +153,15 @@ class Formulation:
             held[self.patch.creases.marked.ravel()] = True
         return held
 
-    async def press_smooth(self, border: str, settings: PressSettings, *, fair: bool) -> Press:
-        """Calls the native press of Smooth, where `fair` with a border that moves, too; raises the module's errors."""
-        positions, told = await call(
-            native.reflines.smooth_panel, self.patch.V, self.patch.F, **self.choose_press_directions(),
+    async def build_smoother(self, border: str, settings: PressSettings, *, fair: bool) -> "native.PanelSmoother":
+        """Builds the native smoother, where `fair` with a border that moves, too; raises the module's errors."""
+        return await call(
+            native.reflines.PanelSmoother.create, self.patch.V, self.patch.F, **self.choose_press_directions(),
             fixed=self.hold_marked_creases(), partner=self.partner, **self.choose_edges(border, fair=fair),
-            face_of_triangle=self.patch.face_of_triangle, limit_share=self.choose_share(), **settings)
+            face_of_triangle=self.patch.face_of_triangle, **settings)
+
+    def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
+        """Converts what the native smoother returns to arrays of the patch."""
         return Press(positions, told.stray, told)
 
 
@@ -238,14 +241,16 @@ class JoinedFormulation(Formulation):
         own = len(self.patch.V)
         return self.patch.V + (positions - self.join()[0])[:own]
 
-    async def press_smooth(self, border: str, settings: PressSettings, *, fair: bool) -> Press:
+    async def build_smoother(self, border: str, settings: PressSettings, *, fair: bool) -> "native.PanelSmoother":
         V, F, partner = self.join()
         own = self.hold_marked_creases()
         held = np.append(own, own[partner[len(own):]])
-        positions, told = await call(
-            native.reflines.smooth_panel, V, F, **self.choose_press_directions(), fixed=held, partner=partner,
+        return await call(
+            native.reflines.PanelSmoother.create, V, F, **self.choose_press_directions(), fixed=held, partner=partner,
             **self.choose_edges(border, fair=fair), face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
-            limit_share=self.choose_share(), **settings)
+            **settings)
+
+    def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
         return Press(self.read_own_half(positions), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
@@ -344,18 +349,19 @@ class CageFormulation(Formulation):
         own = np.flatnonzero(self.patch.faces)
         return np.repeat(values[own], self.patch.cage.sizes[own] - 2)
 
-    async def press_smooth(self, border: str, settings: PressSettings, *, fair: bool) -> Press:
+    async def build_smoother(self, border: str, settings: PressSettings, *, fair: bool) -> "native.PanelSmoother":
         if fair:
             raise Refusal(f"{self.patch.name}: the border of a cage cannot be faired: switch Fair Border off, or solve "
                           "for the mesh")
-        cage = self.patch.cage
-        arguments = cage.build_arguments(self.is_symmetric)
+        arguments = self.patch.cage.build_arguments(self.is_symmetric)
         arguments["limit_surface"] = arguments.pop("limit")
-        positions, told = await call(
-            native.reflines.smooth_cage_panel, **arguments, **self.choose_press_directions(),
-            border=self.choose_border(border), limit_share=self.choose_share(), **settings)
-        return Press(self.patch.V + (positions - cage.V)[self.patch.index], self.spread_to_triangles(told.stray), told,
-                     told.largest_control_move)
+        return await call(
+            native.reflines.PanelSmoother.create_for_cage, **arguments, **self.choose_press_directions(),
+            border=self.choose_border(border), **settings)
+
+    def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
+        return Press(self.patch.V + (positions - self.patch.cage.V)[self.patch.index],
+                     self.spread_to_triangles(told.stray), told, told.largest_control_move)
 
 
 def choose_formulation(patch: Patch, view: View) -> Formulation:

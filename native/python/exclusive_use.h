@@ -12,6 +12,7 @@
 #include "reflines/cage_optimizer.h"
 #include "reflines/handle_follower.h"
 #include "reflines/line_handles.h"
+#include "reflines/panel_smoother.h"
 #include "reflines/shape_optimizer.h"
 
 namespace reflines {
@@ -26,6 +27,7 @@ class ExclusiveUse {
   ExclusiveUse(const NormalFit& fit, Use use) : ExclusiveUse(&fit, use, "normal fit") {}
   ExclusiveUse(const LineHandles& handles, Use use) : ExclusiveUse(&handles, use, "set of handles") {}
   ExclusiveUse(const HandleFollower& follower, Use use) : ExclusiveUse(&follower, use, "follower") {}
+  ExclusiveUse(const PanelSmoother& smoother, Use use) : ExclusiveUse(&smoother, use, "panel smoother") {}
   ~ExclusiveUse();
   ExclusiveUse(const ExclusiveUse&) = delete;
   ExclusiveUse& operator=(const ExclusiveUse&) = delete;

@@ -10,10 +10,12 @@
 #include "python/bind.h"
 #include "python/border_codes.h"
 #include "python/cage_arrays.h"
+#include "python/exclusive_use.h"
 #include "python/index_arrays.h"
 #include "python/native_call.h"
 #include "python/option_names.h"
 #include "python/surroundings.h"
+#include "reflines/panel_smoother.h"
 
 namespace py = pybind11;
 
@@ -31,69 +33,86 @@ double given(const std::optional<double>& length, const char* name) {
   return length.value_or(0.0);
 }
 
+PressAmount amount_of(double strength, const std::optional<double>& limit, const Shares& limit_share,
+                      std::shared_ptr<Progress> progress) {
+  PressAmount amount{strength, given(limit, "The limit"), {}, std::move(progress)};
+  if (limit_share) amount.limit_share = {limit_share->col(0), limit_share->col(1)};
+  return amount;
+}
+
 SmoothPanelOptions options_of(const std::string& lights, const std::optional<double>& length, double flaw_size,
-                              double strength, const std::optional<double>& limit, const Shares& limit_share,
-                              bool symmetric, std::shared_ptr<Progress> progress) {
+                              bool symmetric) {
   SmoothPanelOptions options;
   options.lights = find_named(kLights, lights, "choice of lights");
   options.length = given(length, "The length");
   options.flaw_size = flaw_size;
-  options.strength = strength;
-  options.limit = given(limit, "The limit");
-  if (limit_share) options.limit_share = {limit_share->col(0), limit_share->col(1)};
   options.symmetric = symmetric;
-  options.progress = std::move(progress);
   return options;
 }
 
-py::object convert_result(SmoothPanelResult result) {
-  return py::make_tuple(std::move(result.positions), std::move(result.report));
-}
+using BuildSmoother = std::function<std::unique_ptr<PanelSmoother>()>;
 
-py::object smooth_mesh(const Positions& V, const Indices& F, const Vector3& view_direction,
-                       const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
-                       const std::optional<Indices>& partner, const Around& around,
-                       const std::optional<Indices>& face_of_triangle, const std::optional<Mask>& fair_border,
-                       const std::string& lights, const std::optional<double>& length, double flaw_size,
-                       double strength, const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
-                       std::shared_ptr<Progress> progress) {
-  SmoothPanelOptions options =
-      options_of(lights, length, flaw_size, strength, limit, limit_share, symmetric, std::move(progress));
+BuildSmoother prepare_smoother(const Positions& V, const Indices& F, const Vector3& view_direction,
+                               const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
+                               const std::optional<Indices>& partner, const Around& around,
+                               const std::optional<Indices>& face_of_triangle, const std::optional<Mask>& fair_border,
+                               const std::string& lights, const std::optional<double>& length, double flaw_size,
+                               bool symmetric) {
+  SmoothPanelOptions options = options_of(lights, length, flaw_size, symmetric);
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   if (partner) options.partner = index_vector(*partner);
   options.around = surroundings_of(around);
   if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
   if (fair_border) options.fair_border = *fair_border;
-  const Triangles triangles = triangles_of(F);
-  return run_native([=] { return smooth_panel(V, triangles, view_direction, line_direction, options); },
-                    convert_result);
+  return [=, triangles = triangles_of(F)] {
+    return std::make_unique<PanelSmoother>(V, triangles, view_direction, line_direction, options);
+  };
 }
 
-py::object smooth_cage(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
-                       const Vector3& view_direction, const Vector3& line_direction, const std::optional<Mask>& region,
-                       const Codes& border, const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
-                       const std::optional<Indices>& image_of, int level, const std::string& scheme,
-                       const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness,
-                       const Indices& corners, const Numbers& corner_sharpness, bool limit_surface,
-                       const std::string& lights, const std::optional<double>& length, double flaw_size,
-                       double strength, const std::optional<double>& limit, const Shares& limit_share, bool symmetric,
-                       std::shared_ptr<Progress> progress) {
-  const SmoothPanelOptions options =
-      options_of(lights, length, flaw_size, strength, limit, limit_share, symmetric, std::move(progress));
+BuildSmoother prepare_cage_smoother(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
+                                    const Vector3& view_direction, const Vector3& line_direction,
+                                    const std::optional<Mask>& region, const Codes& border,
+                                    const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
+                                    const std::optional<Indices>& image_of, int level, const std::string& scheme,
+                                    const std::string& boundary, const Indices& creases,
+                                    const Numbers& crease_sharpness, const Indices& corners,
+                                    const Numbers& corner_sharpness, bool limit_surface, const std::string& lights,
+                                    const std::optional<double>& length, double flaw_size, bool symmetric) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions cage_options = cage_options_of(region, border, V.rows(), fixed, partner);
   if (image_of) cage_options.image_of = index_vector(*image_of);
   cage_options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
-  return run_native([=] { return smooth_cage_panel(cage, V, view_direction, line_direction, cage_options, options); },
-                    convert_result);
+  return [=, options = options_of(lights, length, flaw_size, symmetric)] {
+    return std::make_unique<PanelSmoother>(cage, V, view_direction, line_direction, cage_options, options);
+  };
 }
 
-}  // namespace
+py::object convert_result(SmoothPanelResult result) {
+  return py::make_tuple(std::move(result.positions), std::move(result.report));
+}
 
-void bind_smooth_panel(py::module_& module) {
-  const SmoothPanelOptions defaults;
+py::object press(PanelSmoother& smoother, double strength, const std::optional<double>& limit,
+                 const Shares& limit_share, std::shared_ptr<Progress> progress) {
+  const PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
+  check_single_call();
+  const auto exclusive_use = std::make_shared<const ExclusiveUse>(smoother, ExclusiveUse::Use::kChanges);
+  return run_native([exclusive_use, &smoother, amount] { return smoother.press(amount); }, convert_result);
+}
+
+// Makes a function of the arguments of `prepare` and of a press, which presses once.
+template <typename... Arguments>
+auto press_once(BuildSmoother (*prepare)(Arguments...)) {
+  return [prepare](Arguments... arguments, double strength, const std::optional<double>& limit,
+                   const Shares& limit_share, std::shared_ptr<Progress> progress) {
+    const PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
+    const BuildSmoother build = prepare(std::forward<Arguments>(arguments)...);
+    return run_native([build, amount] { return build()->press(amount); }, convert_result);
+  };
+}
+
+void bind_press_report(py::module_& module) {
   using Told = SmoothPanelReport;
   py::class_<HealedFlaws>(module, "HealedFlaws", py::module_local())
       .def_readonly("area", &HealedFlaws::area)
@@ -121,28 +140,54 @@ void bind_smooth_panel(py::module_& module) {
       .def_readonly("region", &Told::region)
       .def_readonly("applied", &Told::applied)
       .def_readonly("messages", &Told::messages);
+}
+
+}  // namespace
+
+void bind_smooth_panel(py::module_& module) {
+  bind_press_report(module);
   module.attr("AUTOMATIC_LENGTH") = kAutomaticLength;
   module.attr("AUTOMATIC_LIMIT") = kAutomaticLimit;
   module.attr("FAIR_REACH") = kFairReach;
   module.attr("MOST_BOUNDED") = kMostBounded;
-  module.def("smooth_panel", &smooth_mesh, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
-             py::arg("line_direction"), py::arg("border") = "clamped", py::arg("fixed") = py::none(),
-             py::arg("partner") = py::none(), py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
-             py::arg("fair_border") = py::none(), py::arg("lights") = "crossed", py::arg("length") = py::none(),
-             py::arg("flaw_size") = defaults.flaw_size, py::arg("strength") = defaults.strength,
-             py::arg("limit") = py::none(), py::arg("limit_share") = py::none(),
-             py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
+  py::class_<PanelSmoother> smoother(module, "PanelSmoother", py::module_local());
+  const SmoothPanelOptions defaults;
+  const PressAmount whole;
+  const auto define_press = [&](const auto& define, const auto&... own) {
+    define(own..., py::arg("strength") = whole.strength, py::arg("limit") = py::none(),
+           py::arg("limit_share") = py::none(), py::arg("progress") = py::none());
+  };
+  const auto define_mesh = [&](const auto& define) {
+    define(py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
+           py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
+           py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
+           py::arg("fair_border") = py::none(), py::arg("lights") = "crossed", py::arg("length") = py::none(),
+           py::arg("flaw_size") = defaults.flaw_size, py::arg("symmetric") = defaults.symmetric);
+  };
   const SubdivisionOptions subdivision;
-  module.def(
-      "smooth_cage_panel", &smooth_cage, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"), py::kw_only(),
-      py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),
-      py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
-      py::arg("image_of") = py::none(), py::arg("level") = subdivision.level, py::arg("scheme") = "catmull_clark",
-      py::arg("boundary") = "all", py::arg("creases") = Indices(), py::arg("crease_sharpness") = Numbers(),
-      py::arg("corners") = Indices(), py::arg("corner_sharpness") = Numbers(),
-      py::arg("limit_surface") = subdivision.limit, py::arg("lights") = "crossed", py::arg("length") = py::none(),
-      py::arg("flaw_size") = defaults.flaw_size, py::arg("strength") = defaults.strength, py::arg("limit") = py::none(),
-      py::arg("limit_share") = py::none(), py::arg("symmetric") = defaults.symmetric, py::arg("progress") = py::none());
+  const auto define_cage = [&](const auto& define) {
+    define(py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"), py::kw_only(), py::arg("view_direction"),
+           py::arg("line_direction"), py::arg("region") = py::none(), py::arg("border") = "clamped",
+           py::arg("fixed") = py::none(), py::arg("partner") = py::none(), py::arg("image_of") = py::none(),
+           py::arg("level") = subdivision.level, py::arg("scheme") = "catmull_clark", py::arg("boundary") = "all",
+           py::arg("creases") = Indices(), py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
+           py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
+           py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
+           py::arg("symmetric") = defaults.symmetric);
+  };
+  define_mesh([&](const auto&... own) {
+    smoother.def(py::init(construct(&prepare_smoother)), own...);
+    smoother.def_static("create", create(&prepare_smoother), own...);
+    define_press([&](const auto&... all) { module.def("smooth_panel", press_once(&prepare_smoother), all...); },
+                 own...);
+  });
+  define_cage([&](const auto&... own) {
+    smoother.def_static("create_for_cage", create(&prepare_cage_smoother), own...);
+    define_press(
+        [&](const auto&... all) { module.def("smooth_cage_panel", press_once(&prepare_cage_smoother), all...); },
+        own...);
+  });
+  define_press([&](const auto&... all) { smoother.def("press", &press, py::kw_only(), all...); });
 }
 
 }  // namespace reflines

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from reflection_lines import native
-from reflection_lines.state import solve_history
+from reflection_lines.state import press_cache, solve_history
 
 import scenes
 
@@ -65,6 +65,30 @@ def test_a_press_gives_the_positions_of_the_native_function_to_the_bit(settings:
     assert np.array_equal(last.positions, wanted)
     assert np.array_equal(scenes.positions(ob)[last.patch.index], wanted.astype(np.float32))
     assert ob.reflection_lines.report.largest_move == pytest.approx(np.abs(wanted - last.patch.V).max(), rel=1e-4)
+
+
+def test_another_strength_takes_what_the_first_press_found() -> None:
+    """As the redo panel does: the mesh is put back, and the press repeated with another strength and limit."""
+    ob = ready()
+    before = scenes.positions(ob)
+    scenes.smooth()
+    kept, = press_cache.list_kept()
+    for settings in ({"strength": 0.5}, {"strength": 0.5, "limit": 2.0**-10}):
+        scenes.object_mode()
+        ob.data.vertices.foreach_set("co", before.ravel())
+        scenes.edit_inner(ob, CELLS)
+        assert scenes.smooth(**settings) == {'FINISHED'}
+        assert press_cache.list_kept()[0].smoother is kept.smoother
+        assert np.array_equal(solve_history.find_last_solve(ob.name).positions, expected(ob, **settings))
+    scenes.smooth()  # of the mesh as it is now
+    assert press_cache.list_kept()[0].smoother is not kept.smoother
+    scenes.smooth(symmetric=False)
+    scenes.object_mode()
+    ob.select_set(False)
+    other = scenes.panel(height=dented, cells=CELLS, name="Other")
+    scenes.edit_inner(other, CELLS)
+    scenes.smooth(length=0.5)
+    assert press_cache.list_kept() == ()
 
 
 def test_the_scenes_settings_are_taken() -> None:
@@ -167,15 +191,20 @@ def test_one_undo_takes_the_press_back() -> None:
 
 def test_what_the_native_function_refuses_is_not_applied(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its judgement is tested beside it: here it is made to refuse."""
-    real, why = native.reflines.smooth_panel, "Nothing was changed: the lines would have become less even."
+    real, why = native.reflines.PanelSmoother, "Nothing was changed: the lines would have become less even."
 
-    def refuse(V: np.ndarray, *arguments: object, **settings: object) -> tuple[np.ndarray, SimpleNamespace]:
-        _, told = real(V, *arguments, **settings)
-        names = [name for name in dir(told) if not name.startswith("_")]
-        changed = {name: getattr(told, name) for name in names} | {"applied": False, "messages": [why]}
-        return V.copy(), SimpleNamespace(**changed)
+    def build(V: np.ndarray, F: np.ndarray, **settings: object) -> SimpleNamespace:
+        smoother = real(V, F, **settings)
 
-    monkeypatch.setattr(native.reflines, "smooth_panel", refuse)
+        def refuse(**amount: object) -> tuple[np.ndarray, SimpleNamespace]:
+            _, told = smoother.press(**amount)
+            names = [name for name in dir(told) if not name.startswith("_")]
+            changed = {name: getattr(told, name) for name in names} | {"applied": False, "messages": [why]}
+            return V.copy(), SimpleNamespace(**changed)
+
+        return SimpleNamespace(press=refuse)
+
+    monkeypatch.setattr(native.reflines, "PanelSmoother", SimpleNamespace(create=build))
     ob = ready()
     before, report = scenes.positions(ob).tobytes(), ob.reflection_lines.report
     assert scenes.smooth() == {'FINISHED'}
@@ -187,7 +216,7 @@ def test_what_the_native_function_refuses_is_not_applied(monkeypatch: pytest.Mon
 
 def test_a_length_and_along_the_lines_do_not_ask_the_native_function(monkeypatch: pytest.MonkeyPatch) -> None:
     """They give what they gave before: `test_smooth.py` compares that."""
-    monkeypatch.delattr(native.reflines, "smooth_panel")
+    monkeypatch.delattr(native.reflines, "PanelSmoother")
     ob = ready()
     assert scenes.smooth(length=0.5) == {'FINISHED'}
     assert scenes.smooth(directional=True) == {'FINISHED'}

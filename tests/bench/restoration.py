@@ -108,6 +108,29 @@ def press_row(name: str, cells: int) -> Row:
                f"{press:.0f} ms / {whole:.0f} ms from the bare mesh on, medians of {REPETITIONS}")
 
 
+def again_rows(name: str, cells: int) -> list[Row]:
+    """Returns how long a press with another strength, and with another limit, takes of the first one: the second press
+    with each, whose matrix has to be factored again, does not count.
+    """
+    V, F = make_noisy_panel(cells)
+    smoother = reflines.PanelSmoother(V, F, view_direction=(0, 0, 1), line_direction=(0, 1, 0))
+
+    def press(**amount: float) -> tuple[float, float]:
+        start = time.perf_counter()
+        _, told = smoother.press(**amount)
+        return 1000 * (time.perf_counter() - start), told.largest_move
+
+    first, move = press()
+    press(strength=0.9)
+    rows = []
+    for title, amounts in (("strength", [{"strength": share} for share in (0.5, 0.6, 0.7)]),
+                           ("limit", [{"limit": share * move} for share in (0.5, 0.6, 0.7)])):
+        again = statistics.median(press(**amount)[0] for amount in amounts)
+        rows.append(Row(f"press_again_{title}_over_press_{name}", again / first, "",
+                        f"{again:.0f} ms / {first:.0f} ms, another {title}; median of 3"))
+    return rows
+
+
 def lights_row() -> Row:
     """Returns how many times as long a press for two lights takes as one for one, by turns."""
     V, F = make_noisy_panel(CELLS)
@@ -124,7 +147,8 @@ def lights_row() -> Row:
 
 def rows() -> list[Row]:
     return [*([*panel_rows(), cage_row()] if JUDGE.is_file() else []), lights_row(),
-            press_row("10k", CELLS), press_row("100k", LARGE)]
+            press_row("10k", CELLS), press_row("100k", LARGE),
+            *again_rows("100k", LARGE)]
 
 
 if __name__ == "__main__":

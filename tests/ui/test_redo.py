@@ -3,6 +3,7 @@ from collections.abc import Generator
 
 import bpy
 import numpy as np
+from reflection_lines.state import press_cache
 
 import scenes
 import window
@@ -47,6 +48,16 @@ def test_the_settings_of_the_automatic_length_can_be_changed(driver: window.Wind
     panel(driver)
     yield from press_smooth(driver)
     yield from adjust(driver, lights='SINGLE', symmetric=False)
+    assert np.array_equal(shown(driver), expected)
+
+
+def test_another_strength_is_that_of_a_fresh_press(driver: window.Window) -> Steps:
+    expected = smoothed(driver, strength=0.4)
+    panel(driver)
+    yield from press_smooth(driver)
+    kept, = press_cache.list_kept()
+    yield from adjust(driver, strength=0.4)
+    assert press_cache.list_kept()[0].smoother is kept.smoother
     assert np.array_equal(shown(driver), expected)
 
 

@@ -128,6 +128,10 @@ void AdaptiveSmoother::take_step(const Vector& z, double smoothing_length, Progr
     }
   }
   open_ = open_.cwiseMax(flawed);
+  factorize(progress);
+}
+
+void AdaptiveSmoother::factorize(Progress* progress) {
   const Vector kept = square(kSlope) + square(kDesignSlope) * (1.0 - open_.array());
   system_.factorize(weight_, slope_unit() * kept.cwiseProduct(steepness_), progress);
 }
@@ -155,8 +159,19 @@ Vector AdaptiveSmoother::put_back_held(const Vector& z) const {
   return result;
 }
 
+Vector AdaptiveSmoother::smooth(const Vector& z) {
+  if (further_) factorize(nullptr);
+  further_ = false;
+  return system_.smooth(z);
+}
+
 Vector AdaptiveSmoother::smooth_further(const Vector& z, Progress* progress) {
+  const EdgeWeights weight = weight_;
+  const Vector open = open_;
+  further_ = true;
   take_step(z, kFurther * length_, progress);
+  weight_ = weight;
+  open_ = open;
   return system_.smooth(z);
 }
 

@@ -7,7 +7,7 @@
 namespace reflines {
 MeshSurface::MeshSurface(const Positions& V, const Triangles& F, const Vector3& view, std::vector<Vector3> families,
                          ShapeOptions shape)
-    : V_(V), F_(F), view_(view), families_(std::move(families)), shape_(std::move(shape)) {
+    : V_(V), F_(F), view_(view), families_(std::move(families)), shape_(std::move(shape)), held_(shape_.held) {
   build();
 }
 
@@ -30,9 +30,24 @@ void MeshSurface::hold(const Mask& vertices) {
   build();
 }
 
+void MeshSurface::rebuild() {
+  shape_.held = held_;
+  build();
+}
+
+void MeshSurface::watch(std::shared_ptr<Progress> progress) {
+  shape_.progress = std::move(progress);
+  optimizer_->watch(shape_.progress);
+}
+
 CageControlledSurface::CageControlledSurface(Cage cage, const Positions& V, const Vector3& view,
                                              std::vector<Vector3> families, CageOptions options)
-    : cage_(std::move(cage)), V_(V), view_(view), families_(std::move(families)), options_(std::move(options)) {
+    : cage_(std::move(cage)),
+      V_(V),
+      view_(view),
+      families_(std::move(families)),
+      options_(std::move(options)),
+      held_(options_.held) {
   build();
   surface_ = optimizer_->surface().positions();
 }
@@ -65,6 +80,16 @@ void CageControlledSurface::hold(const Mask& vertices) {
   const Mask controls = controls_of(vertices);
   options_.held = options_.held.size() > 0 ? Mask(options_.held || controls) : controls;
   build();
+}
+
+void CageControlledSurface::rebuild() {
+  options_.held = held_;
+  build();
+}
+
+void CageControlledSurface::watch(std::shared_ptr<Progress> progress) {
+  options_.shape.progress = std::move(progress);
+  optimizer().watch(options_.shape.progress);
 }
 
 }  // namespace reflines

@@ -44,6 +44,12 @@ class ControlledSurface {
 
   // Holds vertices of the surface (#V) from now on, and builds the optimizer anew at the start.
   virtual void hold(const Mask& vertices) = 0;
+
+  // Builds the optimizer anew at the start, with what was held at the beginning only.
+  virtual void rebuild() = 0;
+
+  // Reports the stages of later work to `progress`, which may be null.
+  virtual void watch(std::shared_ptr<Progress> progress) = 0;
 };
 
 class MeshSurface : public ControlledSurface {
@@ -64,6 +70,8 @@ class MeshSurface : public ControlledSurface {
   Mask controls_of(const Mask& vertices) const override { return vertices; }
   Vector gather_faces(const Vector& values) const override { return values; }
   void hold(const Mask& vertices) override;
+  void rebuild() override;
+  void watch(std::shared_ptr<Progress> progress) override;
 
  private:
   void build();
@@ -73,6 +81,7 @@ class MeshSurface : public ControlledSurface {
   Vector3 view_;
   std::vector<Vector3> families_;
   ShapeOptions shape_;
+  Mask held_;  // #V or empty: at the beginning
   std::unique_ptr<ShapeOptimizer> optimizer_;
 };
 
@@ -94,6 +103,8 @@ class CageControlledSurface : public ControlledSurface {
   Mask controls_of(const Mask& vertices) const override;
   Vector gather_faces(const Vector& values) const override;
   void hold(const Mask& vertices) override;
+  void rebuild() override;
+  void watch(std::shared_ptr<Progress> progress) override;
 
  private:
   void build();
@@ -103,6 +114,7 @@ class CageControlledSurface : public ControlledSurface {
   Vector3 view_;
   std::vector<Vector3> families_;
   CageOptions options_;
+  Mask held_;  // #C or empty: at the beginning
   std::unique_ptr<CageOptimizer> optimizer_;
 };
 

@@ -1,6 +1,7 @@
 #include "restoration/faired_border.h"
 
 #include <string>
+#include <utility>
 
 #include "geometry/mesh.h"
 #include "reflines/errors.h"
@@ -47,15 +48,20 @@ ShapeOptions join_shape(const ShapeOptions& shape, const Mask& region_free, cons
   return result;
 }
 
-SmoothPanelOptions join_options(const SmoothPanelOptions& options, const SmoothPanelReport& used, Eigen::Index beside,
-                                const IndexVector& partner) {
+SmoothPanelOptions join_options(const SmoothPanelOptions& options, double length, const IndexVector& partner) {
   SmoothPanelOptions result = options;
-  result.length = used.length;
-  result.limit = used.limit;
+  result.length = length;
   result.partner = partner;
-  if (options.limit_share.exists()) {
-    result.limit_share = {append(options.limit_share.lowest, beside, -1.0),
-                          append(options.limit_share.highest, beside, 1.0)};
+  return result;
+}
+
+// Returns the amount for the joined mesh, with the limit that the region has.
+PressAmount join_amount(const PressAmount& amount, double limit, Eigen::Index beside) {
+  PressAmount result = amount;
+  result.limit = limit;
+  if (amount.limit_share.exists()) {
+    result.limit_share = {append(amount.limit_share.lowest, beside, -1.0),
+                          append(amount.limit_share.highest, beside, 1.0)};
   }
   return result;
 }
@@ -73,42 +79,79 @@ void tell_partly_held(Eigen::Index count, SmoothPanelReport& report) {
                             "held there.");
 }
 
-}  // namespace
+// Presses the border as it is held, and tells so.
+class UnfairedPress : public Press {
+ public:
+  explicit UnfairedPress(std::unique_ptr<Press> press) : press_(std::move(press)) {}
 
-SmoothPanelResult press_faired_border(const Positions& V, const Triangles& F, const Vector3& view,
-                                      const std::vector<Vector3>& families, const ShapeOptions& shape,
-                                      const SmoothPanelOptions& options) {
-  ShapeOptions own = shape;
-  own.border = free_border(shape, options.fair_border);
-  own.around = {};
-  MeshSurface region(V, F, view, families, own);
-  Restoration judge(region, options);
-  const Mask movable = region.optimizer().free();
-  const Mask wanted = movable && options.fair_border && find_border_vertices(F, static_cast<int>(V.rows()));
-  if (!wanted.any()) return press_held_border(V, F, view, families, shape, options);
-  const JoinedMesh joined = join_surroundings(V, F, shape.around, kFairReach * judge.report().length);
-  const ShapeOptions joined_shape = join_shape(own, movable, joined, F.rows());
-  MeshSurface surface(joined.V, joined.F, view, families, joined_shape);
-  const Mask held = wanted && !surface.optimizer().free().head(V.rows());
-  if (held.count() == wanted.count()) {
-    SmoothPanelResult result = press_held_border(V, F, view, families, shape, options);
+  SmoothPanelResult run(const PressAmount& amount) override {
+    SmoothPanelResult result = press_->run(amount);
     tell_held(result.report);
     return result;
   }
-  const Eigen::Index beside = joined.V.rows() - V.rows();
-  const SmoothPanelOptions joined_options = join_options(options, judge.report(), beside, joined_shape.partner);
-  Restoration press(surface, joined_options);
-  Vector move = press.find_move();
-  move.tail(beside).setZero();
-  if (press.turns_faces(move)) {
-    throw SolverFailure(
-        "Faces at the border would have turned by more than 45 degrees, so nothing was changed; hold the border, or "
-        "give a smaller limit.");
+
+ private:
+  std::unique_ptr<Press> press_;
+};
+
+// Finds the move on the joined mesh, and judges it on the region.
+class FairedBorderPress : public Press {
+ public:
+  // `own` are the options of the region with its border free, `wanted` (#V) the vertices to be faired.
+  FairedBorderPress(std::unique_ptr<MeshSurface> region, std::unique_ptr<Restoration> judge, const JoinedMesh& joined,
+                    const Vector3& view, const std::vector<Vector3>& families, const ShapeOptions& joined_shape,
+                    const SmoothPanelOptions& options, const Mask& wanted)
+      : region_(std::move(region)),
+        judge_(std::move(judge)),
+        surface_(joined.V, joined.F, view, families, joined_shape),
+        press_(surface_, join_options(options, judge_->report().length, joined_shape.partner)),
+        held_(wanted && !surface_.optimizer().free().head(wanted.size())) {}
+
+  const Mask& held() const { return held_; }  // #V: vertices to be faired that are held all the same
+
+  SmoothPanelResult run(const PressAmount& amount) override {
+    const Eigen::Index own = held_.size(), beside = surface_.positions().rows() - own;
+    judge_->choose(amount);
+    Vector move = press_.find_move(join_amount(amount, judge_->report().limit, beside));
+    move.tail(beside).setZero();
+    if (press_.turns_faces(move)) {
+      throw SolverFailure(
+          "Faces at the border would have turned by more than 45 degrees, so nothing was changed; hold the border, or "
+          "give a smaller limit.");
+    }
+    SmoothPanelResult result = judge_->judge_move(move.head(own), press_.report(), press_.limited().head(own),
+                                                  press_.held_triangles().head(region_->triangles().rows()));
+    if (held_.any()) tell_partly_held(held_.count(), result.report);
+    return result;
   }
-  SmoothPanelResult result = judge.judge_move(move.head(V.rows()), press.report(), press.limited().head(V.rows()),
-                                              press.held_triangles().head(F.rows()));
-  if (held.any()) tell_partly_held(held.count(), result.report);
-  return result;
+
+ private:
+  std::unique_ptr<MeshSurface> region_;
+  std::unique_ptr<Restoration> judge_;
+  MeshSurface surface_;  // of the joined mesh
+  Restoration press_;
+  Mask held_;
+};
+
+}  // namespace
+
+std::unique_ptr<Press> prepare_faired_border(const Positions& V, const Triangles& F, const Vector3& view,
+                                             const std::vector<Vector3>& families, const ShapeOptions& shape,
+                                             const SmoothPanelOptions& options) {
+  ShapeOptions own = shape;
+  own.border = free_border(shape, options.fair_border);
+  own.around = {};
+  auto region = std::make_unique<MeshSurface>(V, F, view, families, own);
+  auto judge = std::make_unique<Restoration>(*region, options);
+  const Mask movable = region->optimizer().free();
+  const Mask wanted = movable && options.fair_border && find_border_vertices(F, static_cast<int>(V.rows()));
+  if (!wanted.any()) return prepare_held_border(V, F, view, families, shape, options);
+  const JoinedMesh joined = join_surroundings(V, F, shape.around, kFairReach * judge->report().length);
+  const ShapeOptions joined_shape = join_shape(own, movable, joined, F.rows());
+  auto press = std::make_unique<FairedBorderPress>(std::move(region), std::move(judge), joined, view, families,
+                                                   joined_shape, options, wanted);
+  if (press->held().count() < wanted.count()) return press;
+  return std::make_unique<UnfairedPress>(prepare_held_border(V, F, view, families, shape, options));
 }
 
 }  // namespace reflines

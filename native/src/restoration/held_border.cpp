@@ -58,9 +58,9 @@ std::string explain_clamped(bool continued_applied, const std::optional<Strays>&
 
 // Finds the move with the curvature continued. Empty where the solver breaks down: what lies beside the region is no
 // reason to refuse it.
-std::optional<Vector> find_continued_move(Restoration& press) {
+std::optional<Vector> find_continued_move(Restoration& press, const PressAmount& amount) {
   try {
-    return press.find_move();
+    return press.find_move(amount);
   } catch (const SolverFailure&) {
     return std::nullopt;
   }
@@ -76,19 +76,11 @@ Vector bound_addition(const Vector& clamped, const Vector& continued) {
   return clamped + most / added * (continued - clamped);
 }
 
-}  // namespace
-
-SmoothPanelResult press_held_border(const Positions& V, const Triangles& F, const Vector3& view,
-                                    const std::vector<Vector3>& families, const ShapeOptions& shape,
-                                    const SmoothPanelOptions& options) {
-  MeshSurface surface(V, F, view, families, shape);
-  Restoration press(surface, options);
-  if (!surface.optimizer().continues_curvature()) return press.run();
-  MeshSurface clamped_surface(V, F, view, families, clamp_instead(shape));
-  Restoration clamped_press(clamped_surface, options);
-  const Vector clamped_move = clamped_press.find_move();
+// Chooses between the presses with the curvature continued and clamped.
+SmoothPanelResult press_both(Restoration& press, Restoration& clamped_press, const PressAmount& amount) {
+  const Vector clamped_move = clamped_press.find_move(amount);
   SmoothPanelResult clamped = clamped_press.judge(clamped_move);
-  const std::optional<Vector> continued_move = find_continued_move(press);
+  const std::optional<Vector> continued_move = find_continued_move(press, amount);
   if (!continued_move) {
     clamped.report.messages.emplace_back(
         "The border is only clamped: with its curvature continued, the solver breaks down.");
@@ -99,6 +91,36 @@ SmoothPanelResult press_held_border(const Positions& V, const Triangles& F, cons
   if (!clamped.report.applied || (continued.report.applied && !strays)) return continued;
   clamped.report.messages.push_back(explain_clamped(continued.report.applied, strays));
   return clamped;
+}
+
+class HeldBorderPress : public Press {
+ public:
+  HeldBorderPress(const Positions& V, const Triangles& F, const Vector3& view, const std::vector<Vector3>& families,
+                  const ShapeOptions& shape, const SmoothPanelOptions& options)
+      : surface_(V, F, view, families, shape), press_(surface_, options) {
+    if (!surface_.optimizer().continues_curvature()) return;
+    clamped_surface_ = std::make_unique<MeshSurface>(V, F, view, families, clamp_instead(shape));
+    clamped_press_ = std::make_unique<Restoration>(*clamped_surface_, options);
+  }
+
+  SmoothPanelResult run(const PressAmount& amount) override {
+    return clamped_press_ ? press_both(press_, *clamped_press_, amount) : press_.run(amount);
+  }
+
+ private:
+  MeshSurface surface_;
+  Restoration press_;
+  // These are of the clamped border, where `shape` continues the curvature.
+  std::unique_ptr<MeshSurface> clamped_surface_;
+  std::unique_ptr<Restoration> clamped_press_;
+};
+
+}  // namespace
+
+std::unique_ptr<Press> prepare_held_border(const Positions& V, const Triangles& F, const Vector3& view,
+                                           const std::vector<Vector3>& families, const ShapeOptions& shape,
+                                           const SmoothPanelOptions& options) {
+  return std::make_unique<HeldBorderPress>(V, F, view, families, shape, options);
 }
 
 }  // namespace reflines

@@ -35,7 +35,6 @@ SmoothPanelReport start_report(ControlledSurface& surface, const SmoothPanelOpti
   SmoothPanelReport result;
   result.region = surface.optimizer().region();
   result.length = choose_length(options, surface.positions());
-  result.limit = options.limit > 0 ? std::min(options.limit, kNoLimit) : kAutomaticLimit * result.length;
   return result;
 }
 
@@ -54,54 +53,77 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
       axis_(surface.optimizer().frame().z()),
       start_(surface.optimizer().heights()),
       report_(start_report(surface, options)),
-      range_(report_.limit, options.limit_share, surface.control_positions().rows()),
+      range_(0, {}, surface.control_positions().rows()),
       held_triangles_(Mask::Constant(surface.triangles().rows(), false)) {}
+
+void Restoration::choose(const PressAmount& amount) {
+  amount_ = amount;
+  surface_.watch(amount.progress);
+  SmoothPanelReport report;
+  report.region = report_.region;
+  report.length = report_.length;
+  report.limit = amount.limit > 0 ? std::min(amount.limit, kNoLimit) : kAutomaticLimit * report_.length;
+  report_ = std::move(report);
+  range_ = ControlRange(report_.limit, amount.limit_share, surface_.control_positions().rows());
+}
 
 // Finds the heights without flaws: without differences of a symmetric panel's halves, and then smoothed by place.
 void Restoration::find_shape() {
+  smoother_.reset();  // it refers to the field
+  field_.reset();     // until all is found: a cancelled search is no shape
+  unlimited_.resize(0);
+  uneven_.reset();
+  course_.reset();
+  gain_.reset();
+  longer_waves_.reset();
   flawless_ = {.heights = start_};
   if (options_.symmetric) flawless_ = even_halves(surface_, start_, report_.length, options_.partner.size() > 0);
-  report_.mirrored = flawless_.mirrored;
-  field_ = std::make_unique<HeightField>(make_field(surface_));
-  smoother_ = std::make_unique<AdaptiveSmoother>(*field_, report_.length);
-  const Vector relative = field_->z + (flawless_.heights - start_);
-  shape_ = start_ + (smoother_->adapt(relative, progress()) - field_->z);
-  report_.bumps = smoother_->bumps();
+  auto field = std::make_unique<HeightField>(make_field(surface_));
+  smoother_ = std::make_unique<AdaptiveSmoother>(*field, report_.length);
+  const Vector relative = field->z + (flawless_.heights - start_);
+  shape_ = start_ + (smoother_->adapt(relative, progress()) - field->z);
+  field_ = std::move(field);
 }
 
-Vector Restoration::find_move() {
-  find_shape();
-  Vector move = restore();
+Vector Restoration::find_move(const PressAmount& amount) {
+  choose(amount);
+  if (held_triangles_.any()) {  // what turned by another amount need not turn by this one
+    held_triangles_.setConstant(false);
+    surface_.rebuild();
+    field_.reset();
+  }
+  Vector move = make_move();
   for (int retry = 0; retry < kRetries; ++retry) {
     const Mask turned = find_turned_by(move);
     if (!turned.any()) break;
     held_triangles_ = held_triangles_ || turned;
-    report_.held_faces = surface_.optimizer().count_faces(held_triangles_);
     surface_.hold(find_corners(surface_.triangles(), turned, start_.size()));
-    find_shape();
-    move = restore();
+    field_.reset();
+    move = make_move();
   }
-  return surface_.controls_every_vertex() ? move : weigh_gain(unlimited_) * move;
+  report_.held_faces = surface_.optimizer().count_faces(held_triangles_);
+  return surface_.controls_every_vertex() ? move : weigh_gain() * move;
 }
 
 // Returns the share of a cage's move that is made, 0 to 1, by how much more even the whole move, which no limit holds
 // back, makes the lines. A cage follows the shape without flaws only roughly: clean doors were bent by 1.0 to 1.8
 // degrees for 2 % less unevenness.
-double Restoration::weigh_gain(const Vector& move) const {
-  const Vector end = start_ + surface_.surface_move(move);
-  const Unevenness before = measure_unevenness(surface_, start_, smooth(start_), report_.length);
-  const Unevenness after = measure_unevenness(surface_, end, smooth(end), report_.length);
+double Restoration::weigh_gain() {
+  if (gain_) return *gain_;
+  const Unevenness& before = measure_start();
+  const Unevenness after = measure(start_ + surface_.surface_move(unlimited_));
   double gain = 0;
   for (size_t k = 0; k < before.degrees.size(); ++k)
     gain += (1.0 - after.degrees[k] / std::max(before.degrees[k], 1e-300)) / static_cast<double>(before.degrees.size());
-  return smoothstep(kNoGain, kWholeGain, gain);
+  gain_ = smoothstep(kNoGain, kWholeGain, gain);
+  return *gain_;
 }
 
 bool Restoration::turns_faces(const Vector& move) const { return find_turned_by(move).any(); }
 
 SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited,
                                           const Mask& held) {
-  find_shape();
+  if (!field_) find_shape();
   report_.solve = found.solve;
   report_.bumps = found.bumps;
   report_.mirrored = found.mirrored;
@@ -110,23 +132,33 @@ SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelR
   return judge(move);
 }
 
-// Returns the moves of the control vertices (#C) towards the shape without flaws. Those of a mesh begin there, and end
-// there where nothing holds them back.
-Vector Restoration::restore() {
-  ShapeOptimizer& optimizer = surface_.optimizer();
-  optimizer.reset();
-  const std::vector<Target> targets = make_targets(read_fields(optimizer, shape_));
-  optimizer.stay_near(shape_);
-  if (surface_.controls_every_vertex()) optimizer.set_move(shape_ - start_);
-  solve(targets, MoveLimit::none());
-  unlimited_ = read_move();
+// Returns the moves of the control vertices (#C) towards the shape without flaws, within the limit.
+Vector Restoration::make_move() {
+  if (!field_) find_shape();
+  if (unlimited_.size() == 0) find_unlimited();
+  report_.mirrored = flawless_.mirrored;
+  report_.bumps = smoother_->bumps();
+  report_.solve = unlimited_solve_;
   limited_ = range_.find_beyond(unlimited_);
   report_.limited = static_cast<int>(limited_.count());
-  return options_.strength * (report_.limited == 0 ? unlimited_ : restore_within_limit(targets));
+  return amount_.strength * (report_.limited == 0 ? unlimited_ : restore_within_limit());
 }
 
-void Restoration::solve(const std::vector<Target>& targets, const MoveLimit& limit) {
-  report_.solve = surface_.optimizer().solve(targets, {}, progress(), limit);
+// Solves for the shape without flaws. Moves of a mesh begin there, and end there where nothing holds them back.
+void Restoration::find_unlimited() {
+  ShapeOptimizer& optimizer = surface_.optimizer();
+  optimizer.reset();
+  targets_ = make_targets(read_fields(optimizer, shape_));
+  optimizer.stay_near(shape_);
+  if (surface_.controls_every_vertex()) optimizer.set_move(shape_ - start_);
+  solve(MoveLimit::none());
+  unlimited_ = read_move();
+  unlimited_solve_ = report_.solve;
+  at_unlimited_ = true;
+}
+
+void Restoration::solve(const MoveLimit& limit) {
+  report_.solve = surface_.optimizer().solve(targets_, {}, progress(), limit);
   if (report_.solve.termination == Termination::kCancelled) throw Cancelled();
   // A mesh's solve begins at the shape without flaws: that it finds nothing to do there is how a press converges.
   const bool moved = (surface_.control_move().array() != 0).any();
@@ -142,10 +174,13 @@ Vector Restoration::read_move() const {
 }
 
 // Solves within the limit. A move that is cut there has an edge round every plateau, in lines that were even. Solved
-// for, dents three times as deep as the limit leave 0.3 of their error instead of the 0.5 of moves that saturate.
-Vector Restoration::restore_within_limit(const std::vector<Target>& targets) {
+// for, dents three times as deep as the limit leave 0.3 of their error instead of the 0.5 of moves that saturate. After
+// a solve within another limit the unlimited one is done again, so that no press depends on those before it.
+Vector Restoration::restore_within_limit() {
   if (!surface_.can_limit()) return range_.saturate(unlimited_);
-  solve(targets, range_.limits());
+  if (!at_unlimited_) find_unlimited();
+  at_unlimited_ = false;
+  solve(range_.limits());
   return range_.cut(read_move());
 }
 
@@ -159,18 +194,30 @@ Vector Restoration::smooth(const Vector& z) const {
   return z + (smoother_->smooth(relative) - relative);
 }
 
-// Returns whether heights z (#V) have waves longer than the flaws that can be seen. Call it last, see smooth_further.
-bool Restoration::find_longer_waves(const Vector& z) {
-  const Vector relative = field_->z + (z - start_);
-  const Vector further = z + (smoother_->smooth_further(relative, progress()) - relative);
-  const Unevenness waves = measure_unevenness(surface_, z, further, report_.length);
-  return *std::max_element(waves.degrees.begin(), waves.degrees.end()) > kVisible;
+// Compares the lines of heights z (#V) with those of the same, smoothed.
+Unevenness Restoration::measure(const Vector& z) const {
+  return measure_unevenness(surface_, z, smooth(z), report_.length);
+}
+
+const Unevenness& Restoration::measure_start() {
+  if (!uneven_) uneven_ = measure(start_);
+  return *uneven_;
+}
+
+// Returns whether the shape without flaws has waves longer than these that can be seen.
+bool Restoration::has_longer_waves() {
+  if (longer_waves_) return *longer_waves_;
+  const Vector relative = field_->z + (shape_ - start_);
+  const Vector further = shape_ + (smoother_->smooth_further(relative, progress()) - relative);
+  const Unevenness waves = measure_unevenness(surface_, shape_, further, report_.length);
+  longer_waves_ = *std::max_element(waves.degrees.begin(), waves.degrees.end()) > kVisible;
+  return *longer_waves_;
 }
 
 SmoothPanelResult Restoration::judge(const Vector& move) {
   const Vector end = start_ + surface_.surface_move(move);
-  const Unevenness before = measure_unevenness(surface_, start_, smooth(start_), report_.length);
-  const Unevenness after = measure_unevenness(surface_, end, smooth(end), report_.length);
+  const Unevenness& before = measure_start();
+  const Unevenness after = measure(end);
   report_.score_before = before.score;
   report_.score_after = after.score;
   report_.unevenness_before = before.degrees;
@@ -178,7 +225,8 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.stray = before.stray;
   // The course of the lines is that of the shape without flaws, smoothed: what counts as design is in it, and what a
   // limit or the strength leaves of a flaw is not.
-  report_.healed = measure_healed(surface_, start_, end, smooth(shape_), report_.length);
+  if (!course_) course_ = smooth(shape_);
+  report_.healed = measure_healed(surface_, start_, end, *course_, report_.length);
   if (turns_faces(move)) return refuse(explain_turned_faces());
   for (size_t k = 0; k < after.degrees.size(); ++k) {
     if (after.degrees[k] > kWorse * before.degrees[k])
@@ -187,8 +235,8 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.stray = after.stray;
   report_.largest_move = surface_.surface_move(move).cwiseAbs().maxCoeff();
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
-  if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = find_longer_waves(end);
-  report_.messages = options_.strength > 0 || report_.limited > 0
+  if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = has_longer_waves();
+  report_.messages = amount_.strength > 0 || report_.limited > 0
                          ? describe_result(report_)
                          : std::vector<std::string>{"The strength is 0: nothing was changed."};
   return {range_.apply(surface_.control_positions(), axis_, move), report_};

@@ -1,4 +1,5 @@
-// The steps of one press of Smooth, for meshes and cages alike: see smooth_panel.h.
+// The steps of the presses of Smooth on one surface, for meshes and cages alike: see panel_smoother.h. The flaws are
+// found once, and so are what the presses after the first need of the solve and of the measures.
 #pragma once
 
 #include <memory>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "geometry/height_field.h"
+#include "reflines/panel_smoother.h"
 #include "reflines/smooth_panel.h"
 #include "restoration/adaptive_smoother.h"
 #include "restoration/control_range.h"
@@ -25,19 +27,25 @@ inline constexpr double kMeshProximity = 1e6, kCageProximity = 1e4;
 
 class Restoration {
  public:
-  // Keeps references to both until it is destroyed.
+  // Keeps a reference to the surface until it is destroyed. How much of the move a press makes is not read from the
+  // options, but given to each press.
   Restoration(ControlledSurface& surface, const SmoothPanelOptions& options);
   Restoration(const Restoration&) = delete;  // parts refer to others
 
   // Finds the flaws and solves for the shape without them. Positions (#C x 3) are those of the control vertices.
-  SmoothPanelResult run() { return judge(find_move()); }
+  SmoothPanelResult run(const PressAmount& amount) {
+    const Vector move = find_move(amount);
+    return judge(move);
+  }
 
-  Vector find_move();  // of the control vertices (#C), not judged yet
+  Vector find_move(const PressAmount& amount);  // of the control vertices (#C), not judged yet
 
-  // Judges a move of the control vertices (#C), after find_move.
+  // Judges a move of the control vertices (#C), after find_move or choose.
   SmoothPanelResult judge(const Vector& move);
 
-  const SmoothPanelReport& report() const { return report_; }  // so far: length and limit from the beginning
+  void choose(const PressAmount& amount);  // for what follows, as find_move does
+
+  const SmoothPanelReport& report() const { return report_; }  // so far: the length from the beginning
   const Mask& limited() const { return limited_; }             // #C: those that wanted to go beyond the limit
   bool turns_faces(const Vector& move) const;  // a move of the control vertices, by more than 45 degrees
 
@@ -49,31 +57,44 @@ class Restoration {
                                const Mask& held);
 
  private:
-  Progress* progress() const { return options_.progress.get(); }
+  Progress* progress() const { return amount_.progress.get(); }
   void find_shape();
-  Vector restore();
-  void solve(const std::vector<Target>& targets, const MoveLimit& limit);
+  void find_unlimited();
+  void solve(const MoveLimit& limit);
+  Vector make_move();
   Vector read_move() const;
-  Vector restore_within_limit(const std::vector<Target>& targets);
+  Vector restore_within_limit();
   Mask find_turned_by(const Vector& move) const;
   Vector smooth(const Vector& z) const;
-  bool find_longer_waves(const Vector& z);
-  double weigh_gain(const Vector& move) const;
+  Unevenness measure(const Vector& z) const;
+  const Unevenness& measure_start();
+  bool has_longer_waves();
+  double weigh_gain();
   SmoothPanelResult refuse(const std::string& reason);
 
   ControlledSurface& surface_;
-  const SmoothPanelOptions& options_;
+  const SmoothPanelOptions options_;
   Vector3 axis_;  // of the moves
   Vector start_;  // #V, heights of the surface as its optimizer has them
   SmoothPanelReport report_;
+  PressAmount amount_;
   ControlRange range_;
+  Mask limited_;         // #C, see limited()
+  Mask held_triangles_;  // #F, see held_triangles()
+
+  // These are of the shape without flaws, while the same triangles are held.
+  std::unique_ptr<HeightField> field_;  // null: not found yet
   FlawlessShape flawless_;
-  Vector shape_;  // #V: the heights without flaws
-  std::unique_ptr<HeightField> field_;
+  Vector shape_;                                // #V: the heights without flaws
   std::unique_ptr<AdaptiveSmoother> smoother_;  // refers to field_
-  Vector unlimited_;                            // #C, the move of the last solve
-  Mask limited_;                                // #C, see limited()
-  Mask held_triangles_;                         // #F, see held_triangles()
+  std::vector<Target> targets_;
+  Vector unlimited_;                  // #C, the move of the solve without a limit; empty: not solved yet
+  Report unlimited_solve_;            // its report
+  bool at_unlimited_ = false;         // the optimizer is where that solve left it
+  std::optional<Unevenness> uneven_;  // of the start
+  std::optional<Vector> course_;      // #V: the heights whose lines are the course of the lines without flaws
+  std::optional<double> gain_;        // see weigh_gain
+  std::optional<bool> longer_waves_;  // see has_longer_waves
 };
 
 }  // namespace reflines

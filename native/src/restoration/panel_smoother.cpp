@@ -1,0 +1,176 @@
+#include "reflines/panel_smoother.h"
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "reflines/errors.h"
+#include "restoration/controlled_surface.h"
+#include "restoration/faired_border.h"
+#include "restoration/held_border.h"
+#include "restoration/press.h"
+#include "restoration/press_checks.h"
+#include "restoration/restoration.h"
+#include "restoration/used_vertices.h"
+#include "solver/limited_move.h"
+#include "solver/mirror_coupling.h"
+#include "solver/solve_checks.h"
+#include "threads/abandonable_work.h"
+
+namespace reflines {
+namespace {
+
+std::vector<Vector3> make_families(const Vector3& view, const Vector3& lines, Lights lights) {
+  if (lights == Lights::kSingle) return {lines};
+  return {lines, view.cross(lines)};
+}
+
+// Sets the options that all presses share. Noise makes creases, and held ones would keep it; smoother and weights keep
+// what bends.
+void set_restoration_rules(const PressAmount& amount, double proximity, ShapeOptions& shape) {
+  shape.creases.rule = CreaseRule::kNone;
+  shape.proximity = proximity;
+  shape.progress = amount.progress;
+}
+
+std::vector<Border> gather(const std::vector<Border>& border, const std::vector<int>& index) {
+  std::vector<Border> result;
+  for (const int v : index) result.push_back(border[v]);
+  return result;
+}
+
+ShapeOptions choose_shape(const UsedVertices& used, const SmoothPanelOptions& options, Eigen::Index vertex_count) {
+  ShapeOptions shape;
+  if (!options.border.empty()) shape.border = gather(options.border, used.index);
+  if (options.held.size() > 0) shape.held = options.held(used.index);
+  if (options.partner.size() > 0) {
+    shape.partner = renumber_partners(options.partner, used);
+    const Mask alone = shape.partner.array() < 0 && options.partner(used.index).array() >= 0;
+    shape.held = shape.held.size() > 0 ? Mask(shape.held || alone) : alone;
+  }
+  if (options.around.exist())
+    shape.around = renumber_surroundings(options.around, used, static_cast<int>(vertex_count));
+  shape.face_of_triangle = options.face_of_triangle;
+  return shape;
+}
+
+// Presses the vertices that are in faces; the others keep their bits.
+class MeshPress : public Press {
+ public:
+  MeshPress(Positions V, const Triangles& F, const Vector3& view, const Vector3& lines,
+            const SmoothPanelOptions& options, const PressAmount& amount)
+      : V_(std::move(V)), used_(find_used_vertices(F, static_cast<int>(V_.rows()))) {
+    ShapeOptions shape = choose_shape(used_, options, V_.rows());
+    set_restoration_rules(amount, kMeshProximity, shape);
+    partner_ = shape.partner;
+    SmoothPanelOptions own = options;
+    own.partner = partner_;
+    if (own.fair_border.size() > 0) own.fair_border = options.fair_border(used_.index);
+    const Positions used = V_(used_.index, Eigen::all);
+    const std::vector<Vector3> families = make_families(view, lines, options.lights);
+    press_ = own.fair_border.any() ? prepare_faired_border(used, used_.F, view, families, shape, own)
+                                   : prepare_held_border(used, used_.F, view, families, shape, own);
+  }
+
+  SmoothPanelResult run(const PressAmount& amount) override {
+    PressAmount own = amount;
+    if (amount.limit_share.exists())
+      own.limit_share = {amount.limit_share.lowest(used_.index), amount.limit_share.highest(used_.index)};
+    own.limit_share = intersect_limits(own.limit_share, partner_);
+    SmoothPanelResult result = press_->run(own);
+    Positions all = V_;
+    all(used_.index, Eigen::all) = result.positions;
+    result.positions = std::move(all);
+    return result;
+  }
+
+ private:
+  Positions V_;
+  UsedVertices used_;
+  IndexVector partner_;  // of the used vertices
+  std::unique_ptr<Press> press_;
+};
+
+class CagePress : public Press {
+ public:
+  CagePress(const Cage& cage, const Positions& V, const Vector3& view, const Vector3& lines, CageOptions cage_options,
+            const SmoothPanelOptions& options, const PressAmount& amount)
+      : partner_(cage_options.partner) {
+    set_restoration_rules(amount, kCageProximity, cage_options.shape);
+    surface_ = std::make_unique<CageControlledSurface>(cage, V, view, make_families(view, lines, options.lights),
+                                                       std::move(cage_options));
+    press_ = std::make_unique<Restoration>(*surface_, options);
+  }
+
+  SmoothPanelResult run(const PressAmount& amount) override {
+    PressAmount own = amount;
+    own.limit_share = intersect_limits(amount.limit_share, partner_);
+    return press_->run(own);
+  }
+
+ private:
+  IndexVector partner_;  // of the cage's vertices
+  std::unique_ptr<CageControlledSurface> surface_;
+  std::unique_ptr<Restoration> press_;
+};
+
+}  // namespace
+
+PressAmount amount_of(const SmoothPanelOptions& options) {
+  return {options.strength, options.limit, options.limit_share, options.progress};
+}
+
+PanelSmoother::PanelSmoother(const Positions& V, const Triangles& F, const Vector3& view_direction,
+                             const Vector3& line_direction, const SmoothPanelOptions& options)
+    : control_count_(V.rows()), prepare_([=](const PressAmount& amount) {
+        return std::make_unique<MeshPress>(V, F, view_direction, line_direction, options, amount);
+      }) {
+  check_press_options(options, V.rows());
+  check_surroundings(options.around, V.rows());
+  check_partners(options.partner, V.rows());
+  check_surface(V, F);
+  check_face_of_triangle(options.face_of_triangle, F.rows());
+}
+
+PanelSmoother::PanelSmoother(const Cage& cage, const Positions& V, const Vector3& view_direction,
+                             const Vector3& line_direction, const CageOptions& cage_options,
+                             const SmoothPanelOptions& options)
+    : control_count_(V.rows()), prepare_([=](const PressAmount& amount) {
+        return std::make_unique<CagePress>(cage, V, view_direction, line_direction, cage_options, options, amount);
+      }) {
+  check_press_options(options, V.rows());
+  if (options.fair_border.any())
+    throw InvalidInput("The border of a cage cannot be faired: only that of a mesh, by the faces beside it.");
+}
+
+// A cancelled press goes on for a while on a thread of its own (see run_abandonable): it owns all that it uses, and the
+// next one begins anew.
+SmoothPanelResult PanelSmoother::press(const PressAmount& amount) {
+  check_amount(amount, control_count_);
+  struct Work {
+    std::shared_ptr<Press> press;
+    SmoothPanelResult result;
+  };
+  const auto work = std::make_shared<Work>(Work{std::exchange(press_, nullptr), {}});
+  run_abandonable(amount.progress.get(), [work, amount, prepare = prepare_] {
+    if (!work->press) work->press = prepare(amount);
+    work->result = work->press->run(amount);
+  });
+  press_ = work->press;
+  return std::move(work->result);
+}
+
+SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
+                               const Vector3& line_direction, const SmoothPanelOptions& options) {
+  return PanelSmoother(V, F, view_direction, line_direction, options).press(amount_of(options));
+}
+
+SmoothPanelResult smooth_cage_panel(const Cage& cage, const Positions& V, const Vector3& view_direction,
+                                    const Vector3& line_direction, const CageOptions& cage_options,
+                                    const SmoothPanelOptions& options) {
+  return PanelSmoother(cage, V, view_direction, line_direction, cage_options, options).press(amount_of(options));
+}
+
+}  // namespace reflines

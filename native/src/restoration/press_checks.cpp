@@ -1,0 +1,52 @@
+#include "restoration/press_checks.h"
+
+#include <cmath>
+#include <string>
+
+#include "reflines/errors.h"
+#include "solver/limited_move.h"
+
+namespace reflines {
+namespace {
+
+// Throws unless there are shares of the limit for all vertices, or for none.
+void check_share(const MoveLimit& share, Eigen::Index vertex_count) {
+  if (!share.exists() && share.lowest.size() == 0) return;
+  check(share, static_cast<int>(vertex_count));
+  const auto beyond = (share.lowest.array() < -1 || share.highest.array() > 1).count();
+  if (beyond == 0) return;
+  throw InvalidInput("The share of the limit of " + std::to_string(beyond) + " of the " + std::to_string(vertex_count) +
+                     " vertices is beyond it; give -1 to 0 for the lowest move and 0 to 1 for the highest.");
+}
+
+void check_mask(const Mask& mask, const std::string& name, Eigen::Index vertex_count) {
+  if (mask.size() == 0 || mask.size() == vertex_count) return;
+  throw InvalidInput("The " + name + " mask has " + std::to_string(mask.size()) + " entries for " +
+                     std::to_string(vertex_count) + " vertices; give one for each.");
+}
+
+void require(bool holds, const char* otherwise) {
+  if (!holds) throw InvalidInput(otherwise);
+}
+
+}  // namespace
+
+void check_amount(const PressAmount& amount, Eigen::Index vertex_count) {
+  require(amount.limit >= 0, "The limit must be a positive length, or 0 for automatic.");
+  require(amount.strength >= 0 && amount.strength <= 1, "The strength must lie between 0 and 1.");
+  check_share(amount.limit_share, vertex_count);
+}
+
+void check_press_options(const SmoothPanelOptions& options, Eigen::Index vertex_count) {
+  require(options.length >= 0 && std::isfinite(options.length),
+          "The length must be a positive length, or 0 for automatic.");
+  require(options.flaw_size > 0 && std::isfinite(options.flaw_size), "The flaw size must be a number above 0.");
+  if (!options.border.empty() && static_cast<Eigen::Index>(options.border.size()) != vertex_count) {
+    throw InvalidInput("There are " + std::to_string(options.border.size()) + " border codes for " +
+                       std::to_string(vertex_count) + " vertices; give one for each.");
+  }
+  check_mask(options.held, "held", vertex_count);
+  check_mask(options.fair_border, "fair border", vertex_count);
+}
+
+}  // namespace reflines
