@@ -16,7 +16,7 @@ PUBLIC = {
     "line_handles": "targets",
     "minimizer_options": "optimization", "report": "optimization",
     "shape_optimizer": "solver", "cage_optimizer": "solver",
-    "smooth_panel": "restoration",
+    "smooth_panel": "restoration", "panel_smoother": "restoration",
     "check_panel": "inspection",
     "handle_follower": "following",
 }

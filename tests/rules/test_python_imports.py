@@ -77,8 +77,8 @@ PURE = {"native", "native_call", "model", "targets", "solver", "interactive.drag
 # Where all errors are caught: the place that prints those of background work, as Python prints those of a thread.
 CATCHES_ALL = {Path("addon/interactive/background_work.py")}
 FORBIDDEN_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
-OWNERS_OF_STATE = {"state.last_looks",
-                   "state.last_panels", "state.optimizer_cache", "state.press_cache", "state.solve_history", "interactive.drag",
+OWNERS_OF_STATE = {"state.last_looks", "state.last_panels", "state.optimizer_cache", "state.press_cache",
+                   "state.solve_history", "interactive.drag",
                    "interactive.live_warp_handlers", "interactive.background_work", "interactive.running_operators",
                    "overlay.draw",
                    "overlay.draw_borders", "overlay.draw_check", "state.last_checks"}

@@ -145,8 +145,8 @@ PanelSmoother::PanelSmoother(const Cage& cage, const Positions& V, const Vector3
     throw InvalidInput("The border of a cage cannot be faired: only that of a mesh, by the faces beside it.");
 }
 
-// A cancelled press goes on for a while on a thread of its own (see run_abandonable): it owns all that it uses, and the
-// next one begins anew.
+// Presses with work that owns all that it uses: a cancelled press goes on for a while on a thread of its own (see
+// run_abandonable), and the next one begins anew.
 SmoothPanelResult PanelSmoother::press(const PressAmount& amount) {
   check_amount(amount, control_count_);
   struct Work {

@@ -6,7 +6,8 @@
 
 namespace reflines {
 
-// Throw InvalidInput with the first fault of the options or the amount for a panel of so many vertices.
+// These throw InvalidInput with the first fault that they find, for a panel of so many vertices.
+
 void check_press_options(const SmoothPanelOptions& options, Eigen::Index vertex_count);
 void check_amount(const PressAmount& amount, Eigen::Index vertex_count);
 
