@@ -194,9 +194,15 @@ class HealedFlaws:
     mean_before: float   # likewise, root mean square over the healed area
     mean_after: float
 
+class PressWork:
+    """The work of a press, whose time it is: that of its smoother and its solves together."""
+    factorizations: int
+    solves: int  # with a factor, of one column
+
 class SmoothPanelReport:
     """The report of `smooth_panel`."""
     solve: Report              # of the last solve
+    work: PressWork            # of this press alone
     length: float              # the size of the flaws that was used
     limit: float               # no vertex moved further than this
     largest_move: float        # of the surface along the view direction

@@ -120,8 +120,12 @@ void bind_press_report(py::module_& module) {
       .def_readonly("worst_after", &HealedFlaws::worst_after)
       .def_readonly("mean_before", &HealedFlaws::mean_before)
       .def_readonly("mean_after", &HealedFlaws::mean_after);
+  py::class_<PressWork>(module, "PressWork", py::module_local())
+      .def_readonly("factorizations", &PressWork::factorizations)
+      .def_readonly("solves", &PressWork::solves);
   py::class_<Told>(module, "SmoothPanelReport", py::module_local())
       .def_readonly("solve", &Told::solve)
+      .def_readonly("work", &Told::work)
       .def_readonly("length", &Told::length)
       .def_readonly("limit", &Told::limit)
       .def_readonly("largest_move", &Told::largest_move)

@@ -69,15 +69,27 @@ def test_press_of_a_cage_is_that_of_smooth_cage_panel() -> None:
 
 
 def test_second_press_looks_for_no_flaws() -> None:
-    mesh, settings = rippled_mesh()
-    smoother = reflines.PanelSmoother(*mesh, **DIRECTIONS, flaw_size=1.0, **{**settings, "length": None})
-    stages = []
+    mesh, _ = rippled_mesh()
+    smoother = reflines.PanelSmoother(*mesh, **DIRECTIONS)
+    stages, factorizations = [], []
     for amount in AMOUNTS:
         progress = reflines.Progress()
-        smoother.press(progress=progress, **amount)
+        told = smoother.press(progress=progress, **amount)[1]
         stages.append(progress.stage)
+        factorizations.append(told.work.factorizations)
     assert stages[0] == "smoothing the lines"  # the last stage of a press is that of the longer waves
     assert not {"smoothing the lines", "looking for dents"} & set(stages[1:]), stages
+    assert factorizations[0] <= 8, factorizations
+    assert factorizations[-2:] == [0, 0], factorizations
+
+
+def test_work_of_a_press_is_what_its_parts_need() -> None:
+    """Five lengths, one more for longer waves, and one solve, with the solves of the measures: no more on any mesh."""
+    for cells in (24, 48):
+        V, F = panel(cells)
+        V[:, 2] += flaw("noise", V)
+        work = reflines.smooth_panel(V, F, **DIRECTIONS)[1].work
+        assert work.factorizations <= 8 and work.solves <= 24, (cells, work.factorizations, work.solves)
 
 
 def test_faces_held_for_one_amount_are_free_for_the_next() -> None:

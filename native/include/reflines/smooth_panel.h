@@ -66,8 +66,20 @@ struct HealedFlaws {
   double mean_before = 0.0, mean_after = 0.0;    // likewise, root mean square over the healed area
 };
 
+// Counts the work of a press, whose time these are: that of its smoother and of its solves together.
+struct PressWork {
+  int factorizations = 0;
+  int solves = 0;  // with a factor, of one column
+
+  void operator+=(const PressWork& other) {
+    factorizations += other.factorizations;
+    solves += other.solves;
+  }
+};
+
 struct SmoothPanelReport {
   Report solve;                       // of the last solve
+  PressWork work;                     // of this press alone, and of all solves
   double length = 0.0, limit = 0.0;   // those used
   double largest_move = 0.0;          // of the surface along the view, in units of V
   double largest_control_move = 0.0;  // of the vertices: for a cage more than its surface moves

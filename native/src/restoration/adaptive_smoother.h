@@ -32,6 +32,8 @@ class AdaptiveSmoother {
 
   int bumps() const { return bumps_; }  // that the last call took out
 
+  PressWork take_work() { return system_.take_work(); }  // since the last call
+
   // Returns other heights (#V) smoothed up to the lengths found last.
   Vector smooth(const Vector& z);
 

@@ -121,6 +121,7 @@ class FairedBorderPress : public Press {
     }
     SmoothPanelResult result = judge_->judge_move(move.head(own), press_.report(), press_.limited().head(own),
                                                   press_.held_triangles().head(region_->triangles().rows()));
+    result.report.work += press_.take_work();
     if (held_.any()) tell_partly_held(held_.count(), result.report);
     return result;
   }

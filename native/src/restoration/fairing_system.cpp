@@ -167,15 +167,17 @@ void FairingSystem::factorize(const EdgeWeights& weight, const Vector& slope, co
   SparseMatrix A = pattern_;
   fill_columns(A);
   solver_->factorize(A, progress);
+  ++work_.factorizations;
 }
 
-Vector FairingSystem::smooth(const Vector& z) const {
+Vector FairingSystem::smooth(const Vector& z) {
   Vector result = z;
   if (vertex_.empty()) return result;
   const Vector gradient = variation_.differentiate(z, scaled_);
   Vector move(static_cast<Eigen::Index>(vertex_.size()));
   for (Eigen::Index i = 0; i < move.size(); ++i) move(i) = -gradient(vertex_[i]);
   solver_->solve(move);
+  ++work_.solves;
   for (Eigen::Index i = 0; i < move.size(); ++i) result(vertex_[i]) += move(i);
   return result;
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "optimization/linear/linear_solver.h"
 #include "reflines/progress.h"
+#include "reflines/smooth_panel.h"
 #include "reflines/types.h"
 #include "restoration/curvature_variation.h"
 
@@ -22,7 +24,10 @@ class FairingSystem {
   void factorize(const EdgeWeights& weight, const Vector& slope, const Progress* progress);
 
   // Returns z + m (#V) for heights z (#V), by the last factor.
-  Vector smooth(const Vector& z) const;
+  Vector smooth(const Vector& z);
+
+  // Returns the work since the last call.
+  PressWork take_work() { return std::exchange(work_, {}); }
 
  private:
   void build_pattern(const Progress* progress);
@@ -39,6 +44,7 @@ class FairingSystem {
   Vector slope_;             // #T, times the area
   SparseMatrix pattern_;     // lower triangle
   std::unique_ptr<LinearSolver> solver_;
+  PressWork work_;
 };
 
 }  // namespace reflines

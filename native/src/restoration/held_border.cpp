@@ -86,7 +86,9 @@ SmoothPanelResult press_both(Restoration& press, Restoration& clamped_press, con
         "The border is only clamped: with its curvature continued, the solver breaks down.");
     return clamped;
   }
-  const SmoothPanelResult continued = press.judge(bound_addition(clamped_move, *continued_move));
+  SmoothPanelResult continued = press.judge(bound_addition(clamped_move, *continued_move));
+  continued.report.work += clamped.report.work;
+  clamped.report.work = continued.report.work;
   const std::optional<Strays> strays = find_less_even(continued.report, clamped.report);
   if (!clamped.report.applied || (continued.report.applied && !strays)) return continued;
   clamped.report.messages.push_back(explain_clamped(continued.report.applied, strays));

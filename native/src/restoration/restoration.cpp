@@ -56,8 +56,14 @@ Restoration::Restoration(ControlledSurface& surface, const SmoothPanelOptions& o
       range_(0, {}, surface.control_positions().rows()),
       held_triangles_(Mask::Constant(surface.triangles().rows(), false)) {}
 
+PressWork Restoration::take_work() {
+  if (smoother_) work_ += smoother_->take_work();
+  return std::exchange(work_, {});
+}
+
 void Restoration::choose(const PressAmount& amount) {
   amount_ = amount;
+  work_ = {};
   surface_.watch(amount.progress);
   SmoothPanelReport report;
   report.region = report_.region;
@@ -69,6 +75,7 @@ void Restoration::choose(const PressAmount& amount) {
 
 // Finds the heights without flaws: without differences of a symmetric panel's halves, and then smoothed by place.
 void Restoration::find_shape() {
+  if (smoother_) work_ += smoother_->take_work();
   smoother_.reset();  // it refers to the field
   field_.reset();     // until all is found: a cancelled search is no shape
   unlimited_.resize(0);
@@ -160,6 +167,7 @@ void Restoration::find_unlimited() {
 void Restoration::solve(const MoveLimit& limit) {
   report_.solve = surface_.optimizer().solve(targets_, {}, progress(), limit);
   if (report_.solve.termination == Termination::kCancelled) throw Cancelled();
+  work_ += {report_.solve.factorizations, report_.solve.solves};
   // A mesh's solve begins at the shape without flaws: that it finds nothing to do there is how a press converges.
   const bool moved = (surface_.control_move().array() != 0).any();
   if (moved && report_.solve.termination == Termination::kAlreadyOptimal) {
@@ -239,6 +247,7 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.messages = amount_.strength > 0 || report_.limited > 0
                          ? describe_result(report_)
                          : std::vector<std::string>{"The strength is 0: nothing was changed."};
+  report_.work = take_work();
   return {range_.apply(surface_.control_positions(), axis_, move), report_};
 }
 
@@ -246,6 +255,7 @@ SmoothPanelResult Restoration::refuse(const std::string& reason) {
   report_.applied = false;
   report_.healed = {.worst_before = report_.healed.worst_before, .worst_after = report_.healed.worst_before};
   report_.messages.push_back(reason);
+  report_.work = take_work();
   return {surface_.control_positions(), report_};
 }
 

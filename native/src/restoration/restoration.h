@@ -45,6 +45,9 @@ class Restoration {
 
   void choose(const PressAmount& amount);  // for what follows, as find_move does
 
+  // Returns the work since the last call, or since the amount was chosen.
+  PressWork take_work();
+
   const SmoothPanelReport& report() const { return report_; }  // so far: the length from the beginning
   const Mask& limited() const { return limited_; }             // #C: those that wanted to go beyond the limit
   bool turns_faces(const Vector& move) const;  // a move of the control vertices, by more than 45 degrees
@@ -78,6 +81,7 @@ class Restoration {
   Vector start_;  // #V, heights of the surface as its optimizer has them
   SmoothPanelReport report_;
   PressAmount amount_;
+  PressWork work_;  // see take_work; that of the smoother is not in it yet
   ControlRange range_;
   Mask limited_;         // #C, see limited()
   Mask held_triangles_;  // #F, see held_triangles()
