@@ -1,10 +1,10 @@
 #include "reflines/cage_optimizer.h"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <optional>
 
+#include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/cage_arrays.h"
 #include "python/exclusive_use.h"

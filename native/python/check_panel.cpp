@@ -1,11 +1,11 @@
 #include "reflines/check_panel.h"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <optional>
 #include <string>
 
+#include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/index_arrays.h"
 #include "python/native_call.h"

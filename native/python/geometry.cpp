@@ -1,4 +1,3 @@
-#include <pybind11/eigen.h>
 
 #include <memory>
 #include <utility>
@@ -7,6 +6,7 @@
 #include "geometry/crease_split.h"
 #include "geometry/mesh.h"
 #include "geometry/normal_fit.h"
+#include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/exclusive_use.h"
 #include "python/index_arrays.h"

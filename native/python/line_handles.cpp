@@ -1,12 +1,12 @@
 #include "reflines/line_handles.h"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/exclusive_use.h"
 #include "python/index_arrays.h"

@@ -1,11 +1,11 @@
 #include "reflines/shape_optimizer.h"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <optional>
 #include <variant>
 
+#include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/border_codes.h"
 #include "python/exclusive_use.h"

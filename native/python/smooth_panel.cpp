@@ -1,12 +1,12 @@
 #include "reflines/smooth_panel.h"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <map>
 #include <optional>
 #include <string>
 
+#include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/border_codes.h"
 #include "python/cage_arrays.h"

@@ -1,12 +1,12 @@
 #include "reflines/subdivision.h"
 
-#include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <memory>
 #include <string>
 
+#include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/cage_arrays.h"
 #include "python/native_call.h"

@@ -1,12 +1,12 @@
 // Reads the surroundings of a region from Python: (V, F), or None.
 #pragma once
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <optional>
 #include <utility>
 
+#include "python/array_arguments.h"
 #include "python/index_arrays.h"
 #include "reflines/surroundings.h"
 

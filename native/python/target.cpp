@@ -1,10 +1,10 @@
 #include "reflines/target.h"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <optional>
 
+#include "python/array_arguments.h"
 #include "python/bind.h"
 
 namespace py = pybind11;

@@ -1,8 +1,8 @@
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <optional>
 
+#include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/exclusive_use.h"
 #include "reflines/errors.h"

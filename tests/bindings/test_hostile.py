@@ -30,6 +30,32 @@ def test_no_object_is_made_without_its_constructor(kind) -> None:
         object.__new__(kind)
 
 
+@pytest.mark.parametrize(("wrong", "sentence"), [
+    ({"V": np.zeros((9, 2))}, r"shape \(9, 2\) was given where rows of three numbers are needed; reshape it"),
+    ({"V": np.zeros(27)}, r"shape \(27,\) was given where rows of three numbers are needed"),
+    ({"V": np.zeros((9, 3), complex)}, "array of complex128 was given where rows of three numbers are needed"),
+    ({"V": np.full((9, 3), None)}, "array of object was given"),
+    ({"view_direction": (0, 1)}, r"shape \(2,\) was given where three numbers are needed"),
+    ({"fixed": np.zeros((3, 3), bool)}, r"shape \(3, 3\) was given where truth values in a row are needed"),
+    ({"marked_creases": np.array([[0, 1], [0, 10**6], [-1, 2]])}, "2 of the 3 marked creases name a vertex beyond"),
+])
+def test_arrays_of_another_shape_get_a_sentence(wrong: dict, sentence: str) -> None:
+    V, F = panel(8)
+    arguments = {"V": V, "F": F, "view_direction": VIEW, "line_direction": LINE, **wrong}
+    with pytest.raises(reflines.InvalidInput, match=sentence):
+        reflines.ShapeOptimizer(**arguments)
+
+
+def test_arrays_of_a_press_get_a_sentence_too() -> None:
+    V, F = panel(8)
+    seen = {"view_direction": VIEW, "line_direction": LINE}
+    with pytest.raises(reflines.InvalidInput, match=r"shape \(9, 3\) was given where rows of two numbers are needed"):
+        reflines.smooth_panel(V, F, limit_share=np.zeros((9, 3)), **seen)
+    plain = reflines.ShapeOptimizer(V.tolist(), F.tolist(), **seen)  # lists, other layouts and other numbers are taken
+    for other in (np.asfortranarray(V), V.astype(">f8"), np.repeat(V, 2, axis=0)[::2]):
+        assert np.array_equal(reflines.ShapeOptimizer(other, F, **seen).positions, plain.positions)
+
+
 def runaway(solver: reflines.ShapeOptimizer, kind: str) -> reflines.Target:
     if kind == "density":
         return reflines.uniform(solver, density=1e6)

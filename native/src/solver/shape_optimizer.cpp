@@ -68,6 +68,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   check_surface(V, F);
   check_quadrature_weight(options.quadrature_weight, F.rows());
   check_face_of_triangle(face_of_triangle_, F.rows());
+  check_marked_creases(options.creases.marked, V.rows());
   check_proximity(options.proximity);
   check_symmetry(options, V.rows());
   box_ = find_bounding_box(V, F);

@@ -33,6 +33,13 @@ void check_face_of_triangle(const IndexVector& face, Eigen::Index triangles) {
                      " triangles; give the one that each was cut from, or none.");
 }
 
+void check_marked_creases(const Edges& creases, Eigen::Index vertices) {
+  const auto beyond = (creases.array() < 0 || creases.array() >= vertices).rowwise().any().count();
+  if (beyond == 0) return;
+  throw InvalidInput(std::to_string(beyond) + " of the " + std::to_string(creases.rows()) +
+                     " marked creases name a vertex beyond the " + std::to_string(vertices) + " of the region.");
+}
+
 void check_proximity(double proximity) {
   if (std::isfinite(proximity)) return;
   throw InvalidInput("The proximity is not a finite number; give 0 or more, or -1 for the usual one.");

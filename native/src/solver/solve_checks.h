@@ -15,6 +15,9 @@ void check_quadrature_weight(const Vector& weight, Eigen::Index triangles);
 // Throws InvalidInput unless the list of faces is empty or has one for each of the triangles.
 void check_face_of_triangle(const IndexVector& face, Eigen::Index triangles);
 
+// Throws InvalidInput where a marked crease (#E x 2) names a vertex that there is not.
+void check_marked_creases(const Edges& creases, Eigen::Index vertices);
+
 // Throws InvalidInput where the weight of the pull to the start is not a finite number; negative ones are automatic.
 void check_proximity(double proximity);
 
