@@ -1,4 +1,6 @@
 """Differences between Blender 3.4, 4.3 and 5.2 in the interfaces that this add-on uses."""
+import re
+
 import bmesh
 import bpy
 import numpy as np
@@ -10,12 +12,14 @@ def is_shape_locked(key: bpy.types.ShapeKey) -> bool:
 
 
 def strip_error_prefix(error: RuntimeError) -> str:
-    """Returns the text that an operator reported, without the translated word "Error: " that Blender puts before it.
+    """Returns the text that an operator reported, or that its poll gave, without what Blender puts before it: the
+    translated word "Error: ", and the operator's name.
 
     Reports have a translation of their own from Blender 4.1 on.
     """
     translated = getattr(bpy.app.translations, "pgettext_rpt", bpy.app.translations.pgettext_tip)
-    return str(error).removeprefix(f"{translated('Error')}: ").removeprefix("Error: ").strip()
+    text = str(error).removeprefix(f"{translated('Error')}: ").removeprefix("Error: ").strip()
+    return re.sub(r"^Operator bpy\.ops\.\S+ ", "", text)
 
 
 def read_edge_creases(mesh: bpy.types.Mesh) -> np.ndarray:

@@ -3,13 +3,13 @@ import json
 
 import bpy
 
-from ..bridge import compat, scene_objects, view_and_light
+from ..bridge import compat, region_faces, scene_objects, view_and_light
 from ..model.refusal import Refusal
 from .solve_tool import SolveTool
 
 
 class REFLINES_OT_resolve(bpy.types.Operator):
-    """Run the last tool again on the same faces, for the view and light as they are now. It begins with the shape
+    """Run the last tool again on the same faces (after an undo in Edit Mode: on the selected ones), for the view and light as they are now. It begins with the shape
 before that run, unless the mesh has been changed since"""
     bl_idname = "reflines.resolve"
     bl_label = "Re-solve"
@@ -46,15 +46,16 @@ before that run, unless the mesh has been changed since"""
         if mode != 'OBJECT':  # the stored region can be read there only
             bpy.ops.object.mode_set(mode='OBJECT')
         difference = run.difference(ob.data)
+        if mode == 'EDIT' and not region_faces.has_stored_region(ob.data):  # undo in Edit Mode takes it back
+            bpy.ops.object.mode_set(mode=mode)
         try:
             self.run(ob, run, edited=mode == 'EDIT')
         except (RuntimeError, Refusal) as error:  # Blender raises the errors that an operator reports
-            if mode != 'OBJECT':
-                bpy.ops.object.mode_set(mode=mode)
+            return_to_mode(ob, mode)
             self.report({'ERROR'}, compat.strip_error_prefix(error))
             return {'CANCELLED'}
-        if mode != 'OBJECT' and not run.key:  # a result in a shape key ends in Object Mode
-            bpy.ops.object.mode_set(mode=mode)
+        if not run.key:  # a result in a shape key ends in Object Mode
+            return_to_mode(ob, mode)
         for note in filter(None, (difference, *ob.reflection_lines.report.notes.splitlines())):
             self.report({'WARNING'}, f"{ob.name}: {note}")  # the tool's own reports reach the console only
         self.report({'INFO'}, f"{ob.reflection_lines.report.headline()} ({ob.name})")
@@ -72,6 +73,11 @@ before that run, unless the mesh has been changed since"""
             tool('EXEC_DEFAULT', **settings)
         except (TypeError, ValueError, RecursionError) as error:
             raise Refusal(f"{ob.name}: the stored settings of {kind.bl_label} cannot be used: run it again") from error
+
+
+def return_to_mode(ob: bpy.types.Object, mode: str) -> None:
+    if ob.mode != mode:
+        bpy.ops.object.mode_set(mode=mode)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_resolve])
