@@ -53,6 +53,7 @@ REACH = {
     "handle_step_ms_10k": (16.0, True), "handle_step_ms_100k": (60.0, True),
     "brush_dab_ms_100k": (33.0, True), "handle_first_ms_10k": (100.0, True), "handle_first_ms_100k": (500.0, True),
     "press_over_solve_10k": (5.0, True), "press_over_solve_100k": (5.0, True),
+    "press_factorizations_10k": (8, True),
     "press_again_strength_over_press_100k": (0.15, True), "press_again_limit_over_press_100k": (0.15, True),
     **continuity.find_limits(),
     "tools_crossed": (1.0, True), "tools_move": (5.0, True), "tools_turned": (0.0, True),

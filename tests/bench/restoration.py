@@ -108,6 +108,13 @@ def press_row(name: str, cells: int) -> Row:
                f"{press:.0f} ms / {whole:.0f} ms from the bare mesh on, medians of {REPETITIONS}")
 
 
+def work_row() -> Row:
+    """Returns how many matrices a press factors, which no machine's noise changes."""
+    V, F = make_noisy_panel(CELLS)
+    work = reflines.smooth_panel(V, F, view_direction=(0, 0, 1), line_direction=(0, 1, 0))[1].work
+    return Row("press_factorizations_10k", work.factorizations, "", f"and {work.solves} solves of one column")
+
+
 def again_rows(name: str, cells: int) -> list[Row]:
     """Returns how long a press with another strength, and with another limit, takes of the first one: the second press
     with each, whose matrix has to be factored again, does not count.
@@ -148,7 +155,7 @@ def lights_row() -> Row:
 def rows() -> list[Row]:
     return [*([*panel_rows(), cage_row()] if JUDGE.is_file() else []), lights_row(),
             press_row("10k", CELLS), press_row("100k", LARGE),
-            *again_rows("100k", LARGE)]
+            *again_rows("100k", LARGE), work_row()]
 
 
 if __name__ == "__main__":
