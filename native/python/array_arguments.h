@@ -28,7 +28,7 @@ template <typename Type>
 struct ArrayCaster {
   using Scalar = typename Type::Scalar;
   static constexpr bool kFlat = Type::ColsAtCompileTime == 1;
-  static constexpr auto name = pybind11::detail::const_name("numpy.ndarray");
+  static constexpr auto name = pybind11::detail::const_name("numpy.ndarray");  // NOLINT: a caster's name for this
   template <typename To>
   using cast_op_type = pybind11::detail::movable_cast_op_type<To>;
 
