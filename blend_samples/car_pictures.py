@@ -2,18 +2,24 @@
 
     xvfb-run -s "-screen 0 1280x900x24" blender --factory-startup --enable-event-simulate \
         --window-geometry 0 0 1280 900 -P tests/in_blender.py -- blend_samples/car_pictures.py FOLDER
+
+It writes FOLDER/car.jpg, which is kept beside this script.
 """
 import pathlib
 import sys
 from collections.abc import Generator
 
 import bpy
+import numpy as np
 
+import pictures
 import window
 
 HERE = pathlib.Path(__file__).resolve().parent
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
-ZOOM = 26.0   # of the camera's frame in the view
+ZOOM = 26.0                          # of the camera's frame in the view
+LOW, HIGH = (215, 120), (847, 668)   # corners of what is shown, pixels of the view from below
+WIDTH, QUALITY = 1280, 70            # of the picture: pixels, per cent
 OVERLAYS = ("show_floor", "show_axis_x", "show_axis_y", "show_cursor", "show_edges", "show_faces", "show_extras",
             "show_text", "show_outline_selected", "show_object_origins", "show_relationship_lines")
 
@@ -32,6 +38,7 @@ def take(_: window.Window) -> Steps:
         bpy.ops.object.mode_set(mode='OBJECT')
     print(f"car: {bpy.context.view_layer.objects.active.reflection_lines.report.headline()}")
     yield from shoot(driver, "after")
+    join()
 
 
 def show_car(driver: window.Window) -> None:
@@ -58,6 +65,18 @@ def shoot(driver: window.Window, name: str) -> Steps:
     with driver.override():
         bpy.ops.screen.screenshot_area(filepath=str(FOLDER / f"{name}.png"))
     yield 0.2
+
+
+def join() -> None:
+    """Puts the cars side by side."""
+    parts = [pictures.pixels(FOLDER / f"{name}.png")[LOW[1]:HIGH[1], LOW[0]:HIGH[0]] for name in ("before", "after")]
+    gutter = np.ones((len(parts[0]), pictures.GUTTER, 4), np.float32)
+    joined = np.concatenate([parts[0], gutter, parts[1]], axis=1)
+    image = bpy.data.images.new("car", joined.shape[1], joined.shape[0])
+    image.pixels.foreach_set(np.ascontiguousarray(joined, np.float32).ravel())
+    image.filepath_raw, image.file_format = str(FOLDER / "car.png"), 'PNG'
+    image.save()
+    pictures.shrink(FOLDER / "car.png", FOLDER / "car.jpg", WIDTH, QUALITY)
 
 
 window.run(take)
