@@ -1,4 +1,4 @@
-"""Films Pull Line in a real window of Blender: pictures of a drag on the clean bonnet. Run it as
+"""Films Pull Line in a real window of Blender: two crooked lines of the bonnet are pulled straight. Run it as
 
     xvfb-run -s "-screen 0 960x720x24" blender --factory-startup --enable-event-simulate --window-geometry 0 0 960 720 \
         -P tests/in_blender.py -- blend_samples/film_pull_line.py FOLDER
@@ -17,10 +17,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 FOLDER = pathlib.Path(sys.argv[1])
 OVERLAYS = ("show_floor", "show_axis_x", "show_axis_y", "show_cursor", "show_edges", "show_faces", "show_extras",
             "show_text", "show_outline_selected", "show_object_origins", "show_relationship_lines")
-# The way of the mouse in shares of the view's region, with the button that is pressed at its first place; steps.
-WAYS = (((0.37, 0.40), (0.445, 0.54), False, 10), ((0.445, 0.54), (0.40, 0.55), True, 18),
-        ((0.40, 0.55), (0.60, 0.54), False, 8), ((0.60, 0.54), (0.635, 0.54), True, 18),
-        ((0.635, 0.54), (0.55, 0.66), False, 8))
+# Ways of the mouse in shares of the view's region, with the button that is pressed at its first place; steps.
+CROOKED = (((0.36, 0.50), (0.445, 0.54), False, 5), ((0.445, 0.54), (0.418, 0.545), True, 10))
+WAYS = (((0.34, 0.42), (0.418, 0.545), False, 12), ((0.418, 0.545), (0.445, 0.54), True, 24),
+        ((0.445, 0.54), (0.52, 0.68), False, 10))
 LAST = 8  # pictures of the end
 
 Steps = Generator[float, None, None]
@@ -32,13 +32,21 @@ def film(_: window.Window) -> Steps:
     driver = window.Window()  # that of the file
     show_bonnet(driver)
     yield 1.0
+    yield from pull(driver, CROOKED, filmed=False)
+    driver.key('RET')
+    yield 0.5
+    yield from pull(driver, WAYS, filmed=True)
+    for _ in range(LAST):
+        yield from shoot(driver)
+
+
+def pull(driver: window.Window, ways: tuple, *, filmed: bool) -> Steps:
+    """Starts Pull Line and moves the mouse along the ways."""
     with driver.override():
         bpy.ops.reflines.pull_line('INVOKE_DEFAULT', True)
     yield from dragging.settled(driver)
-    for start, end, pressed, steps in WAYS:
-        yield from follow(driver, start, end, pressed=pressed, steps=steps)
-    for _ in range(LAST):
-        yield from shoot(driver)
+    for start, end, pressed, steps in ways:
+        yield from follow(driver, start, end, pressed=pressed, steps=steps, filmed=filmed)
 
 
 def show_bonnet(driver: window.Window) -> None:
@@ -60,8 +68,8 @@ def show_bonnet(driver: window.Window) -> None:
 
 
 def follow(driver: window.Window, start: tuple[float, float], end: tuple[float, float], *, pressed: bool,
-           steps: int) -> Steps:
-    """Moves the mouse with soft ends and takes a picture after each step."""
+           steps: int, filmed: bool) -> Steps:
+    """Moves the mouse with soft ends, and where that is filmed takes a picture after each step."""
     if pressed:
         driver.event('LEFTMOUSE', 'PRESS')
         yield 0.1
@@ -72,7 +80,8 @@ def follow(driver: window.Window, start: tuple[float, float], end: tuple[float, 
         driver.move(*(length * (a + share * (b - a)) for length, a, b in zip(size, start, end, strict=True)))
         yield 0.05
         yield from dragging.settled(driver)
-        yield from shoot(driver)
+        if filmed:
+            yield from shoot(driver)
     if pressed:
         driver.event('LEFTMOUSE', 'RELEASE')
         yield 0.1

@@ -10,7 +10,7 @@ import studio
 HERE = pathlib.Path(__file__).resolve().parent
 
 SHOT = studio.Shot(view_direction=(1.0, -0.10, 0.25), line_direction=(0.0, 1.0, 0.0), centre=(-0.03, 0.0, 0.48),
-                   width=1.35, lamp=(0.3, -0.3, 1.0), stripes=studio.Stripes(count=80), length=0.4,
+                   width=1.35, lamp=(0.3, -0.3, 1.0), stripes=studio.Stripes(count=80),
                    colour=(0.66, 0.68, 0.70))
 
 

@@ -10,7 +10,7 @@ import studio
 HERE = pathlib.Path(__file__).resolve().parent
 
 SHOT = studio.Shot(view_direction=(0.10, -0.70, 1.0), line_direction=(0.0, 1.0, 0.12), centre=(0.0, 0.0, -0.03),
-                   width=1.75, lamp=(0.85, -0.3, 0.25), stripes=studio.Stripes(count=72), length=0.5,
+                   width=1.75, lamp=(0.85, -0.3, 0.25), stripes=studio.Stripes(count=72),
                    colour=(0.56, 0.66, 0.78))
 
 

@@ -11,7 +11,7 @@ import studio
 HERE = pathlib.Path(__file__).resolve().parent
 
 SHOT = studio.Shot(view_direction=(0.10, -0.70, 1.0), line_direction=(0.0, 1.0, 0.12), centre=(0.0, 0.0, -0.03),
-                   width=1.70, lamp=(0.95, -0.3, 0.25), stripes=studio.Stripes(), length=0.4,
+                   width=1.70, lamp=(0.95, -0.3, 0.25), stripes=studio.Stripes(),
                    colour=(0.56, 0.66, 0.78))
 COLUMNS, ROWS = 7, 7
 

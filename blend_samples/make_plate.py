@@ -11,7 +11,7 @@ import studio
 HERE = pathlib.Path(__file__).resolve().parent
 
 SHOT = studio.Shot(view_direction=(0.0, 0.0, 1.0), line_direction=(1.0, 0.0, 0.2), centre=(0.0, 0.0, 0.0),
-                   width=1.35, lamp=(0.55, 0.0, 0.2), stripes=studio.Stripes(count=110), length=0.3,
+                   width=1.35, lamp=(0.55, 0.0, 0.2), stripes=studio.Stripes(count=110),
                    colour=(0.35, 0.45, 0.60))
 
 

@@ -193,8 +193,8 @@ class Shot:
     width: float                       # that the camera sees
     lamp: tuple[float, float, float]   # where the light direction's arrow stands
     stripes: Stripes
-    length: float
     colour: tuple[float, float, float]
+    length: float = 0.0                # of Smooth: 0 is what counts as flaws
 
 
 def stage(name: str, V: np.ndarray, quads: np.ndarray, inside: np.ndarray, shot: Shot) -> bpy.types.Object:

@@ -31,8 +31,12 @@ def read_edge_creases(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def read_vertex_creases(mesh: bpy.types.Mesh) -> np.ndarray:
-    """Reads the crease of every vertex: #vertices in [0, 1]."""
+    """Reads the crease of every vertex: #vertices in [0, 1]. In Edit Mode Blender 3 has them in the edit mesh alone."""
     layers = getattr(mesh, "vertex_creases", None)
+    if layers and mesh.is_editmode:
+        elements = bmesh.from_edit_mesh(mesh).verts
+        layer = elements.layers.crease.verify()
+        return np.array([element[layer] for element in elements])
     return read_crease_values(mesh, "crease_vert", len(mesh.vertices), layers[0].data if layers else ())
 
 

@@ -2,7 +2,14 @@
 import numpy as np
 
 CODES = {"free": 0, "fixed": 1, "clamped": 2, "curvature": 3, "flow": 4}  # by which the native module knows them
+NAMES = {"free": "Free", "fixed": "Position (G0)", "clamped": "Tangent (G1)", "curvature": "Curvature (G2)",
+         "flow": "Flow (G3)"}  # by which the artist knows them
 UNSET = -1  # of a vertex without a condition of its own
+
+
+def name_border(border: str) -> str:
+    """Returns the name by which the artist knows a border; what is none, as a file may hold, as it is."""
+    return NAMES.get(border, border)
 
 
 def needs_surroundings(border: str | np.ndarray) -> bool:

@@ -4,6 +4,7 @@ import json
 import bpy
 
 from ..bridge import compat, region_faces, scene_objects, view_and_light
+from ..model.border import name_border
 from ..model.refusal import Refusal
 from .solve_tool import SolveTool
 
@@ -28,7 +29,7 @@ light as they are now. It begins with the shape before that run, unless the mesh
             return "Run the last tool again with flaws twice as long: what is as long as that counts as a flaw, too"
         if properties.limit:
             return "Run the last tool again with twice the limit of the move, which held vertices back"
-        return f"Run the last tool again with the border {properties.border.capitalize()}" if properties.border else ""
+        return f"Run the last tool again with the border {name_border(properties.border)}" if properties.border else ""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

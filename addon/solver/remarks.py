@@ -3,7 +3,7 @@ import numpy as np
 
 from .. import native
 from ..model import mirror
-from ..model.border import CODES
+from ..model.border import CODES, NAMES
 from ..model.patch import Patch
 from ..model.solution import SolveReport
 from .formulation import Formulation
@@ -27,21 +27,22 @@ def describe_marked_creases(patch: Patch) -> tuple[str, ...]:
 def describe_small_share(reached: float, border: str) -> tuple[str, ...]:
     """Describes why only a part of the target was reached: a held border keeps the mean of the gradient across it."""
     why = ("no smooth surface has such lines here: ask for less, or over a larger radius" if border == "free" else
-           f"the border {border.capitalize()} keeps the lines' mean")
+           f"the border {NAMES[border]} keeps the lines' mean")
     return (f"Only {max(reached, 0.0):.0%} of the target was reached: {why}",)
 
 
 def describe_bent_rim(bend: float) -> tuple[str, ...]:
     """Warns where the rim of the region bends by more than before, and says what to press."""
     return (f"The border of the region bends by up to {np.degrees(bend):.1f} degrees more against the faces beside it: "
-            "with the border Clamped it keeps its tangents",) if bend else ()
+            f"with the border {NAMES['clamped']} it keeps its tangents",) if bend else ()
 
 
 def describe_far_move(patch: Patch, move: float, border: str) -> tuple[str, ...]:
     """Warns where vertices moved by more than FAR_MOVE of the patch's diagonal."""
     if move <= FAR_MOVE * patch.diagonal:
         return ()
-    remedy = "less strength" if CODES[border] >= CODES["clamped"] else "less strength, or the border Clamped,"
+    milder = "less strength"
+    remedy = milder if CODES[border] >= CODES["clamped"] else f"{milder}, or the border {NAMES['clamped']},"
     return (f"Vertices move by up to {move / patch.diagonal:.0%} of the panel's size: the lines asked for are far from "
             f"those of its shape; {remedy} keeps it nearer",)
 

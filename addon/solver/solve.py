@@ -108,7 +108,7 @@ def measure_bend(live: LiveOptimizer, positions: np.ndarray) -> float:
 
 
 def choose_remedy(border: str, *, short: bool, bent: bool) -> str:
-    """Returns the border that would serve better: Free where too little of a target is reached, Clamped where the rim
+    """Returns the border that would serve better: Free where too little of a target is reached, Tangent where the rim
     bends; empty where this one is good.
     """
     if short and border != "free":

@@ -5,6 +5,7 @@ import textwrap
 
 import bpy
 
+from ..model.border import name_border
 from . import automatic_values, manual_links, rows
 
 
@@ -113,7 +114,7 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         head.operator("reflines.set_border", text="", icon='X').border = 'unset'
         grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
         for name in ("flow", "curvature", "clamped", "fixed", "free"):
-            grid.operator("reflines.set_border", text=name.capitalize()).border = name
+            grid.operator("reflines.set_border", text=name_border(name)).border = name
 
     def draw_creases(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
         layout.prop(settings, "creases")
@@ -353,7 +354,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if run.operator and ob.type == 'MESH' and ob.mode == 'OBJECT' and run.difference(ob.data):
             draw_paragraph(self.layout, context, run.difference(ob.data), 'ERROR')
         if report.remedy and run.operator:
-            remedy = self.layout.operator("reflines.resolve", text=f"Solve with Border {report.remedy.capitalize()}")
+            remedy = self.layout.operator("reflines.resolve", text=f"Solve with Border {name_border(report.remedy)}")
             remedy.border = report.remedy
         limit = 2.0 * (report.automatic_limit or run.read_length("limit"))
         if report.limited and run.operator and limit:

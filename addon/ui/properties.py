@@ -279,8 +279,8 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     solve_for: solve_for_property()
     result: result_property()
     show_borders: BoolProperty(name="Show Borders", default=True,
-                               description="Draw the borders that were set by segment: green Free, orange Fixed, blue "
-                               "Clamped, violet Curvature, red Flow")
+                               description="Draw the borders that were set by segment: green Free, orange Position, "
+                               "blue Tangent, violet Curvature, red Flow")
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     pull: PointerProperty(type=ReflinesPull)

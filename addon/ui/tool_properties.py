@@ -9,6 +9,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
 from ..bridge import falloff_curve
+from ..model.border import NAMES
 from .rows import draw_switch
 
 CENTRES = (
@@ -58,13 +59,14 @@ LAST_FRAME = 1048574  # of Blender
 SAVED = {'options': {'SKIP_SAVE'}}
 # With the numbers that files hold: a new border gets a new one.
 BORDERS = (
-    ('flow', "Flow", "As Curvature, and the curvature changes across the border as it does in the faces beside the "
-     "region, where they tell it", 'NONE', 4),
-    ('curvature', "Curvature", "As Clamped, and the lines run on from the faces beside the region without a kink: "
-     "their curvature is continued", 'NONE', 3),
-    ('clamped', "Clamped", "Border vertices stay, and so does the slope there: the panel joins on smoothly", 'NONE', 0),
-    ('fixed', "Fixed", "Border vertices stay; the slope across the border may change", 'NONE', 1),
-    ('free', "Free", "Border vertices may move along the view, as the rest does", 'NONE', 2),
+    ('flow', NAMES["flow"], "As Curvature, and the curvature changes across the border as it does in the faces beside "
+     "the region, where they tell it", 'NONE', 4),
+    ('curvature', NAMES["curvature"], "As Tangent, and the lines run on from the faces beside the region without a "
+     "kink: their curvature is continued", 'NONE', 3),
+    ('clamped', NAMES["clamped"], "Border vertices stay, and so does the slope there: the panel joins on smoothly",
+     'NONE', 0),
+    ('fixed', NAMES["fixed"], "Border vertices stay; the slope across the border may change", 'NONE', 1),
+    ('free', NAMES["free"], "Border vertices may move along the view, as the rest does", 'NONE', 2),
 )
 
 

@@ -208,7 +208,7 @@ def test_values_that_are_no_borders_are_refused(value: int) -> None:
     ob.data.attributes["reflines_border"].data[side(1)[0]].value = value
     scenes.edit_inner(ob)
     before = scenes.fingerprint(ob)
-    with pytest.raises(RuntimeError, match="1 vertices have a border that is none of Free, Fixed, Clamped, Curv"):
+    with pytest.raises(RuntimeError, match="1 vertices have a border that is none of Free, Position, Tangent, Curv"):
         scenes.smooth()
     assert scenes.fingerprint(ob) == before
     set_border(ob, [side(1)[0]], 'fixed')

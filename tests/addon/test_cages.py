@@ -1,10 +1,11 @@
 """Below a Subdivision Surface modifier the tools move the cage, and the subdivided surface is what gets better."""
 from collections.abc import Callable
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
-from reflection_lines.bridge import read_cage, viewport_cage
+from reflection_lines.bridge import compat, read_cage, viewport_cage
 from reflection_lines.overlay import solve_maps
 from reflection_lines.state import solve_history
 
@@ -134,6 +135,18 @@ def test_a_crease_is_as_sharp_as_blender_makes_it(crease: float) -> None:
     assert len(cage.creases) == CELLS
     assert np.abs(cage.V[cage.creases][:, :, 1]).max() < 1e-6
     assert cage.sharpness == pytest.approx(np.full(CELLS, 10.0 * crease**2))
+
+
+def test_creases_of_vertices_are_read_in_edit_mode() -> None:
+    ob = subdivided()
+    mesh = bmesh.from_edit_mesh(ob.data)
+    layers = mesh.verts.layers
+    crease = layers.crease.verify() if hasattr(layers, "crease") else layers.float.new("crease_vert")
+    mesh.verts.ensure_lookup_table()
+    mesh.verts[7][crease] = 1.0
+    bmesh.update_edit_mesh(ob.data)
+    ob.update_from_editmode()
+    assert np.flatnonzero(compat.read_vertex_creases(ob.data)).tolist() == [7]
 
 
 def test_creases_are_the_modifiers() -> None:

@@ -239,7 +239,7 @@ def written(grey: np.ndarray, path: object, depth: str, kind: str) -> bpy.types.
 def test_far_moves_and_faces_turned_over_are_told_with_what_helps(panel: bpy.types.Object) -> None:
     bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=20.0, border='free', limit=100.0)
     notes = panel.reflection_lines.report.notes
-    assert "of the panel's size" in notes and "the border Clamped, keeps it nearer" in notes
+    assert "of the panel's size" in notes and "the border Tangent (G1), keeps it nearer" in notes
     assert "faces turn by more than 45 degrees" in notes
 
 

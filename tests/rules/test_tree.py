@@ -42,14 +42,10 @@ def test_paths_in_the_readme_exist() -> None:
     assert not wrong, f"README.md names what does not exist: {wrong}"
 
 
-def test_every_verb_is_in_the_readme() -> None:
-    wrong = [verb for verb in verbs() if f"`./run {verb}" not in readme()]
-    assert not wrong, f"README.md does not describe ./run {wrong}"
-
-
-def test_the_readme_names_no_verb_that_is_not_there() -> None:
+def test_the_readme_names_five_verbs_and_the_list_of_all() -> None:
     named = set(re.findall(r"\./run ([a-z]+)", readme()))
     assert named <= set(verbs()), f"README.md names {named - set(verbs())}"
+    assert "help" in named and len(named) == 6
 
 
 def test_one_version() -> None:

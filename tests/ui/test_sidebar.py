@@ -216,7 +216,7 @@ def test_nothing_is_cut_in_what_tools_leave_behind(driver: window.Window) -> Ste
                               "reflines.export_check")
     pull(driver, 0.0, 0.1, limit=2e-3)
     ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
-    yield from nothing_is_cut(driver, "Solve with Limit", "reflines.fit", "Curvature", "Clamped")
+    yield from nothing_is_cut(driver, "Solve with Limit", "reflines.fit", "Curvature (G2)", "Tangent (G1)")
     panel(driver)
     with driver.override():
         bpy.ops.reflines.add_warp_lattice()
