@@ -30,7 +30,7 @@ struct ArrayCaster {
   static constexpr bool kFlat = Type::ColsAtCompileTime == 1;
   static constexpr auto name = pybind11::detail::const_name("numpy.ndarray");  // NOLINT: a caster's name for this
   template <typename To>
-  using cast_op_type = pybind11::detail::movable_cast_op_type<To>;
+  using cast_op_type = pybind11::detail::movable_cast_op_type<To>;  // NOLINT: likewise
 
   // These conversions are part of the interface of a caster.
   operator Type*() { return &value_; }                // NOLINT
