@@ -34,6 +34,20 @@ def find_place(area: bpy.types.Area, region: bpy.types.Region, region_3d: bpy.ty
     return Vector((clamp(x, low + margin, high - margin), clamp(y, margin, region.height - margin)))
 
 
+def find_span(area: bpy.types.Area, region: bpy.types.Region, region_3d: bpy.types.RegionView3D,
+              corners: np.ndarray) -> tuple[float, float] | None:
+    """Finds from where to where a view shows boxes (#corners x 3, world space), in pixels of the region, within what
+    toolbar and sidebar leave free; None where they lie beside it.
+    """
+    seen = [place.x for corner in corners
+            if (place := view3d_utils.location_3d_to_region_2d(region, region_3d, corner)) is not None]
+    free_low, free_high = view_region.find_free_width(area)
+    low, high = max(free_low - region.x, 0), min(free_high - region.x, region.width)
+    if len(seen) == len(corners):  # else the view is within the box
+        low, high = max(low, min(seen)), min(high, max(seen))
+    return (float(low), float(high)) if low < high else None
+
+
 def find_point(region: bpy.types.Region, region_3d: bpy.types.RegionView3D, place: Vector,
                corners: np.ndarray) -> Vector:
     """Returns the point in space at a place of a 3D view's region, as far away as the middle of a box."""

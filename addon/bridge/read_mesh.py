@@ -99,15 +99,17 @@ def read_shape_before(ob: bpy.types.Object, patch: Patch, positions: np.ndarray)
 
 
 def is_undone(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> bool:
-    """Returns whether undo took back the move of the patch to `positions`, in Edit Mode.
+    """Returns whether the mesh is no longer as the move of the patch to `positions` left it, as after undo.
 
-    Only the vertex that moved furthest is compared, so that undo takes no longer.
+    Only the vertex that moved furthest is compared, so that undo and drawing take no longer.
     """
-    vertices = bmesh.from_edit_mesh(ob.data).verts
+    edited = ob.mode == 'EDIT'
+    vertices = bmesh.from_edit_mesh(ob.data).verts if edited else find_shape_points(ob, patch.key)
     furthest = int(np.abs(positions - patch.V).max(axis=1).argmax())
     if patch.index[furthest] >= len(vertices):
         return True
-    vertices.ensure_lookup_table()
+    if edited:
+        vertices.ensure_lookup_table()
     now, left = np.array(vertices[patch.index[furthest]].co), patch.to_object_space(positions)[furthest]
     return bool((np.abs(now - left) > 2.0 * np.spacing(np.abs(left).max())).any())
 

@@ -43,6 +43,15 @@ def read_original_shape(ob: bpy.types.Object) -> np.ndarray | None:
     return None if key is None else read_mesh.read_coordinates(ob, key.relative_key.name)
 
 
+def read_seen_share(ob: bpy.types.Object, name: str) -> float:
+    """Reads how much is seen of the shape key of this name; all of it in Edit Mode, or where there is none."""
+    blocks = ob.data.shape_keys.key_blocks if ob.data.shape_keys is not None else {}
+    key = blocks.get(name)
+    if key is None or ob.mode == 'EDIT' or ob.show_only_shape_key:
+        return 1.0
+    return 0.0 if key.mute else key.value
+
+
 def describe_hidden_key(ob: bpy.types.Object, name: str) -> tuple[str, ...]:
     """Describes why the result in the key of this name cannot be seen: a sentence, or nothing."""
     if baked_keys.are_seen(ob):

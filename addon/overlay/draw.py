@@ -7,11 +7,11 @@ import gpu
 import numpy as np
 
 from .. import native
-from ..bridge import image_pixels, view_region, viewport_cage, viewport_surface
+from ..bridge import image_pixels, places_beside, read_mesh, shape_keys, viewport_cage, viewport_surface
 from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
 from ..model.solution import LastSolve
 from ..model.surface import Surface, Topology
-from ..state import last_panels, solve_history
+from ..state import compared, last_panels, solve_history
 from . import draw_cage, legend, shader, shown_objects, solve_maps, stripe_scene, stripes
 from .fitted_normals import FIT_RINGS, FittedNormals
 from .limit_surface import LimitSurfaces
@@ -45,7 +45,8 @@ class ShownObject:
     stale: bool = True            # the surface may have changed since it was uploaded
     topology: Topology | None = None
     surface: Uploaded = field(default_factory=Uploaded)
-    after: Uploaded | None = None  # beside the shape before the last solve, that after it
+    after: Uploaded | None = None  # beside the shape before the last solve, that after it, where they differ
+    corners: np.ndarray | None = None  # 8 x 3: of the box around what the last solve moved, object space
     cage: draw_cage.ShownCage | None = None   # of Edit Mode
     drawn: float = field(default_factory=time.monotonic)  # time of the last drawing
 
@@ -93,8 +94,11 @@ def draw_stripes() -> None:
     """Draws the stripes in a viewport (POST_VIEW)."""
     context = bpy.context
     settings = context.scene.reflection_lines.stripes
+    compared.note_span(context.region, None)
     if settings.show and context.space_data.overlay.show_overlays:
         draw_objects(context, settings)
+    if not stripe_scene.is_split(settings):
+        compared.set_share(compared.MIDDLE)
     drop_unseen_objects()
     if is_waiting() and not bpy.app.timers.is_registered(poll_fits):
         bpy.app.timers.register(poll_fits, first_interval=POLL_INTERVAL)
@@ -102,6 +106,7 @@ def draw_stripes() -> None:
 
 def draw_objects(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
     last_panels.remember_panels(context.scene, shown_objects.find_panels(context, settings))
+    drawn = []
     for ob in shown_objects.find_shown_objects(context, settings):
         values = stripe_scene.build_uniforms(context, ob)
         if values is None:
@@ -109,14 +114,33 @@ def draw_objects(context: bpy.types.Context, settings: bpy.types.PropertyGroup) 
         shown = _cache.shown.setdefault(ob.name_full, ShownObject(find_address(ob)))
         shown.drawn = time.monotonic()
         refresh_object(shown, ob, settings, context.evaluated_depsgraph_get())
-        middle = view_region.find_view_middle(context.area)[0] - context.region.x if shown.after is not None else 0
-        for name, uploaded, side in ((ob.name_full, shown.surface, -1.0),
-                                     (AFTER + ob.name_full, shown.after, 1.0)):
-            if uploaded is not None and uploaded.batch is not None:
-                draw_batch(name, uploaded.batch, stripes.keep_side(values, side * middle), find_texture(settings))
-        if shown.cage is not None:
-            _cache.dots = _cache.dots or draw_cage.compile_dots()
-            draw_cage.CagePainter(context, ob, _cache.dots).draw(shown.cage)
+        drawn.append((ob, shown, values))
+    note_comparison(context, [(ob, shown.corners) for ob, shown, _ in drawn if shown.after is not None])
+    for ob, shown, values in drawn:
+        draw_object(context, ob, shown, values)
+
+
+def note_comparison(context: bpy.types.Context, boxes: list[tuple[bpy.types.Object, np.ndarray]]) -> None:
+    """Records where the view shows objects before and after their last solve, by the corners of their boxes."""
+    if not boxes:
+        return
+    matrices = [(stripe_scene.to_array(ob.matrix_world), corners) for ob, corners in boxes]
+    corners = np.concatenate([corners @ matrix[:3, :3].T + matrix[:3, 3] for matrix, corners in matrices])
+    span = places_beside.find_span(context.area, context.region, context.region_data, corners)
+    compared.note_span(context.region, span)
+
+
+def draw_object(context: bpy.types.Context, ob: bpy.types.Object, shown: ShownObject, values: np.ndarray) -> None:
+    """Draws the stripes of an object, those before the last solve up to the divider, and its cage."""
+    texture = find_texture(context.scene.reflection_lines.stripes)
+    divider = compared.find_divider(context.region) if shown.after is not None else None
+    x = 0.0 if divider is None else max(round(divider), 1)  # 0 stands for no divider
+    for name, uploaded, side in ((ob.name_full, shown.surface, -1.0), (AFTER + ob.name_full, shown.after, 1.0)):
+        if uploaded is not None and uploaded.batch is not None:
+            draw_batch(name, uploaded.batch, stripes.keep_side(values, side * x), texture)
+    if shown.cage is not None:
+        _cache.dots = _cache.dots or draw_cage.compile_dots()
+        draw_cage.CagePainter(context, ob, _cache.dots).draw(shown.cage)
 
 
 def find_address(ob: bpy.types.Object) -> tuple[str, str | None]:
@@ -148,18 +172,31 @@ def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types
     if not shown.stale and shown.kind == kind:
         return
     read = read_limit_surface(ob, settings) or viewport_surface.read_viewport_surface(ob, depsgraph, shown.topology)
-    changed = solution is not None and not solve_maps.is_current(solution, read.V, len(ob.data.vertices))
+    changed = solution is not None and not is_current(ob, solution, read)
     solve_history.mark_changed(ob.name_full, changed=changed)
     if changed:
         solution = None
     shown.surface.take(build_arrays(ob, settings, read, solution))
-    if stripe_scene.is_split(settings) and solution is not None:
+    if stripe_scene.is_split(settings) and solution is not None and is_seen(ob, solution):
         shown.after = shown.after or Uploaded()
+        shown.corners = places_beside.measure_corners(solution.patch.local)
         shown.after.take(build_shape_arrays(ob, settings, read))
     else:
         shown.after = None
     shown.cage = draw_cage.start_cage(ob, read) if with_cage else None
     shown.topology, shown.kind, shown.stale = read.topology, kind, False
+
+
+def is_current(ob: bpy.types.Object, solution: LastSolve, read: Surface) -> bool:
+    """Returns whether an object is as its last solve left it: the surface shown, or else the mesh below it."""
+    if len(read.V) == len(ob.data.vertices):
+        return solve_maps.is_current(solution, read.V, shape_keys.read_seen_share(ob, solution.patch.key))
+    return not read_mesh.is_undone(ob, solution.patch, solution.positions)
+
+
+def is_seen(ob: bpy.types.Object, solution: LastSolve) -> bool:
+    """Returns whether the last solve is a difference that is seen."""
+    return solve_maps.has_moved(solution) and shape_keys.read_seen_share(ob, solution.patch.key) != 0.0
 
 
 def read_limit_surface(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,

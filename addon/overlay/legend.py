@@ -1,4 +1,6 @@
-"""The legend of the maps in a 3D view: a bar of their colours, what the ends stand for, with unit and sign."""
+"""The legends of a 3D view: of a map the bar of its colours, with unit and sign, and of the shapes before and after the
+last solve the divider between them, with their names.
+"""
 import blf
 import bpy
 import gpu
@@ -6,10 +8,12 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..bridge import units, view_region
-from ..state import solve_history
-from . import shown_objects, solve_maps, stripe_scene, stripes
+from ..state import compared, solve_history
+from . import handle_marks, shown_objects, solve_maps, stripe_scene, stripes
 
 WIDTH, HEIGHT, MARGIN, STEPS = 220.0, 12.0, 16.0, 64  # pixels at a scale of 1; and pieces of the bar
+LOW, KNOB = 72.0, 9.0  # pixels at a scale of 1: height of the knob above the redo panel, and its radius
+LINE_COLOR, TAKEN_COLOR = (1.0, 1.0, 1.0, 1.0), (1.0, 0.75, 0.1, 1.0)
 FONT, SIZE = 0, 11.0
 TITLES = {'DEVIATION': "Moved by the last solve, + outwards", 'RESIDUAL': "Lines off the wanted ones"}
 
@@ -40,16 +44,15 @@ def draw_legend() -> None:
     """Draws the legend of a map, or of the two sides of a view, in a viewport (POST_PIXEL)."""
     context = bpy.context
     settings = context.scene.reflection_lines.stripes
-    if settings.show and stripe_scene.is_split(settings) and context.space_data.overlay.show_overlays \
-            and any(solve_history.find_last_solve(ob.name_full) is not None
-                    for ob in shown_objects.find_shown_objects(context, settings)):
-        draw_sides(context)
+    divider = compared.find_divider(context.region)
+    if divider is not None:
+        draw_sides(context, round(divider))
     full = find_full_value(context, settings)
     if full is None:
         return
     scale = context.preferences.system.ui_scale
     left = view_region.find_view_left(context.area) - context.region.x + MARGIN * scale
-    low = 4.5 * MARGIN * scale  # above the redo panel
+    low = LOW * scale
     draw_bar(settings.mode, left, low, scale)
     ends = describe_ends(context.scene, settings.mode, full)
     start_text(scale)
@@ -59,18 +62,30 @@ def draw_legend() -> None:
     blf.disable(FONT, blf.SHADOW)
 
 
-def draw_sides(context: bpy.types.Context) -> None:
-    """Draws the line between the shapes before and after the last solve, and their names."""
-    scale, height = context.preferences.system.ui_scale, context.region.height
-    middle = float(view_region.find_view_middle(context.area)[0] - context.region.x)
-    shader = gpu.shader.from_builtin('SMOOTH_COLOR')
-    batch_for_shader(shader, 'LINES', {"pos": [(middle, 0.0, 0.0), (middle, float(height), 0.0)],
-                                       "color": [(1.0, 1.0, 1.0, 1.0)] * 2}).draw(shader)
+def draw_sides(context: bpy.types.Context, x: float) -> None:
+    """Draws the line between the shapes before and after the last solve, their names, and what drags the line."""
+    scale, height = context.preferences.system.ui_scale, float(context.region.height)
+    low = LOW * scale
+    color = TAKEN_COLOR if compared.is_taken() else LINE_COLOR
+    handle_marks.draw_shape('LINES', np.array([(x, 0.0, 0.0), (x, height, 0.0)]), color)
+    if context.space_data.show_gizmo:
+        draw_knob(x, low, scale, color)
     start_text(scale)
-    low = 4.5 * MARGIN * scale
-    draw_text("Before", middle - blf.dimensions(FONT, "Before")[0] - MARGIN * scale, low)
-    draw_text("After", middle + MARGIN * scale, low)
+    below = low - 0.35 * SIZE * scale
+    draw_text("Before", x - blf.dimensions(FONT, "Before")[0] - MARGIN * scale, below)
+    draw_text("After", x + MARGIN * scale, below)
     blf.disable(FONT, blf.SHADOW)
+
+
+def draw_knob(x: float, y: float, scale: float, color: tuple[float, float, float, float]) -> None:
+    """Draws a disc with an arrow to each side, which says that the line can be dragged."""
+    gpu.state.blend_set('ALPHA')
+    handle_marks.draw_ring((x, y), 0.0, (KNOB + 1.5) * scale, handle_marks.RIM_COLOR)
+    handle_marks.draw_ring((x, y), 0.0, KNOB * scale, color)
+    for side in (-1.0, 1.0):
+        arrow = np.array([(2.0, 3.5), (2.0, -3.5), (6.5, 0.0)]) * (side, 1.0) * scale + (x, y)
+        handle_marks.draw_shape('TRIS', np.column_stack([arrow, np.zeros(3)]), handle_marks.RIM_COLOR)
+    gpu.state.blend_set('NONE')
 
 
 def start_text(scale: float) -> None:

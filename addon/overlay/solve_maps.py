@@ -16,15 +16,23 @@ def compute_left_positions(solution: LastSolve) -> np.ndarray:
     return patch.local + np.linalg.solve(patch.matrix[:3, :3], (solution.positions - patch.V).T).T
 
 
-def is_current(solution: LastSolve, V: np.ndarray, vertices: int) -> bool:
-    """Returns whether the surface shown (V) is as the solve left it; True where its vertices are not the mesh's."""
+def is_current(solution: LastSolve, V: np.ndarray, share: float) -> bool:
+    """Returns whether the mesh's vertices as they are shown (V) are as the solve left them, with a share of its move:
+    nearer to that than to the shape before, which undo brings back, however little the solve moved.
+    """
     patch = solution.patch
-    if len(V) != vertices:
-        return True
     if patch.index[-1] >= len(V):
         return False
     size = np.ptp(patch.local, axis=0).max()
-    return bool(np.abs(V[patch.index] - compute_left_positions(solution)).max() <= UNCHANGED_TOLERANCE * size)
+    shown = patch.local + share * (compute_left_positions(solution) - patch.local)
+    off, back = (np.abs(V[patch.index] - each).max() for each in (shown, patch.local))
+    return bool(off <= UNCHANGED_TOLERANCE * size and off <= back)
+
+
+def has_moved(solution: LastSolve) -> bool:
+    """Returns whether the solve moved any vertex by as much as a mesh can store."""
+    left, before = (each.astype(np.float32) for each in (compute_left_positions(solution), solution.patch.local))
+    return not np.array_equal(left, before)
 
 
 def build_residual_map(solution: LastSolve, full: float) -> Arrays:

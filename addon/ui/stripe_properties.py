@@ -34,8 +34,8 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     before: BoolProperty(name="Before Last Solve",
                          description="Show the reflections that the panel had before its last solve")
     side_by_side: BoolProperty(name="Side by Side", default=True,
-                               description="Left of the view's middle the reflections before the last solve, right of "
-                               "it those after")
+                               description="Left of a line in the view the reflections before the last solve, right "
+                               "of it those after; drag the line with the mouse")
     mode: EnumProperty(name="Mode", items=MODES, default='REFLECTION')
     eye: EnumProperty(name="Seen From", items=EYES, default='CAMERA',
                       update=lambda self, context: self.freeze_if_asked(context))

@@ -339,9 +339,8 @@ def test_before_and_after_side_by_side(driver: window.Window) -> Steps:
     stripes().side_by_side = True
     both = yield from captured(driver)
     yield from window.take_picture(driver, "sides")
+    middle = round(sys.modules["reflection_lines"].state.compared.find_divider(driver.region()))
     stripes().before = False
-    view_region = sys.modules["reflection_lines"].bridge.view_region
-    middle = view_region.find_view_middle(driver.area())[0] - driver.region().x
     assert np.array_equal(both[:, :middle - 1], before[:, :middle - 1])
     assert np.array_equal(both[:, middle + 1:], after[:, middle + 1:])
     for side in (slice(None, middle), slice(middle, None)):
