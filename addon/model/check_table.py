@@ -1,9 +1,11 @@
-"""The table of a check: lines with a value before and after, a pass mark, and whether it passes."""
+"""The table of a check: lines with a value before and after, how that changed, a pass mark, and whether it passes."""
 import csv
 import io
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
+
+LINES_TOLERANCE = 0.05  # degrees that the mesh's own facets can add to how far lines are off their course
 
 
 @dataclass(frozen=True)
@@ -15,14 +17,25 @@ class TableRow:
     after: float
     mark: float | None   # of a crease that for the change
     passes: bool
+    change: str = "unchanged"  # "better", "unchanged", "worse" against before
+    better: int = 0      # edges that are better
+    worse: int = 0
 
 
-def describe_solve(score: tuple[float, float], move: float, limit: float | None) -> list[TableRow]:
-    """Returns the lines of the last solve: the deviation of its lines (degrees, before and after), and its largest move
-    along the view against its limit.
+def describe_solve(lines: tuple[float, float], move: float, limit: float | None) -> list[TableRow]:
+    """Returns the lines of the last solve: how far reflection lines were and are off their course (degrees), and its
+    largest move along the view against its limit.
     """
-    return [TableRow("deviation of the lines", "degrees", *score, None, True),
-            TableRow("move along the view", "length", 0.0, move, limit, limit is None or move <= limit)]
+    within = limit is None or move <= limit
+    return [TableRow("lines off their course", "degrees", *lines, None, True, compare(*lines, LINES_TOLERANCE)),
+            TableRow("move along the view", "length", 0.0, move, limit, within, "unchanged" if within else "worse")]
+
+
+def compare(before: float, after: float, tolerance: float) -> str:
+    """Says how a value changed that is the better the smaller it is."""
+    if abs(after - before) <= tolerance:
+        return "unchanged"
+    return "worse" if after > before else "better"
 
 
 def format_csv(rows: Sequence[TableRow]) -> str:
@@ -35,6 +48,7 @@ def format_csv(rows: Sequence[TableRow]) -> str:
 
 
 def format_json(name: str, rows: Sequence[TableRow]) -> str:
-    """Formats the table as JSON, with the name of the object and whether all lines pass."""
-    table = {"object": name, "passes": all(row.passes for row in rows), "rows": [asdict(row) for row in rows]}
+    """Formats the table as JSON, with the name of the object, whether all lines pass, and whether any is worse."""
+    table = {"object": name, "passes": all(row.passes for row in rows),
+             "worse": any(row.change == "worse" for row in rows), "rows": [asdict(row) for row in rows]}
     return json.dumps(table, indent=2) + "\n"

@@ -19,8 +19,8 @@ from ..state.last_checks import DrawnCheck
 
 
 class REFLINES_OT_check(bpy.types.Operator):
-    """Measure gap, angle and curvature along borders and creases, and the deviation, before and after the last run, and
-hold them against the marks; without a run the selected faces as they are"""
+    """Measure borders and creases, and the deviation: what is better or worse than before the last run, and what is
+beyond its mark; without a run hold the selected faces against the marks"""
     bl_idname = "reflines.check"
     bl_label = "Check Panel"
     bl_options = {'REGISTER', 'UNDO'}
@@ -43,8 +43,8 @@ hold them against the marks; without a run the selected faces as they are"""
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
         stored = ob.reflection_lines.check
-        stored.fill([*found.rows, *own], len(found.passes), int((~found.passes).sum()))
-        last_checks.remember_check(ob.name_full, build_drawn(ob, found))
+        stored.fill([*found.rows, *own], len(found.passes), int((~found.passes).sum()), compared=bool(own))
+        last_checks.remember_check(ob.name_full, build_drawn(ob, found, compared=bool(own)))
         self.report({'INFO'}, f"{ob.name}: {stored.headline()}")
         return {'FINISHED'}
 
@@ -57,8 +57,7 @@ hold them against the marks; without a run the selected faces as they are"""
             mesh_checks.refuse_flat(ob)
             patch, positions, growth = read_checked.follow_object(ob, last.patch, last.positions)
             report = ob.reflection_lines.report
-            score = report.score_before, report.score_after
-            return patch, positions, check_table.describe_solve(score, growth * report.largest_move,
+            return patch, positions, check_table.describe_solve(report.lines_off(), growth * report.largest_move,
                                                                 growth * report.automatic_limit or None)
         patch = read_patch.gather_mesh_patch(ob, or_all=True, purpose=Purpose.READ)
         return patch, patch.V, []
@@ -69,11 +68,13 @@ def find_limit(rows: list[TableRow]) -> float | None:
     return next((row.mark for row in rows if row.name == "move along the view"), None)
 
 
-def build_drawn(ob: bpy.types.Object, found: Checked) -> DrawnCheck:
-    """Takes to object space what is drawn of a check."""
+def build_drawn(ob: bpy.types.Object, found: Checked, *, compared: bool) -> DrawnCheck:
+    """Takes to object space what is drawn of a check; without a run what passes counts as better, the rest as worse."""
     inverse = np.linalg.inv(np.array(ob.matrix_world, dtype=np.float64))
     segments, worst = (points @ inverse[:3, :3].T + inverse[:3, 3] for points in (found.segments, found.worst))
-    return DrawnCheck(segments, found.passes, worst, read_mesh.read_shown_coordinates(ob))
+    change = found.change if compared else np.where(found.passes, "better", "worse")
+    worse = found.worse if compared else np.ones(len(worst), dtype=bool)
+    return DrawnCheck(segments, change, worst, worse, read_mesh.read_shown_coordinates(ob))
 
 
 class REFLINES_OT_export_check(ExportHelper, bpy.types.Operator):

@@ -1,4 +1,6 @@
-"""Draws the last check of the active object: seams that pass green, others red, and a dot at each worst place."""
+"""Draws the last check of the active object: seams that are better than before green, worse ones red, others grey,
+and a dot at each worst place, red or, where it is beyond the mark as before, orange.
+"""
 from dataclasses import dataclass, field
 
 import bpy
@@ -10,7 +12,8 @@ from ..state.last_checks import DrawnCheck
 from . import handle_marks, surface_lines
 from .surface_lines import SurfaceLines
 
-PASS_COLOR, FAIL_COLOR = (0.15, 0.8, 0.3), (1.0, 0.15, 0.1)  # sRGB
+COLORS = {"better": (0.15, 0.8, 0.3), "unchanged": (0.6, 0.65, 0.75), "worse": (1.0, 0.15, 0.1)}  # sRGB
+BEYOND_COLOR = (1.0, 0.6, 0.1)
 DOT_RADIUS, DOT_RIM = 6.0, 2.0  # pixels, times the interface's scale
 DOT_RIM_COLOR = (1.0, 1.0, 1.0, 1.0)
 
@@ -42,8 +45,8 @@ def draw_seams() -> None:
         return
     ob, check = found
     if _cache.check is not check:
-        _cache.lines = surface_lines.build_lines({PASS_COLOR: check.segments[check.passes].reshape(-1, 3),
-                                                  FAIL_COLOR: check.segments[~check.passes].reshape(-1, 3)})
+        _cache.lines = surface_lines.build_lines({color: check.segments[check.change == change].reshape(-1, 3)
+                                                  for change, color in COLORS.items()})
         _cache.check = check
     surface_lines.draw_lines(bpy.context, ob, _cache.lines)
 
@@ -55,11 +58,12 @@ def draw_worst() -> None:
         return
     ob, check = found
     scale, matrix = context.preferences.system.ui_scale, np.array(ob.matrix_world)
-    for point in check.worst @ matrix[:3, :3].T + matrix[:3, 3]:
+    for point, worse in zip(check.worst @ matrix[:3, :3].T + matrix[:3, 3], check.worse, strict=True):
         place = location_3d_to_region_2d(context.region, context.region_data, point.tolist())
         if place is not None:
             handle_marks.draw_ring(place, 0.0, scale * (DOT_RADIUS + DOT_RIM), DOT_RIM_COLOR)
-            handle_marks.draw_ring(place, 0.0, scale * DOT_RADIUS, (*FAIL_COLOR, 1.0))
+            color = COLORS["worse"] if worse else BEYOND_COLOR
+            handle_marks.draw_ring(place, 0.0, scale * DOT_RADIUS, (*color, 1.0))
 
 
 @bpy.app.handlers.persistent

@@ -23,14 +23,19 @@ class Checked:
     rows: list[TableRow]
     segments: np.ndarray  # #E x 2 x 3: the edges that were judged
     passes: np.ndarray    # #E, bool
-    worst: np.ndarray     # #W x 3: the worst place of each line of the table that fails
+    change: np.ndarray    # #E: "better", "unchanged", "worse" against before
+    worst: np.ndarray     # #W x 3: the worst place of each line of the table that is worse or does not pass
+    worse: np.ndarray     # #W, bool: whether that line is worse
 
 
 def check_surface(surface: CheckedSurface, marks: Marks) -> Checked:
     """Measures gap, angle, curvature and deviation; raises the native module's errors."""
     found = native.reflines.check(surface.before, surface.after, surface.F, surface.region, **surface.creases,
                                   **asdict(marks))
-    rows = [TableRow(row.name, row.unit, row.before, row.after, row.mark, row.passes) for row in found.rows]
+    rows = [TableRow(row.name, row.unit, row.before, row.after, row.mark, row.passes, row.change, row.better,
+                     row.worse) for row in found.rows]
     judged = np.array([kind != "open" for kind in found.kind], dtype=bool)
-    worst = np.array([row.place for row in found.rows if not row.passes]).reshape(-1, 3)
-    return Checked(rows, surface.after[found.edges[judged]], found.passes[judged], worst)
+    told = [row for row in found.rows if row.change == "worse" or not row.passes]
+    return Checked(rows, surface.after[found.edges[judged]], found.passes[judged], np.array(found.change)[judged],
+                   np.array([row.place for row in told]).reshape(-1, 3),
+                   np.array([row.change == "worse" for row in told], dtype=bool))

@@ -1,4 +1,4 @@
-"""The last check of each object as far as it is drawn: its seams, green or red, and the worst places."""
+"""The last check of each object as far as it is drawn: its seams by how they changed, and the worst places."""
 from dataclasses import dataclass
 
 import bpy
@@ -12,8 +12,9 @@ from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
 class DrawnCheck:
     """Seams and places in object space."""
     segments: np.ndarray  # #E x 2 x 3
-    passes: np.ndarray    # #E, bool
-    worst: np.ndarray     # #W x 3: the worst place of each line of the table that fails
+    change: np.ndarray    # #E: "better", "unchanged", "worse" against before
+    worst: np.ndarray     # #W x 3: the worst place of each line of the table that is worse or does not pass
+    worse: np.ndarray     # #W, bool: whether that line is worse
     shape: np.ndarray     # #vertices x 3 float32: the whole mesh, of which alone all this is true
 
 

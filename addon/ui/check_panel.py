@@ -3,6 +3,7 @@ import bpy
 
 from .panels import ReflinesPanel, draw_paragraph
 
+ICONS = {"better": 'CHECKMARK', "unchanged": 'DOT', "worse": 'CANCEL'}
 
 class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
     bl_label = "Check"
@@ -23,10 +24,12 @@ class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
 
     def draw_table(self, layout: bpy.types.UILayout, context: bpy.types.Context,
                    check: bpy.types.PropertyGroup) -> None:
+        draw_paragraph(layout, context, check.headline(), 'INFO')
         for row in check.rows:
+            change = row.change if check.compared else "better" if row.passes else "worse"
             line = layout.column(align=True)
-            line.alert = not row.passes
-            draw_paragraph(line, context, row.describe(), 'CHECKMARK' if row.passes else 'CANCEL')
+            line.alert = change == "worse"
+            draw_paragraph(line, context, row.describe(compared=check.compared), ICONS.get(change, 'DOT'))
         layout.operator("reflines.export_check", icon='EXPORT')
 
 

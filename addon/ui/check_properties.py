@@ -37,15 +37,30 @@ class ReflinesCheckRow(bpy.types.PropertyGroup):
     after: FloatProperty(name="After")
     mark: FloatProperty(name="Mark", default=NO_MARK)
     passes: BoolProperty(name="Passes")
+    change: StringProperty(name="Change", default="unchanged", description="Against before")
+    better: IntProperty(name="Better", description="Edges that are better than before")
+    worse: IntProperty(name="Worse", description="Edges that are worse than before")
 
     def to_row(self) -> TableRow:
         return TableRow(self.name, self.unit, self.before, self.after, None if self.mark < 0.0 else self.mark,
-                        self.passes)
+                        self.passes, self.change, self.better, self.worse)
 
-    def describe(self) -> str:
-        """Describes the line in the scene's units."""
-        values = " \u2192 ".join(self.format_value(value) for value in (self.before, self.after))
-        return f"{self.name[:1].upper()}{self.name[1:]}: {values}"
+    def describe(self, *, compared: bool) -> str:
+        """Describes the line in the scene's units: the value, before it that before the last run, and the mark."""
+        shown = (self.before, self.after) if compared else (self.after,)
+        values = " \u2192 ".join(self.format_value(value) for value in shown)
+        return f"{self.name[:1].upper()}{self.name[1:]}: {values}{self.describe_change()}{self.describe_mark()}"
+
+    def describe_change(self) -> str:
+        """Says how the value changed, and at how many edges; nothing where it did not."""
+        counts = [f"{name} at {count}" for name, count in (("better", self.better), ("worse", self.worse)) if count]
+        return f", {' and '.join(counts)} edges" if counts else "" if self.change == "unchanged" else f", {self.change}"
+
+    def describe_mark(self) -> str:
+        if self.mark < 0.0:
+            return ""
+        beyond = "" if self.passes else "beyond the "
+        return f" ({beyond}mark {self.format_value(self.mark)}{' of change' if self.name.startswith('crease') else ''})"
 
     def format_value(self, value: float) -> str:
         if self.unit == "length":
@@ -58,25 +73,34 @@ class ReflinesCheck(bpy.types.PropertyGroup):
     rows: CollectionProperty(type=ReflinesCheckRow)
     seams: IntProperty(name="Seams", description="Edges that were judged")
     failed: IntProperty(name="Failed", description="Those of them that do not pass")
+    compared: BoolProperty(name="Compared", description="Whether there is a run, before which the panel was another")
 
-    def fill(self, rows: Sequence[TableRow], seams: int, failed: int) -> None:
+    def fill(self, rows: Sequence[TableRow], seams: int, failed: int, *, compared: bool) -> None:
         self.rows.clear()
         for row in rows:
             stored = self.rows.add()
-            for name in ("name", "unit", "before", "after", "passes"):
+            for name in ("name", "unit", "before", "after", "passes", "change", "better", "worse"):
                 setattr(stored, name, getattr(row, name))
             stored.mark = NO_MARK if row.mark is None else row.mark
-        self.seams, self.failed = seams, failed
+        self.seams, self.failed, self.compared = seams, failed, compared
 
     def to_rows(self) -> list[TableRow]:
         return [row.to_row() for row in self.rows]
 
     def headline(self) -> str:
-        """Says in a sentence whether all passes."""
-        wrong = [row.name for row in self.rows if not row.passes]
-        if wrong:
-            return f"Does not pass: {', '.join(wrong)}"
-        return f"Passes: {len(self.rows)} lines, {self.seams} edges of borders and creases"
+        """Says in a sentence what is worse than before and what is beyond its mark; without a run what does not pass.
+        """
+        beyond = [row.name for row in self.rows if not row.passes]
+        if not self.compared and beyond:
+            return f"Does not pass: {', '.join(beyond)}"
+        if not self.compared:
+            return f"Passes: {len(self.rows)} lines, {self.seams} edges of borders and creases"
+        worse = [row.name for row in self.rows if row.change == "worse"]
+        better = [row.name for row in self.rows if row.change == "better"]
+        told = (("worse than before", worse), ("better than before", better),
+                ("beyond the mark, as before", [name for name in beyond if name not in worse]))
+        said = "; ".join(f"{what}: {', '.join(names)}" for what, names in told if names)
+        return f"{said[:1].upper()}{said[1:]}" if said else "Nothing has changed by more than the marks"
 
 
 register, unregister = bpy.utils.register_classes_factory([ReflinesMarks, ReflinesCheckRow, ReflinesCheck])

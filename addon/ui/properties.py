@@ -133,6 +133,12 @@ class ReflinesReport(bpy.types.PropertyGroup):
         return Gain(self.score_before, self.score_after, self.residual_before,
                     self.residual_after).describe(smoothed=smoothed)
 
+    def lines_off(self) -> tuple[float, float]:
+        """Returns how far lines were and are off their course, degrees: at the worst place where that is known, else
+        in the mean.
+        """
+        return (self.worst_before, self.worst_after) if self.healed else (self.score_before, self.score_after)
+
     def measured_length(self) -> str:
         """Says the length at which the line deviation was measured."""
         return units.format_length(self.length, bpy.context.scene, 3)

@@ -37,6 +37,17 @@ std::string kind_name(SeamKind kind) {
   return kind == SeamKind::kCrease ? "crease" : "border";
 }
 
+std::string change_name(Change change) {
+  if (change == Change::kUnchanged) return "unchanged";
+  return change == Change::kWorse ? "worse" : "better";
+}
+
+std::vector<std::string> change_names(const PanelCheck& check) {
+  std::vector<std::string> names;
+  for (const Change change : check.change) names.push_back(change_name(change));
+  return names;
+}
+
 std::vector<std::string> kind_names(const PanelCheck& check) {
   std::vector<std::string> names;
   for (const SeamKind kind : check.kind) names.push_back(kind_name(kind));
@@ -58,7 +69,10 @@ void bind_check_panel(py::module_& module) {
       .def_readonly("after", &CheckRow::after)
       .def_property_readonly("mark", &mark_of)
       .def_readonly("passes", &CheckRow::passes)
-      .def_readonly("place", &CheckRow::place);
+      .def_readonly("place", &CheckRow::place)
+      .def_property_readonly("change", [](const CheckRow& row) { return change_name(row.change); })
+      .def_readonly("better", &CheckRow::better)
+      .def_readonly("worse", &CheckRow::worse);
   py::class_<PanelCheck>(module, "PanelCheck", py::module_local())
       .def_readonly("edges", &PanelCheck::edges)
       .def_property_readonly("kind", &kind_names)
@@ -69,6 +83,7 @@ void bind_check_panel(py::module_& module) {
       .def_property_readonly("curvature_before", [](const PanelCheck& own) { return own.before.curvature; })
       .def_property_readonly("curvature_after", [](const PanelCheck& own) { return own.after.curvature; })
       .def_readonly("passes", &PanelCheck::passes)
+      .def_property_readonly("change", &change_names)
       .def_readonly("deviation", &PanelCheck::deviation)
       .def_readonly("largest_deviation", &PanelCheck::largest_deviation)
       .def_readonly("deviation_95", &PanelCheck::deviation_95)

@@ -310,7 +310,11 @@ class CheckRow:
     after: float
     mark: float | None   # of a crease that for the change
     passes: bool
-    place: np.ndarray    # 3: where it is worst
+    place: np.ndarray    # 3: where it is worst; of a line that is worse than before where it grew most
+    change: str          # "better", "unchanged", "worse" against before, by more than the mark or across it: of the largest
+                         # value, and of most seams
+    better: int          # seams that are
+    worse: int
 
 class PanelCheck:
     """The result of `check`; see native/include/reflines/check_panel.h."""
@@ -323,6 +327,7 @@ class PanelCheck:
     curvature_before: np.ndarray  # #E, percent
     curvature_after: np.ndarray
     passes: np.ndarray          # #E bool
+    change: list[str]           # #E: "better", "unchanged", "worse" against before
     deviation: np.ndarray       # #V: distance from the surface before
     largest_deviation: float
     deviation_95: float         # not exceeded by 95 % of the region's vertices

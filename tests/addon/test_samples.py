@@ -230,6 +230,16 @@ def test_hood_is_smoothed_by_one_call() -> None:
     assert np.array_equal(before[outside], after[outside])
 
 
+def test_a_check_of_the_smoothed_hood_names_nothing_that_is_worse() -> None:
+    """The curvature across its border was far beyond the mark before, too."""
+    panel = opened("hood.blend")
+    assert bpy.ops.reflines.smooth() == {'FINISHED'} and bpy.ops.reflines.check() == {'FINISHED'}
+    rows = {row.name: row for row in panel.reflection_lines.check.rows}
+    assert "worse" not in {row.change for row in rows.values()} and rows["lines off their course"].change == "better"
+    curvature = rows["border curvature"]
+    assert curvature.before > curvature.after > curvature.mark and curvature.better > 2 * curvature.worse
+
+
 def test_smoothing_brings_the_lines_back_to_the_clean_panels() -> None:
     panel = opened("hood.blend")
     F, before = region_triangles(panel), positions(panel).astype(float)

@@ -44,6 +44,47 @@ def test_marks_decide_what_passes() -> None:
     assert not reflines.check(before, after, F, region, angle=90.0, curvature=1e6, deviation=0.1 * far).all_pass
 
 
+def folded(angles: tuple[float, float]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A plane of two bands that meet the middle one, the region, at edges bent by these angles (degrees)."""
+    V, F = panel(24, jitter=0.0)
+    x = V[:, 0]
+    V[:, 2] = sum(np.tan(np.radians(angle)) * np.maximum(0.0, side * x - 0.5)
+                  for angle, side in zip(angles, (-1.0, 1.0), strict=True))
+    return V, F, (np.abs(V[F].mean(axis=1)[:, 0]) < 0.5)
+
+
+@pytest.mark.parametrize(("before", "after", "change"), [
+    ((8.0, 8.0), (7.5, 7.5), "unchanged"), ((8.0, 8.0), (2.0, 2.0), "better"), ((8.0, 8.0), (9.5, 9.5), "worse"),
+    ((0.8, 0.8), (1.2, 1.2), "worse"),   # no longer within the mark
+    ((1.2, 1.2), (0.8, 0.8), "better"),  # within it now
+    ((8.0, 2.0), (8.0, 4.0), "worse"),   # hidden behind the largest value, which is as before
+    ((8.0, 2.0), (5.0, 2.0), "better"),
+])
+def test_a_border_is_judged_against_before(before: tuple, after: tuple, change: str) -> None:
+    """By a mark of one degree. What was beyond the mark before and is so now is no news."""
+    (V, F, region), (W, _, _) = folded(before), folded(after)
+    check = reflines.check(V, W, F, region, angle=1.0, curvature=1e6)
+    row = next(row for row in check.rows if row.name == "border angle")
+    assert (row.before, row.after) == pytest.approx((max(before), max(after)), abs=0.05)
+    assert row.change == change and row.passes == (max(after) <= 1.0)
+    sides = [np.sign(V[ends, 0].mean()) for ends in check.edges]
+    grown = {-1.0: after[0] - before[0], 1.0: after[1] - before[1]}
+    for side, kind, told in zip(sides, check.kind, check.change, strict=True):
+        assert told == ("unchanged" if kind == "open" or abs(grown[side]) < 0.1 else change)
+    assert (row.better, row.worse) == tuple(check.change.count(name) for name in ("better", "worse"))
+    if row.worse:
+        assert grown[np.sign(row.place[0])] > 0.1
+
+
+def test_a_line_is_worse_where_more_edges_are_worse_than_better() -> None:
+    (V, F, region), (W, _, _) = folded((8.0, 2.0)), folded((5.0, 4.0))
+    kept = (W[:, 1] < 0.0) & (W[:, 0] < 0.0)  # half of the left border, where nothing becomes better
+    W[kept, 2] = V[kept, 2]
+    row = next(row for row in reflines.check(V, W, F, region, angle=1.0, curvature=1e6).rows
+               if row.name == "border angle")
+    assert row.worse > row.better > 0 and row.change == "worse"
+
+
 @pytest.mark.parametrize(("change", "said"), [
     ({"after": np.zeros((3, 3))}, "vertices before and 3 after"),
     ({"region": np.ones(3, bool)}, "mask has 3 entries"),

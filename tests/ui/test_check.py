@@ -1,4 +1,5 @@
-"""The last check is drawn: seams that pass green, others red, a dot at the worst place, and gone when the mesh changes.
+"""The last check is drawn: without a run seams that pass green, others red, after one by what is better or worse; a
+dot at the worst place; and gone when the mesh changes.
 """
 import sys
 
@@ -78,4 +79,19 @@ def test_the_worst_place_has_a_red_dot_with_a_white_rim(driver: window.Window) -
         assert np.abs(pictures[-1][y, x, :3].astype(int) - color).max() < 40, (radius, pictures[-1][y, x, :3])
 
 
-window.run(test_seams_are_green_or_red, test_the_worst_place_has_a_red_dot_with_a_white_rim)
+def test_after_a_run_the_color_is_the_change(driver: window.Window) -> Steps:
+    """Edges that are beyond the mark as before are grey, and the dot there is orange."""
+    ob = fresh_panel(driver, "Changed")
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit_inner(ob, CELLS, INNER)
+        scenes.smooth(strength=0.0)
+        check(driver, 0.0)
+    assert ob.reflection_lines.check.failed > 0
+    assert (yield from count_colors(driver, ob)) == (0.0, 0.0)
+    yield from window.take_picture(driver, "check_unchanged")
+    assert not sys.modules["reflection_lines"].state.last_checks.find_check(ob.name).worse.any()
+
+
+window.run(test_seams_are_green_or_red, test_the_worst_place_has_a_red_dot_with_a_white_rim,
+           test_after_a_run_the_color_is_the_change)

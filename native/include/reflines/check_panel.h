@@ -36,6 +36,10 @@ struct SeamMeasures {
                      // over all seams before where that is more
 };
 
+// Says how a value of a seam changed. It is worse where it no longer is within the mark or has grown by more than the
+// mark, and better the other way round. A crease is there by design: any change beyond the mark is for the worse.
+enum class Change : signed char { kBetter, kUnchanged, kWorse };
+
 // One line of the table: the largest value before and after, its mark, and where it is after.
 struct CheckRow {
   std::string name;
@@ -43,15 +47,18 @@ struct CheckRow {
   double before = 0, after = 0;
   double mark = -1;  // negative: none
   bool passes = true;
-  Vector3 place = Vector3::Zero();
+  Vector3 place = Vector3::Zero();     // of the largest value; of a line that is worse that of the largest growth
+  Change change = Change::kUnchanged;  // worse where the largest value is, or more seams are worse than better
+  int better = 0, worse = 0;           // seams that are
 };
 
 struct PanelCheck {
   Edges edges;                 // #E x 2, vertices
   std::vector<SeamKind> kind;  // #E
   SeamMeasures before, after;
-  Mask passes;       // #E: a border within the marks; a crease that changed by no more than they are
-  Vector deviation;  // #V: distance of each vertex of the region from the surface before; 0 for others
+  Mask passes;                 // #E: a border within the marks; a crease that changed by no more than they are
+  std::vector<Change> change;  // #E: worse where any of its values is, else better where one is
+  Vector deviation;            // #V: distance of each vertex of the region from the surface before; 0 for others
   double largest_deviation = 0, deviation_95 = 0;  // the second is not exceeded by 95 % of the region's vertices
   std::vector<CheckRow> rows;  // border: gap, angle, curvature; crease: angle, curvature; deviation, deviation 95 %
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <string>
 
@@ -137,22 +138,48 @@ void measure_deviation(const Positions& before, const Positions& after, const Tr
   check.deviation_95 = sorted[static_cast<size_t>(std::ceil(kMost * static_cast<double>(sorted.size()))) - 1];
 }
 
+Change compare(double before, double after, double mark) {
+  const auto grew = [mark](double from, double to) { return to - from > mark || (from <= mark && to > mark); };
+  if (grew(before, after)) return Change::kWorse;
+  return grew(after, before) ? Change::kBetter : Change::kUnchanged;
+}
+
+// Returns how a value of a seam changed.
+Change compare_seam(SeamKind kind, double before, double after, double mark) {
+  if (kind == SeamKind::kBorder) return compare(before, after, mark);
+  const bool changed = kind == SeamKind::kCrease && std::abs(after - before) > mark;
+  return changed ? Change::kWorse : Change::kUnchanged;
+}
+
+// Returns how a line changed: for the worse where its largest value did, or more seams did than became better.
+Change weigh(const CheckRow& row, Change largest) {
+  if (largest == Change::kWorse || row.worse > row.better) return Change::kWorse;
+  return row.better > row.worse ? Change::kBetter : largest;
+}
+
 // Adds the line of a measure along the seams of one kind, where there are any.
 void add_seam_row(const std::string& name, const std::string& unit, SeamKind kind, const Vector& before,
                   const Vector& after, double mark, const Positions& V, PanelCheck& check) {
-  CheckRow row{name, unit, 0, 0, mark};
+  CheckRow row{.name = name, .unit = unit, .mark = mark};
   const Vector judged = judge_values(check, before, after);
-  double worst = -1;
+  int worst = -1, grown = -1;
+  const auto growth = [&](int k) { return std::abs(after(k) - before(k)); };
   for (int k = 0; k < judged.size(); ++k) {
     if (check.kind[k] != kind) continue;
     row.before = std::max(row.before, before(k));
     row.after = std::max(row.after, after(k));
     row.passes = row.passes && judged(k) <= mark;
-    if (judged(k) <= worst) continue;
-    worst = judged(k);
-    row.place = 0.5 * (V.row(check.edges(k, 0)) + V.row(check.edges(k, 1)));
+    if (worst < 0 || judged(k) > judged(worst)) worst = k;
+    const Change change = compare_seam(kind, before(k), after(k), mark);
+    row.better += change == Change::kBetter;
+    row.worse += change == Change::kWorse;
+    if (change == Change::kWorse && (grown < 0 || growth(k) > growth(grown))) grown = k;
   }
-  if (worst >= 0) check.rows.push_back(row);
+  if (worst < 0) return;
+  row.change = weigh(row, compare_seam(kind, row.before, row.after, mark));
+  const int shown = row.change == Change::kWorse && grown >= 0 ? grown : worst;
+  row.place = 0.5 * (V.row(check.edges(shown, 0)) + V.row(check.edges(shown, 1)));
+  check.rows.push_back(row);
 }
 
 void fill_rows(const Positions& after, const CheckOptions& marks, PanelCheck& check) {
@@ -166,9 +193,17 @@ void fill_rows(const Positions& after, const CheckOptions& marks, PanelCheck& ch
   int furthest = 0;
   check.deviation.maxCoeff(&furthest);
   const bool within = marks.deviation < 0 || check.largest_deviation <= marks.deviation;
-  check.rows.push_back(
-      {"deviation", "length", 0, check.largest_deviation, marks.deviation, within, after.row(furthest)});
+  check.rows.push_back({"deviation", "length", 0, check.largest_deviation, marks.deviation, within, after.row(furthest),
+                        within ? Change::kUnchanged : Change::kWorse});
   check.rows.push_back({"deviation of 95 %", "length", 0, check.deviation_95, -1, true, after.row(furthest)});
+}
+
+// Returns the most telling of changes: one for the worse, else one for the better.
+Change sum_up(std::initializer_list<Change> changes) {
+  for (const Change told : {Change::kWorse, Change::kBetter}) {
+    if (std::find(changes.begin(), changes.end(), told) != changes.end()) return told;
+  }
+  return Change::kUnchanged;
 }
 
 void judge(const CheckOptions& marks, PanelCheck& check) {
@@ -176,6 +211,12 @@ void judge(const CheckOptions& marks, PanelCheck& check) {
   check.passes = judge_values(check, first.gap, last.gap).array() <= marks.gap &&
                  judge_values(check, first.angle, last.angle).array() <= marks.angle &&
                  judge_values(check, first.curvature, last.curvature).array() <= marks.curvature;
+  for (int k = 0; k < static_cast<int>(check.kind.size()); ++k) {
+    const SeamKind kind = check.kind[k];
+    check.change.push_back(sum_up({compare_seam(kind, first.gap(k), last.gap(k), marks.gap),
+                                   compare_seam(kind, first.angle(k), last.angle(k), marks.angle),
+                                   compare_seam(kind, first.curvature(k), last.curvature(k), marks.curvature)}));
+  }
 }
 
 }  // namespace
