@@ -2,6 +2,9 @@
 
 A dab takes some hundredths of a second and runs at once, as the dabs of Blender's own brushes do.
 """
+import time
+from dataclasses import replace
+
 import bpy
 import numpy as np
 
@@ -9,6 +12,7 @@ from ..bridge import facing, read_mesh, screen_surface, write_mesh
 from ..bridge.write_mesh import EditVertices
 from ..model.line_surface import LineState, LineSurface
 from ..model.patch import Patch
+from ..model.solution import SolveReport, Solution
 from ..solver.brush import Brush
 from ..solver.brushed_cage import take_under_brush
 
@@ -29,6 +33,8 @@ class BrushStroke:
         self.vertices = EditVertices(patch.index)
         self.last: np.ndarray | None = None  # where the last dab was, pixels
         self.dabs = 0
+        self.brush: Brush | None = None  # of the last dab, with its radius in world units
+        self.began = time.perf_counter()
 
     def move_to(self, ob: bpy.types.Object, x: float, y: float, size: float, brush: Brush) -> None:
         """Dabs along the way to a place, pixels of the window. `size` is the radius there; `brush` has all else.
@@ -49,8 +55,8 @@ class BrushStroke:
         if found is None:
             return False
         point = self.surface.read_point(found, self.surface.start)
-        done = self.brushed.dab(point, Brush(size * self.screen.measure_pixel(point), brush.strength, brush.length,
-                                             brush.limit, brush.families))
+        self.brush = replace(brush, radius=size * self.screen.measure_pixel(point))
+        done = self.brushed.dab(point, self.brush)
         self.dabs += done
         return done
 
@@ -66,6 +72,16 @@ class BrushStroke:
     def restore(self, ob: bpy.types.Object) -> None:
         """Takes the stroke back, to the last bit."""
         self.write(ob, self.start)
+
+    def summarize(self) -> Solution:
+        """Returns the stroke as a result, with the lines measured where it moved most."""
+        lines = self.brushed.measure_lines(self.brush) or (0.0, 0.0)
+        limit = self.brush.limit * np.abs(self.brushed.share).max(axis=1)
+        limited = int(np.count_nonzero((np.abs(self.brushed.move) >= limit) & (limit > 0.0)))
+        report = SolveReport("converged", "", self.dabs, time.perf_counter() - self.began,
+                             int(np.count_nonzero(self.brushed.move)), self.largest_move, limited)
+        return Solution(self.patch, self.brushed.positions, report, None, np.zeros(0), 0.0, 0.0, self.brush.length,
+                        *lines, ())
 
     @property
     def largest_move(self) -> float:

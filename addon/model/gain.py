@@ -9,6 +9,13 @@ def format_change(before: float, after: float) -> str:
     return f"{before:.2g}\u00b0 \u2192 {after:.2g}\u00b0"
 
 
+def describe_stroke(before: float, after: float) -> str:
+    """Says how far lines were and are off their course, degrees, where a stroke of the brush moved most; 0 before where
+    that is not known.
+    """
+    return f"Brushed, lines there off by {format_change(before, after)}" if before else "Brushed"
+
+
 @dataclass(frozen=True)
 class Healed:
     """The account of what an automatic press of Smooth healed: native.HealedFlaws."""

@@ -97,8 +97,10 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         if not self.stroke.dabs:
             return self.end(context, f"{ob.name}: the brush met no vertices that can move: make it larger (F), or "
                             "paint on the selected faces")
-        self.report({'INFO'}, f"{ob.name}: {self.describe(context).lower()}")
+        solution = self.stroke.summarize()
         self.end(context, "")
+        self.record_solution(ob, solution)
+        context.area.tag_redraw()  # the last drawing was of the mesh alone
         return {'FINISHED'}
 
     def end(self, context: bpy.types.Context, why: str) -> set[str]:

@@ -8,6 +8,8 @@ from ..model.border import name_border
 from ..model.refusal import Refusal
 from .solve_tool import SolveTool
 
+BRUSH = "REFLINES_OT_fair_brush"
+
 
 class REFLINES_OT_resolve(bpy.types.Operator):
     """Run the last tool again on the same faces (after an undo in Edit Mode: on the selected ones), for the view and
@@ -36,6 +38,9 @@ light as they are now. It begins with the shape before that run, unless the mesh
         ob = scene_objects.find_active_object(context)
         if ob is None or ob.type != 'MESH' or not ob.reflection_lines.run.operator:
             cls.poll_message_set("Make a panel active on which a tool has run")
+            return False
+        if ob.reflection_lines.run.operator == BRUSH:
+            cls.poll_message_set("A stroke of the brush cannot be run again: undo it, and paint again")
             return False
         obstacle = view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
         cls.poll_message_set(obstacle)

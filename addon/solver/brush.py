@@ -27,6 +27,14 @@ class Brush:
     families: int    # 2: the crossed lines are smoothed as well
 
 
+@dataclass(frozen=True)
+class Window:
+    """A part of a patch around a circle."""
+    vertices: np.ndarray  # #W: of the patch
+    F: np.ndarray         # #F x 3: triangles of them
+    held: np.ndarray      # #W, bool: those beyond the circle
+
+
 class BrushedRegion:
     """A region under a brush: the moves of its vertices along the view since the stroke began, which dabs add to."""
 
@@ -63,6 +71,27 @@ class BrushedRegion:
         """Solves around a place of the image plane; returns the vertices and their further moves."""
         raise NotImplementedError
 
+    def build_around(self, place: np.ndarray, radius: float, move: np.ndarray) -> "native.ShapeOptimizer | None":
+        """Builds the optimizer of a circle and what the filter sees around it, with the vertices moved by `move` (#V);
+        None where the circle has too few that can move.
+        """
+        raise NotImplementedError
+
+    def measure_lines(self, brush: Brush) -> tuple[float, float] | None:
+        """Measures how far lines were and are off their course in the circle where the stroke moved most, degrees: the
+        mean over the circle and the lights. A larger part of the region would take longer than a stroke may.
+        """
+        place = self.xy[np.abs(self.move).argmax()]
+        try:
+            windows = [self.build_around(place, brush.radius, move) for move in (np.zeros(len(self.move)), self.move)]
+            if None in windows:
+                return None
+            length = min(brush.length, LONGEST * brush.radius)
+            return tuple(float(np.mean([window.score(length, family).shift for family in range(brush.families)]))
+                         for window in windows)
+        except (native.InvalidInput, native.SolverFailure):  # as in a dab
+            return None
+
 
 class BrushedPatch(BrushedRegion):
     """A patch of a mesh under a brush."""
@@ -89,29 +118,42 @@ class BrushedPatch(BrushedRegion):
         return self.patch.V, self.patch.F
 
     def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
+        window = self.choose_window(place, brush.radius)
+        if window is None:
+            return None
+        try:
+            return window.vertices, self.solve_window(window, place, brush)
+        except (native.InvalidInput, native.SolverFailure):  # no vertex of the circle is free, or lines are undefined
+            return None
+
+    def choose_window(self, place: np.ndarray, radius: float) -> Window | None:
+        """Returns the window around a circle; None where too few vertices of the circle can move."""
         apart = np.linalg.norm(self.xy - place, axis=1)
-        near = apart < brush.radius + max(CONTEXT * brush.radius, FEWEST_EDGES * self.edge)
+        near = apart < radius + max(CONTEXT * radius, FEWEST_EDGES * self.edge)
         corners = self.patch.F[near[self.patch.F].all(axis=1)]
         vertices = np.flatnonzero(np.bincount(corners.ravel(), minlength=len(near)))
-        held = apart[vertices] >= brush.radius
+        held = apart[vertices] >= radius
         if np.count_nonzero(~held) < FEWEST_FREE:
             return None
         number = np.zeros(len(near), dtype=np.int64)
         number[vertices] = np.arange(len(vertices))
-        try:
-            return vertices, self.solve_window(vertices, number[corners], held, place, brush)
-        except (native.InvalidInput, native.SolverFailure):  # no vertex of the circle is free, or lines are undefined
-            return None
+        return Window(vertices, number[corners], held)
 
-    def solve_window(self, vertices: np.ndarray, F: np.ndarray, held: np.ndarray, place: np.ndarray,
-                     brush: Brush) -> np.ndarray:
+    def build_around(self, place: np.ndarray, radius: float, move: np.ndarray) -> "native.ShapeOptimizer | None":
+        window = self.choose_window(place, radius)
+        return None if window is None else self.build_window(window, move)
+
+    def build_window(self, window: Window, move: np.ndarray) -> "native.ShapeOptimizer":
+        vertices, held = window.vertices, window.held
+        return native.reflines.ShapeOptimizer(
+            self.patch.V[vertices] + move[vertices, None] * self.frame[2], window.F,
+            view_direction=self.view.view_direction, line_direction=self.view.both_directions, fixed=held,
+            border=np.where(held, CODES["fixed"], self.border[vertices]), **self.choose_creases(vertices))
+
+    def solve_window(self, window: Window, place: np.ndarray, brush: Brush) -> np.ndarray:
         """Solves for smooth lines in a window of the patch; returns the further moves of its vertices."""
-        before = self.move[vertices]
-        optimizer = native.reflines.ShapeOptimizer(
-            self.patch.V[vertices] + before[:, None] * self.frame[2], F, view_direction=self.view.view_direction,
-            line_direction=self.view.both_directions, fixed=held, border=np.where(held, CODES["fixed"],
-                                                                                 self.border[vertices]),
-            **self.choose_creases(vertices))
+        vertices, before = window.vertices, self.move[window.vertices]
+        optimizer = self.build_window(window, self.move)
         targets = [build_dab_target(optimizer, place, brush, family) for family in range(brush.families)]
         start = optimizer.heights
         optimizer.solve(targets, gradient_tolerance=TOLERANCE)

@@ -54,15 +54,31 @@ class BrushedCage(BrushedRegion):
         return refined.positions(self.cage.V), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 
     def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
-        apart = np.linalg.norm(self.xy - place, axis=1)
-        free = (apart < brush.radius) & self.inside
-        if not free.any():
+        found = self.cut_window(place, brush.radius, self.move)
+        if found is None:
             return None
-        cage, vertices = replace(self.cage, V=self.moved).cut_out(self.choose_window(free, apart, brush.radius))
+        cage, vertices, free = found
         try:
-            return vertices, self.solve_window(cage, vertices, free[vertices], place, brush)
+            return vertices, self.solve_window(cage, vertices, free, place, brush)
         except (native.InvalidInput, native.SolverFailure):  # no vertex of the circle is free, or lines are undefined
             return None
+
+    def build_around(self, place: np.ndarray, radius: float, move: np.ndarray) -> "native.CageOptimizer | None":
+        found = self.cut_window(place, radius, move)
+        return None if found is None else self.build_window(*found)
+
+    def cut_window(self, place: np.ndarray, radius: float,
+                   move: np.ndarray) -> tuple[Cage, np.ndarray, np.ndarray] | None:
+        """Cuts out the cage around a circle with its vertices moved by `move` (#V): the part, its vertices, and which
+        of them are free; None where none is.
+        """
+        apart = np.linalg.norm(self.xy - place, axis=1)
+        free = (apart < radius) & self.inside
+        if not free.any():
+            return None
+        whole = replace(self.cage, V=self.start + move[:, None] * self.frame[2])
+        cage, vertices = whole.cut_out(self.choose_window(free, apart, radius))
+        return cage, vertices, free[vertices]
 
     def choose_window(self, free: np.ndarray, apart: np.ndarray, radius: float) -> np.ndarray:
         """Returns the region's faces that are solved for: those whose surface depends on a free vertex, and some more

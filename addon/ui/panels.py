@@ -357,7 +357,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
             remedy = self.layout.operator("reflines.resolve", text=f"Solve with Border {name_border(report.remedy)}")
             remedy.border = report.remedy
         limit = 2.0 * (report.automatic_limit or run.read_length("limit"))
-        if report.limited and run.operator and limit:
+        if report.limited and limit and bpy.ops.reflines.resolve.poll():
             shown = run.format_length(limit)
             self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
         self.layout.prop(context.scene.reflection_lines.stripes, "before", text="Compare with Before", toggle=True,

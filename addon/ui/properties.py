@@ -7,7 +7,7 @@ from bpy.props import (BoolProperty, EnumProperty, FloatProperty, FloatVectorPro
 from mathutils import Vector
 
 from ..bridge import light_angles, modifiers, scene_objects, units
-from ..model.gain import Gain, Healed
+from ..model.gain import Gain, Healed, describe_stroke
 from ..model.solution import Solution
 from .automatic_values import shown_property, switch_property
 from .check_properties import ReflinesCheck, ReflinesMarks
@@ -129,9 +129,11 @@ class ReflinesReport(bpy.types.PropertyGroup):
             return self.fit
         if self.healed:
             return Healed(self.healed_area, self.worst_before, self.worst_after).describe()
-        smoothed = self.id_data.reflection_lines.run.operator == "REFLINES_OT_smooth"
+        operator = self.id_data.reflection_lines.run.operator
+        if operator == "REFLINES_OT_fair_brush":
+            return describe_stroke(self.score_before, self.score_after)
         return Gain(self.score_before, self.score_after, self.residual_before,
-                    self.residual_after).describe(smoothed=smoothed)
+                    self.residual_after).describe(smoothed=operator == "REFLINES_OT_smooth")
 
     def lines_off(self) -> tuple[float, float]:
         """Returns how far lines were and are off their course, degrees: at the worst place where that is known, else

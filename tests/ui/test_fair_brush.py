@@ -1,4 +1,5 @@
 """Fair Brush in a real window: strokes smooth what they pass over, each is one undo step, and Escape takes it back."""
+import sys
 from collections.abc import Generator
 
 import bpy
@@ -63,6 +64,39 @@ def test_a_stroke_smooths_what_it_passes_over_in_one_undo_step(driver: window.Wi
     assert bpy.context.window_manager.operators[-1].bl_idname == "REFLINES_OT_fair_brush"
     yield from undone_and_redone(driver, before, after)
     end(driver)
+
+
+def test_a_stroke_is_a_result(driver: window.Window) -> Steps:
+    """It is told, compared with before, and undone, as a press is."""
+    state = sys.modules["reflection_lines"].state
+    for levels in (0, 2):
+        before = yield from begin(driver, levels=levels, cells=24 if levels else CELLS)
+        ob = bpy.data.objects["Panel"]
+        bpy.context.scene.reflection_lines.stripes.before = True
+        yield from paint(driver, LEFT, RIGHT)
+        after, report = shown(driver), ob.reflection_lines.report
+        assert report.headline().startswith("Brushed, lines there off by "), report.headline()
+        assert report.score_after < 0.8 * report.score_before
+        assert abs(report.largest_move - np.abs(after - before)[:, 2].max()) < 1e-6
+        last = state.solve_history.find_last_solve(ob.name_full)
+        assert np.allclose(last.patch.local, before[last.patch.index], atol=1e-7)
+        driver.redraw()
+        yield 0.4
+        assert state.compared.find_divider(driver.region()) is not None
+        yield from window.take_picture(driver, f"brush_compared_{levels}")
+        x = state.compared.find_divider(driver.region())
+        yield from paint(driver, (x, 290), (x + 30, 290))  # on the line, which the knob alone drags now
+        assert state.compared.find_divider(driver.region()) == x and not np.array_equal(shown(driver), after)
+        yield from paint(driver, (x, 72), (x + 30, 72))
+        assert abs(state.compared.find_divider(driver.region()) - x - 30) <= 1.5
+        assert not bpy.ops.reflines.resolve.poll()
+        with driver.override():
+            bpy.ops.ed.undo()
+        yield 0.4
+        assert state.solve_history.is_undone(bpy.data.objects["Panel"])
+        assert state.compared.find_divider(driver.region()) is None
+        bpy.context.scene.reflection_lines.stripes.before = False
+        end(driver)
 
 
 def test_strokes_add_up_and_shift_paints_with_less(driver: window.Window) -> Steps:
@@ -142,7 +176,8 @@ def test_the_button_takes_the_tool(driver: window.Window) -> Steps:
     end(driver)
 
 
-window.run(test_a_stroke_smooths_what_it_passes_over_in_one_undo_step, test_strokes_add_up_and_shift_paints_with_less,
+window.run(test_a_stroke_smooths_what_it_passes_over_in_one_undo_step, test_a_stroke_is_a_result,
+           test_strokes_add_up_and_shift_paints_with_less,
            test_escape_restores_every_bit, test_f_changes_the_size,
            test_a_stroke_beside_the_panel_changes_nothing,
            test_a_stroke_on_a_cage_moves_it_and_escape_restores_every_bit, test_the_button_takes_the_tool)
