@@ -36,6 +36,7 @@ NAMES = (
     "bridge.units", "bridge.view_and_light", "bridge.view_region", "bridge.places_beside",
     "bridge.read_edges", "bridge.screen_surface", "bridge.pinned_faces", "bridge.viewport_cage",
     "bridge.warp_lattice", "bridge.view_camera", "bridge.facing", "bridge.shown_surface",
+    "bridge.unjoined_border",
     "solver.formulation", "solver.live_optimizer", "solver.limited_solve", "solver.turned_faces",
     "solver.rim", "solver.remarks", "solver.solve",
     "solver.automatic_smooth", "solver.brush", "solver.brushed_cage", "solver.panel_check",

@@ -4,7 +4,7 @@ import numpy as np
 from bpy.props import BoolProperty
 
 from ..bridge import (facing, gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, shown_surface,
-                      view_and_light, write_mesh)
+                      unjoined_border, view_and_light, write_mesh)
 from ..bridge.mesh_checks import Purpose
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -156,7 +156,8 @@ class SolveTool:
         stored.keep_view(bpy.context.scene)
         stored.run.fill(self, ob.data, solution.patch.key)
         lost = (LOST_START,) if self.lost_start else ()
-        shown = (*shape_keys.describe_hidden_key(ob, solution.patch.key), *shown_surface.describe_custom_normals(ob),
+        shown = (*self.record_surroundings(ob, solution.patch),
+                 *shape_keys.describe_hidden_key(ob, solution.patch.key), *shown_surface.describe_custom_normals(ob),
                  *shown_surface.describe_shared_mesh(ob),
                  *modifiers.describe_unsolved_modifiers(ob, self.solve_for))
         stored.report.fill(solution, (*solution.notes, *self.describe_solution(solution), *shown, *lost))
@@ -168,3 +169,10 @@ class SolveTool:
             self.report({'INFO'}, f"{ob.name}: Kept: {kept}")
         # The status bar shows the last report, and cuts off its end.
         self.report({'INFO'}, f"{stored.report.headline()} ({ob.name}{faces if self.region_stored else ''})")
+
+    def record_surroundings(self, ob: bpy.types.Object, patch: Patch) -> tuple[str, ...]:
+        """Records for the buttons of the result what is wrong with the mesh itself; returns the sentences about it."""
+        scene, report = bpy.context.scene, ob.reflection_lines.report
+        unjoined, turn = unjoined_border.find_unjoined(scene, ob, patch), shown_surface.measure_rounding(patch)
+        report.merge_distance, report.rounding = unjoined.distance if unjoined.own else 0.0, turn
+        return (*shown_surface.describe_rounding(scene, patch, turn), *unjoined.describe())

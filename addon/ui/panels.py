@@ -362,12 +362,26 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
             self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
         self.layout.prop(context.scene.reflection_lines.stripes, "before", text="Compare with Before", toggle=True,
                          icon='MOD_MIRROR')
-        if ob.type == 'MESH' and ob.data.has_custom_normals:
-            self.layout.operator("mesh.customdata_custom_splitnormals_clear", text="Reset Custom Normals")
+        if ob.type == 'MESH':
+            self.draw_mesh_remedies(ob, report)
         if report.longer_waves and run.operator:
             self.layout.operator("reflines.resolve", text="Take Longer Waves Too").flaw_size = 2.0
         self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
         self.layout.operator("reflines.store_result", icon='GROUP_VERTEX')
+
+
+    def draw_mesh_remedies(self, ob: bpy.types.Object, report: bpy.types.PropertyGroup) -> None:
+        """Draws the buttons of Blender for what is wrong with the mesh itself."""
+        if ob.data.has_custom_normals:
+            self.layout.operator("mesh.customdata_custom_splitnormals_clear", text="Reset Custom Normals")
+        if ob.data.users - ob.data.use_fake_user > 1:
+            single = self.layout.operator("object.make_single_user", text="Make Single User")
+            single.type, single.object, single.obdata = 'SELECTED_OBJECTS', False, True
+        if report.merge_distance and ob.mode == 'EDIT':
+            merge = self.layout.operator("mesh.remove_doubles", text="Merge by Distance")
+            merge.threshold, merge.use_unselected = report.merge_distance, True
+        if report.rounding and ob.mode == 'OBJECT':
+            self.layout.operator("object.origin_set", text="Origin to Geometry").type = 'ORIGIN_GEOMETRY'
 
 
 class ResultPart(ReflinesPanel):

@@ -92,6 +92,11 @@ class ReflinesReport(bpy.types.PropertyGroup):
     residual_before: FloatProperty(name="Residual Before", description="What the lines' gradient lacked of the "
                                    "wanted one: root mean square, radians per unit of length")
     residual_after: FloatProperty(name="Residual After", description="What it still lacks")
+    merge_distance: FloatProperty(name="Merge Distance", unit='LENGTH', precision=6,
+                                  description="Distance that joins the border to faces of the mesh that lie on it; "
+                                  "0: none do")
+    rounding: FloatProperty(name="Rounding", description="Turn of the lines by the rounding of coordinates far from "
+                            "the origin, radians; 0 where it is not seen")
     remedy: StringProperty(name="Remedy", description="The border that would serve better")
 
     def fill(self, solution: Solution, notes: tuple[str, ...]) -> None:

@@ -212,8 +212,11 @@ def test_nothing_is_cut_in_what_tools_leave_behind(driver: window.Window) -> Ste
     with driver.override():
         bpy.context.scene.reflection_lines.marks.angle = 0.0
         bpy.ops.reflines.check('EXEC_DEFAULT', True)
+    ob.reflection_lines.report.merge_distance = 1e-4
+    other = bpy.data.objects.new("Other", ob.data)
     yield from nothing_is_cut(driver, "Solve with Border", "reflines.delete_handles", "reflines.bake_handles",
-                              "reflines.export_check")
+                              "reflines.export_check", "Make Single User", "Merge by Distance")
+    bpy.data.objects.remove(other)
     pull(driver, 0.0, 0.1, limit=2e-3)
     ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
     yield from nothing_is_cut(driver, "Solve with Limit", "reflines.fit", "Curvature (G2)", "Tangent (G1)")

@@ -1,0 +1,138 @@
+"""Finds edges of a region's border that lie on other open edges without being joined to them: those of the same mesh,
+as of two halves, or of another object. What is smooth on each side can still break between them.
+"""
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from mathutils.kdtree import KDTree
+
+from ..model.patch import Patch
+from . import read_mesh
+
+REACH = 0.1    # of an edge's length: as far as Check Panel looks for another sheet
+SMOOTH = 0.8660  # cosine of 30 degrees, by which faces bend at most that are meant to go on smoothly
+MARGIN = 1.05  # factor of the distance to merge, against its rounding
+SHORTEST = 0.5  # of the shortest edge of the region: merging further would join the region's own vertices
+MOST_LOOPS = 3_000_000  # corners of another object's faces beyond which it is not looked at
+
+
+@dataclass(frozen=True)
+class OpenEdges:
+    """The edges of a mesh with one face."""
+    ends: np.ndarray     # #E x 2 x 3
+    centers: np.ndarray  # #E x 3: of the faces
+    faces: np.ndarray    # #E
+
+    def choose(self, chosen: np.ndarray) -> "OpenEdges":
+        return OpenEdges(self.ends[chosen], self.centers[chosen], self.faces[chosen])
+
+    def transform(self, matrix: np.ndarray) -> "OpenEdges":
+        """Returns the edges in world space."""
+        ends, centers = (points @ matrix[:3, :3].T + matrix[:3, 3] for points in (self.ends, self.centers))
+        return OpenEdges(ends, centers, self.faces)
+
+    def find_ways(self) -> np.ndarray:
+        """Returns the unit directions from the edges into their faces: #E x 3."""
+        along = self.ends[:, 1] - self.ends[:, 0]
+        inwards = self.centers - self.ends[:, 0]
+        share = (inwards * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-300)
+        across = inwards - share[:, None] * along
+        return across / np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-300)
+
+
+@dataclass(frozen=True)
+class UnjoinedBorder:
+    """The edges of a region's border that lie on others."""
+    own: int = 0           # edges that lie on such of the same mesh
+    distance: float = 0.0  # that merges them, object space; 0 where that would merge more
+    others: tuple[tuple[str, int], ...] = ()  # names of other objects, and how many edges lie on theirs
+
+    def describe(self) -> tuple[str, ...]:
+        """Says where lines can break, and what joins the faces."""
+        own = [f"{count_edges(self.own)} faces that are not joined to it, where lines can break: merge by distance"
+               ] if self.own else []
+        return (*own, *(f"{count_edges(count)} {name}, where lines can break: join the objects, then merge by distance"
+                        for name, count in self.others))
+
+
+def count_edges(count: int) -> str:
+    return f"{count} edge{'s of the border lie' if count > 1 else ' of the border lies'} on"
+
+
+def find_unjoined(scene: bpy.types.Scene, ob: bpy.types.Object, patch: Patch) -> UnjoinedBorder:
+    """Finds the edges of a region's border that lie on open edges of its mesh or of other visible objects."""
+    if len(patch.faces) != len(ob.data.polygons):
+        return UnjoinedBorder()
+    every = read_open_edges(ob.data, read_mesh.read_coordinates(ob, patch.key))
+    border = every.choose(patch.faces[every.faces])
+    if not len(border.faces):
+        return UnjoinedBorder()
+    pairs, distance = match_edges(border, every, np.flatnonzero(patch.faces[every.faces]))
+    world = border.transform(patch.matrix)
+    others = [(other.name, len(match_edges(world, edges)[0])) for other, edges in read_others(scene, ob, world)]
+    return UnjoinedBorder(len(pairs), choose_distance(patch, distance), tuple(each for each in others if each[1]))
+
+
+def read_open_edges(mesh: bpy.types.Mesh, V: np.ndarray) -> OpenEdges:
+    """Reads the open edges of a mesh with its vertices at V (#V x 3)."""
+    edge_of_corner = read_mesh.read_integers(mesh.loops, "edge_index", 1)
+    sizes = read_mesh.read_corners(mesh)[1]
+    once = np.bincount(edge_of_corner, minlength=len(mesh.edges))[edge_of_corner] == 1
+    edges, faces = edge_of_corner[once], np.repeat(np.arange(len(sizes)), sizes)[once]
+    vertices = read_mesh.read_integers(mesh.edges, "vertices", 2).reshape(-1, 2)[edges]
+    centers = np.empty(3 * len(mesh.polygons), dtype=np.float32)
+    mesh.polygons.foreach_get("center", centers)
+    return OpenEdges(V[vertices], centers.reshape(-1, 3)[faces].astype(np.float64), faces)
+
+
+def read_others(scene: bpy.types.Scene, ob: bpy.types.Object,
+                border: OpenEdges) -> Iterator[tuple[bpy.types.Object, OpenEdges]]:
+    """Reads the open edges of the other meshes whose boxes reach the border, world space."""
+    lengths = np.linalg.norm(border.ends[:, 1] - border.ends[:, 0], axis=1)
+    reach = REACH * lengths.max()
+    low, high = border.ends.min(axis=(0, 1)) - reach, border.ends.max(axis=(0, 1)) + reach
+    for other in scene.objects:
+        if other.type != 'MESH' or other == ob or not other.visible_get() or len(other.data.loops) > MOST_LOOPS:
+            continue
+        matrix = np.array(other.matrix_world, dtype=np.float64)
+        box = np.array(other.bound_box) @ matrix[:3, :3].T + matrix[:3, 3]
+        if (box.min(axis=0) > high).any() or (box.max(axis=0) < low).any() or not len(other.data.polygons):
+            continue
+        edges = read_open_edges(other.data, read_mesh.read_coordinates(other)).transform(matrix)
+        yield other, edges.choose(np.isfinite(edges.ends).all(axis=(1, 2)) & np.isfinite(edges.centers).all(axis=1))
+
+
+def match_edges(border: OpenEdges, others: OpenEdges,
+                same: np.ndarray | None = None) -> tuple[set[tuple[int, int]], float]:
+    """Matches edges that lie on each other, with their faces on both sides; `same` (#border) says which of the others
+    each edge of the border is. Returns the pairs, each once, and the largest distance of their ends.
+    """
+    tree, middles = KDTree(len(others.faces)), others.ends.mean(axis=1)
+    for number, middle in enumerate(middles.tolist()):
+        tree.insert(middle, number)
+    tree.balance()
+    pairs, furthest, ways, other_ways = set(), 0.0, border.find_ways(), others.find_ways()
+    for k, (first, second) in enumerate(border.ends):
+        reach, own = REACH * np.linalg.norm(second - first), -1 if same is None else int(same[k])
+        for _, number, _ in tree.find_range((0.5 * (first + second)).tolist(), reach):
+            apart = min(measure_ends(border.ends[k], others.ends[number]),
+                        measure_ends(border.ends[k], others.ends[number, ::-1]))
+            if number != own and apart <= reach and ways[k] @ other_ways[number] <= -SMOOTH:
+                pairs.add((k, number) if own < 0 else (min(own, number), max(own, number)))
+                furthest = max(furthest, apart)
+    return pairs, furthest
+
+
+def measure_ends(some: np.ndarray, others: np.ndarray) -> float:
+    """Measures the larger distance of the ends of two edges (2 x 3 each)."""
+    return float(np.linalg.norm(some - others, axis=1).max())
+
+
+def choose_distance(patch: Patch, distance: float) -> float:
+    """Returns the distance that merges vertices which are up to `distance` apart, 0 where it would merge more."""
+    corners = patch.local[patch.F]
+    shortest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).min())
+    merged = max(MARGIN * distance, 1e-3 * shortest)
+    return merged if merged < SHORTEST * shortest else 0.0
