@@ -14,7 +14,7 @@ from dataclasses import asdict
 from datetime import date
 from pathlib import Path
 
-from bench import continuity, design_tools, handle_steps, live, restoration
+from bench import continuity, design_tools, handle_steps, live, ranking, restoration
 from bench.row import Row
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -56,6 +56,7 @@ REACH = {
     "press_factorizations_10k": (8, True),
     "press_again_strength_over_press_100k": (0.15, True), "press_again_limit_over_press_100k": (0.15, True),
     **continuity.find_limits(),
+    "ranking_height": (0.9, False), "ranking_given": (0.9, False), "ranking_crossed": (0.9, False),
     "tools_crossed": (1.0, True), "tools_move": (5.0, True), "tools_turned": (0.0, True),
 }
 
@@ -228,7 +229,8 @@ def main() -> None:
     cages = medians(run("bench_solve", "^(cage_solve|dense_solve|cage_warm_step)", REPETITIONS)[0])
     bounded = run("bench_solve", "^bounded.*/10k", REPETITIONS)[0] | run("bench_solve", "^bounded.*/100k", 1)[0]
     rows = [*solve_rows(times), *bounded_rows(bounded), *cgal_rows(times), *strategy_rows(sizes), *cage_rows(cages),
-            *restoration.rows(), *continuity.rows(), *design_tools.rows(), *handle_steps.rows()]
+            *restoration.rows(), *continuity.rows(), *ranking.rows(), *design_tools.rows(),
+            *handle_steps.rows()]
     if not quick:
         rows += [*million_rows(times), *live.rows()]
     values = [asdict(row) | {"value": row.value if math.isfinite(row.value) else None} for row in rows]  # JSON
