@@ -52,6 +52,26 @@ def read_seen_share(ob: bpy.types.Object, name: str) -> float:
     return 0.0 if key.mute else key.value
 
 
+def read_mixed_shape(ob: bpy.types.Object) -> np.ndarray | None:
+    """Reads the shape that the keys are mixed to in Object Mode: #vertices x 3; None where that takes vertex groups or
+    times.
+    """
+    keys = ob.data.shape_keys
+    if keys is None:
+        return read_mesh.read_coordinates(ob)
+    if ob.show_only_shape_key:
+        return read_mesh.read_coordinates(ob, (keys.reference_key if ob.active_shape_key.mute else
+                                               ob.active_shape_key).name)
+    added = [key for key in keys.key_blocks if key != keys.reference_key and not key.mute and key.value != 0.0]
+    if not keys.use_relative or any(key.vertex_group for key in added):
+        return None
+    mixed = read_mesh.read_coordinates(ob, keys.reference_key.name)
+    for key in added:
+        mixed += key.value * (read_mesh.read_coordinates(ob, key.name)
+                              - read_mesh.read_coordinates(ob, key.relative_key.name))
+    return mixed
+
+
 def describe_hidden_key(ob: bpy.types.Object, name: str) -> tuple[str, ...]:
     """Describes why the result in the key of this name cannot be seen: a sentence, or nothing."""
     if baked_keys.are_seen(ob):

@@ -9,7 +9,7 @@ import numpy as np
 from ..model.cage import Cage
 from ..model.refusal import Refusal
 from ..model.solution import LastSolve
-from . import modifiers, read_cage, read_mesh, region_faces
+from . import modifiers, read_cage, read_mesh, region_faces, shape_keys
 
 
 def read_viewport_cage(ob: bpy.types.Object, before: LastSolve | None = None) -> tuple[Cage, np.ndarray] | None:
@@ -32,20 +32,25 @@ def read_viewport_cage(ob: bpy.types.Object, before: LastSolve | None = None) ->
         return None
     local, visible, selected = state
     if before is not None:
-        if before.patch.index[-1] >= len(local):
+        patch = before.patch
+        if patch.index[-1] >= len(local):
             return None
-        local[before.patch.index] = before.patch.local
+        if patch.key and ob.mode != 'EDIT':
+            share = shape_keys.read_seen_share(ob, patch.key)
+            local[patch.index] -= share * (patch.to_object_space(before.positions) - patch.local)
+        else:
+            local[patch.index] = patch.local
     axis = -1 if mirror is None else next(k for k in range(3) if mirror.use_axis[k])
     whole = read_cage.read_cage(ob.data, visible, np.eye(4), modifier, mirror, axis, local)
     return whole, np.tile(selected, 1 if mirror is None else 2)
 
 
 def read_stored_state(ob: bpy.types.Object) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Reads positions, visible and selected faces; None where the mesh has shape keys, which the viewport mixes."""
-    if ob.data.shape_keys is not None or not len(ob.data.polygons):
+    """Reads positions, visible and selected faces; None where the shape that is shown is not known."""
+    local = shape_keys.read_mixed_shape(ob) if len(ob.data.polygons) else None
+    if local is None:
         return None
-    return (read_mesh.read_coordinates(ob), region_faces.read_visible_faces(ob.data),
-            region_faces.read_face_flags(ob.data, "select"))
+    return local, region_faces.read_visible_faces(ob.data), region_faces.read_face_flags(ob.data, "select")
 
 
 def read_edited_state(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import scenes
-from reflection_lines.bridge import region_faces
+from reflection_lines.bridge import region_faces, shape_keys
 
 KEY = "Reflection Lines"
 
@@ -385,3 +385,27 @@ def test_live_warp_into_a_key(panel, how) -> None:
         return
     assert shape(panel, "Basis").tobytes() == before[0]
     assert not np.array_equal(shape(panel, KEY), shape(panel, "Basis"))
+
+
+@pytest.mark.parametrize("how", ["mixed", "pinned", "pinned and muted", "muted", "by group", "absolute"])
+def test_the_mixed_shape_is_what_is_seen(panel, how) -> None:
+    """Stripes of cages are drawn on it. Where Blender mixes by groups or times, none is read."""
+    into_key()
+    scenes.object_mode()
+    own = panel.shape_key_add(name="Own", from_mix=True)
+    for point in own.data:
+        point.co.y += 0.2 * point.co.x
+    own.relative_key, own.value, own.slider_max = panel.data.shape_keys.key_blocks[KEY], 0.7, 2.0
+    panel.data.shape_keys.key_blocks[KEY].value = 0.3
+    panel.active_shape_key_index = 2
+    panel.show_only_shape_key = how.startswith("pinned")
+    own.mute = how.endswith("muted")
+    if how == "by group":
+        own.vertex_group = panel.vertex_groups.new(name="Some").name
+    panel.data.shape_keys.use_relative = how != "absolute"
+    bpy.context.view_layer.update()
+    mixed = shape_keys.read_mixed_shape(panel)
+    if how in {"by group", "absolute"}:
+        assert mixed is None
+    else:
+        assert np.abs(mixed - seen(panel)).max() < 1e-6
