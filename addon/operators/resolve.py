@@ -12,8 +12,8 @@ BRUSH = "REFLINES_OT_fair_brush"
 
 
 class REFLINES_OT_resolve(bpy.types.Operator):
-    """Run the last tool again on the same faces (after an undo in Edit Mode: on the selected ones), for the view and
-light as they are now. It begins with the shape before that run, unless the mesh has been changed since"""
+    """Run the last tool again on the same faces (after an undo in Edit Mode the selected ones), as view and light are
+now, from the shape before that run unless the mesh was changed since"""
     bl_idname = "reflines.resolve"
     bl_label = "Re-solve"
     bl_options = {'REGISTER', 'UNDO'}

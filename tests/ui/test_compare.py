@@ -1,4 +1,5 @@
 """Compare with Before: a divider that the mouse drags over the panel, wherever there is a difference to be seen."""
+import json
 import sys
 from collections.abc import Generator
 
@@ -129,7 +130,23 @@ def test_a_shape_key_is_compared_at_any_strength_but_none(driver: window.Window)
         assert (divider(driver) is not None) == there, value
 
 
+def test_a_pulled_line_is_compared(driver: window.Window) -> Steps:
+    ob = fresh_panel(driver, "Pulled")
+    prepare(driver, ob)
+    stripes().before, stripes().side_by_side = True, True
+    driver.redraw()
+    yield 0.4
+    assert divider(driver) is None
+    with driver.override():
+        scenes.edit_inner(ob, CELLS)
+        handle = {"start": (0.1, 0.2, 0.0), "end": (0.1, 0.3, 0.0), "radius": 0.5, "pinned": [], "muted": False}
+        assert bpy.ops.reflines.pull_line('EXEC_DEFAULT', True, handles=json.dumps([handle])) == {'FINISHED'}
+    driver.redraw()
+    yield 0.5
+    assert divider(driver) is not None
+
+
 window.run(test_the_divider_is_dragged_over_the_panel, test_escape_puts_it_back_and_a_press_beside_it_selects,
            test_it_stays_over_the_panel_as_the_view_moves,
            test_undo_takes_the_divider_away_and_redo_brings_it_back,
-           test_a_shape_key_is_compared_at_any_strength_but_none)
+           test_a_shape_key_is_compared_at_any_strength_but_none, test_a_pulled_line_is_compared)
