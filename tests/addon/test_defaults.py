@@ -76,14 +76,14 @@ def test_the_automatic_fall_off_ends_inside_a_long_region(panel) -> None:
     assert np.abs(results[0] - results[1]).max() < 1e-7
 
 
-@pytest.mark.parametrize("border", ['clamped', 'fixed'])
-def test_a_border_in_the_way_is_named_and_the_remedy_does_it(panel, border) -> None:
+@pytest.mark.parametrize(("border", "name"), [('clamped', "Tangent (G1)"), ('fixed', "Position (G0)")])
+def test_a_border_in_the_way_is_named_and_the_remedy_does_it(panel, border, name) -> None:
     settings = {"angle": 0.1, "centre": 'EVERYWHERE'}
     bpy.ops.reflines.untwist('EXEC_DEFAULT', True, border=border, **settings)
     report = panel.reflection_lines.report
     assert reached(panel) < 0.2 and report.remedy == "free"
     first = report.notes.splitlines()[0]
-    assert first.startswith("Only ") and f"the border {border.capitalize()} keeps the lines' mean" in first
+    assert first.startswith("Only ") and f"the border {name} keeps the lines' mean" in first
     assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True, border=report.remedy) == {'FINISHED'}
     assert reached(panel) > 0.8 and report.remedy == "clamped" and "of the target" not in report.notes
     remedied = scenes.positions(panel)
