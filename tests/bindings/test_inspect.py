@@ -57,7 +57,8 @@ def find_border(V: Array, F: Array) -> Array:
 
 
 def plant(V: Array, F: Array, count: int, *, seed: int = 1) -> tuple[Array, list[Array], list[float]]:
-    """Bumps and dents by turns along z, three radii from the border and six from each other: positions, places and heights.
+    """Plants bumps and dents by turns along z, three radii from the border and six from each other; returns the
+    positions, places and heights.
     """
     border, places, heights, dented = find_border(V, F), [], [], V.copy()
     for place in V[np.random.default_rng(seed).permutation(np.unique(F))]:
