@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .reflines import LineHandles as LineHandles
     from .reflines import NormalFit as NormalFit
     from .reflines import PanelCheck as PanelCheck
+    from .reflines import PanelInspection as PanelInspection
     from .reflines import Progress as Progress
     from .reflines import Report as Report
     from .reflines import ShapeOptimizer as ShapeOptimizer

@@ -25,6 +25,8 @@ SETTINGS = (
     ("bpy.types.reflineshandle*", "#kept-handles"),
     ("bpy.types.reflinesbake.*", "#reflines.bake_handles"),
     ("bpy.types.reflinesmarks.*", "#reflines.check"),
+    ("bpy.types.reflinesinspection.*", "#reflines.inspect"),
+    ("bpy.types.reflinesspot.*", "#reflines.inspect"),
     ("bpy.types.reflinesscene.*", "#reflines.smooth"),
     ("bpy.types.reflinesstripes.*", "#stripes"),
     ("bpy.types.reflinessetups.*", "#stripes"),

@@ -42,6 +42,8 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
         layout.operator("reflines.store_result", icon='SPREADSHEET')
         layout.operator("reflines.check", icon='CHECKMARK')
+        layout.operator("reflines.inspect", icon='VIEWZOOM')
+        layout.operator("reflines.next_spot", icon='FRAME_NEXT')
 
 
 def draw_drags(layout: bpy.types.UILayout) -> None:

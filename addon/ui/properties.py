@@ -12,6 +12,7 @@ from ..model.solution import Solution
 from .automatic_values import shown_property, switch_property
 from .check_properties import ReflinesCheck, ReflinesMarks
 from .handle_properties import ReflinesHandles
+from .inspection_properties import ReflinesInspection
 from .stripe_properties import ReflinesSetups, ReflinesStripes
 from .tool_properties import (ReflinesBake, ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
                               ReflinesUntwist, ReflinesWarp, SmoothSettings)
@@ -217,6 +218,7 @@ class ReflinesObject(bpy.types.PropertyGroup):
     center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
     run: PointerProperty(type=ReflinesRun)
     check: PointerProperty(type=ReflinesCheck)
+    inspection: PointerProperty(type=ReflinesInspection)
     handles: PointerProperty(type=ReflinesHandles)
     camera: PointerProperty(name="View Camera", type=bpy.types.Object,
                             description="That the panel was last worked on with")

@@ -345,6 +345,49 @@ def check(before: np.ndarray, after: np.ndarray, F: np.ndarray, region: np.ndarr
     their other side, before and after, with pass marks; and its distance from the surface before. `before` and `after` are #V x 3
     with the neighbours of the region (three rings or more), F #F x 3. Raises InvalidInput."""
 
+class WorstSpot:
+    """A connected place whose lines deviate by more than the noise floor."""
+    place: np.ndarray        # 3: on the panel, where the lines deviate most
+    size: float              # diameter of a disk with the area where they deviate by half of that or more
+    degrees: float           # deviation there in the light and view that show it best
+    height: float            # of the flaw over the flawless surface along its normal: negative of a dent
+    view: int                # those that show it best
+    light: int
+    front_light: int         # the one that shows it best from the first view
+    triangles: list[int]     # those that deviate by half of that or more, ascending
+
+class PanelInspection:
+    """The result of `inspect_panel`; see native/include/reflines/inspect_panel.h."""
+    length: float            # size of the flaws that were looked for
+    degrees: np.ndarray      # #views x #lights: deviation, root mean square over the area that is seen
+    seen: np.ndarray         # #views: share of the panel's area that is seen and not at a grazing angle
+    deviation: np.ndarray    # #F: degrees, of each triangle in the light and view in which that is most
+    view: np.ndarray         # #F: those
+    light: np.ndarray        # #F
+    height: np.ndarray       # #V: of the surface over the flawless one along the first view
+    maps: np.ndarray         # #F x #views #lights, float32, those of a view beside each other; empty without `maps`
+    mean: float              # of `degrees`
+    worst_view: int          # with the largest mean of its lights
+    worst_light: int         # with the largest mean over its views
+    spots: list[WorstSpot]   # the worst first
+
+def inspect_panel(V: np.ndarray, F: np.ndarray, views: np.ndarray, lines: np.ndarray, *,
+                  length: float | None = None,     # size of the flaws; automatic: a 14th of the diagonal times flaw_size
+                  flaw_size: float = 1.0,
+                  noise_floor: float = 0.1,        # degrees: places that deviate by less are no spots
+                  most_spots: int = 100, maps: bool = False,
+                  blockers: tuple[np.ndarray, np.ndarray] | None = None,  # V, F of what may hide the panel beside itself
+                  progress: Progress | None = None) -> PanelInspection:
+    """Tells how even the lines of a panel V (#V x 3), F (#F x 3) are from `views` (#views x 3, from the surface to the viewer; along
+    the first the panel is a height field) in light lines of the directions `lines` (#lights x 3), and where its worst places are.
+    Nothing is solved or moved. Triangles that are hidden from a view or seen at a grazing angle have no weight there. Raises
+    InvalidInput, SolverFailure, Cancelled."""
+
+def walk_around(view_direction: Sequence[float], line_direction: Sequence[float],
+                up: Sequence[float] = ...) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the views (5 x 3: the one given, from its left, its right, above and below) and light lines (8 x 3) of a walk around
+    a panel, for inspect_panel. `up` is up in the picture. Raises InvalidInput."""
+
 class CageOptimizer(ShapeOptimizer):
     """The optimizer of a region of a subdivision surface whose unknowns are the heights of its cage; see
     native/include/reflines/cage_optimizer.h. The surface, cut into triangles, is the region of ShapeOptimizer: every builder

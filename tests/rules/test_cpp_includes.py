@@ -17,7 +17,7 @@ PUBLIC = {
     "minimizer_options": "optimization", "report": "optimization",
     "shape_optimizer": "solver", "cage_optimizer": "solver",
     "smooth_panel": "restoration", "panel_smoother": "restoration",
-    "check_panel": "inspection",
+    "check_panel": "inspection", "inspect_panel": "inspection",
     "handle_follower": "following",
 }
 
@@ -36,7 +36,7 @@ MAY_INCLUDE = {
     "solver/coarse": SOLVER,
     "solver": SOLVER | {"solver/coarse"},
     "restoration": SOLVER | {"solver"},
-    "inspection": BASE | {"geometry"},
+    "inspection": SOLVER | {"solver", "restoration"},
     "following": SOLVER | {"solver", "solver/coarse", "targets"},
     "python": SOLVER | {"targets", "solver", "restoration", "inspection", "following"},
     "examples": SOLVER | {"targets", "solver"},

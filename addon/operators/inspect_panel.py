@@ -1,0 +1,136 @@
+"""The operator Inspect."""
+import bpy
+import numpy as np
+from bpy.props import FloatProperty
+
+from ..bridge import facing, gather, read_checked, read_mesh, scene_objects, view_and_light
+from ..bridge.mesh_checks import Purpose
+from ..interactive import running_operators
+from ..interactive.inspection_job import InspectionJob, InspectionOutcome, InspectionRequest
+from ..model.inspection import Inspection
+from ..model.refusal import Refusal
+from ..native_call import run_now
+from ..solver import live_optimizer, panel_inspection
+from ..solver.panel_inspection import Inspected
+
+TICK_INTERVAL = 0.05  # seconds between two looks at the work
+
+
+class REFLINES_OT_inspect(bpy.types.Operator):
+    """Find the panel's worst spots: how even its lines are in eight lights from five views around it. Nothing is
+changed; Esc cancels"""
+    bl_idname = "reflines.inspect"
+    bl_label = "Inspect"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    flaw_size: FloatProperty(name="Flaw Size", default=1.0, min=0.1, max=10.0, description="Size of the flaws to look "
+                             "for, relative to the automatic one, which is a 14th of the panel's diagonal")
+    noise_floor: FloatProperty(name="Noise Floor", default=0.1, min=0.01, max=45.0,
+                               description="Degrees: places whose lines deviate by less are not listed")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = scene_objects.read_active_object(context)
+        if ob is None or ob.type != 'MESH' or ob.mode not in {'EDIT', 'OBJECT'}:
+            cls.poll_message_set("Make a panel's mesh active, in Edit Mode or Object Mode")
+            return False
+        obstacle = view_and_light.find_obstacle(context.scene)
+        cls.poll_message_set(obstacle)
+        return not obstacle
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob = scene_objects.read_active_object(context)
+        try:
+            request = self.build_request(context, ob)
+            with live_optimizer.convert_native_errors(request.patch):
+                found = run_now(panel_inspection.inspect_surface(request.wanted, self.flaw_size, self.noise_floor))
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        self.store(ob, found)
+        return {'FINISHED'}
+
+    def build_request(self, context: bpy.types.Context, ob: bpy.types.Object) -> InspectionRequest:
+        """Reads the region, all around it, and the view; refuses what cannot be inspected."""
+        context.view_layer.update()
+        settings = context.scene.reflection_lines
+        patch = gather.gather_patch(ob, settings.solve_for, 'MESH', or_all=True, purpose=Purpose.READ)
+        with live_optimizer.convert_native_errors(patch):
+            surface = read_checked.read_checked_surface(ob, patch, patch.V)
+        up = view_and_light.read_camera_axes(settings.camera)[1]
+        wanted = Inspected(surface, facing.read_patch_view(context.scene, patch), up)
+        return InspectionRequest(patch, wanted, self.flaw_size, self.noise_floor)
+
+    def store(self, ob: bpy.types.Object, found: Inspection) -> None:
+        stored = ob.reflection_lines.inspection
+        stored.fill(found, self.noise_floor)
+        self.report({'INFO'}, f"{ob.name}: {stored.summary}")
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Inspects beside Blender, which goes on meanwhile."""
+        if context.area is None or context.area.type != 'VIEW_3D':
+            return self.execute(context)
+        ob = scene_objects.read_active_object(context)
+        try:
+            request = self.build_request(context, ob)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        self.panel, self.shape = ob.name, read_mesh.read_shown_coordinates(ob)
+        self.job = InspectionJob(request)
+        self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        running_operators.note_begin(self)
+        return {'RUNNING_MODAL'}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == 'ESC' and event.value == 'PRESS':
+            self.take_back(context)
+            self.report({'INFO'}, "Inspect was cancelled")
+            return {'CANCELLED'}
+        if event.type != 'TIMER':
+            return {'PASS_THROUGH'}
+        outcome = self.job.work.take()
+        if outcome is None and self.job.work.is_alive():
+            context.workspace.status_text_set(self.job.describe())
+            return {'RUNNING_MODAL'}
+        self.end(context)
+        return self.take_outcome(outcome or InspectionOutcome(refusal="The inspection stopped: nothing was found"))
+
+    def take_outcome(self, outcome: InspectionOutcome) -> set[str]:
+        ob = bpy.data.objects.get(self.panel)
+        refusal = outcome.refusal
+        if not refusal and not self.is_same(ob):
+            refusal = f"{self.panel} was changed while it was inspected: inspect it again"
+        if refusal:
+            self.report({'ERROR'}, refusal)
+            return {'CANCELLED'}
+        self.store(ob, outcome.inspection)
+        for area in bpy.context.window.screen.areas:
+            area.tag_redraw()
+        return {'FINISHED'}
+
+    def is_same(self, ob: bpy.types.Object | None) -> bool:
+        return ob is not None and ob.type == 'MESH' and np.array_equal(read_mesh.read_shown_coordinates(ob), self.shape)
+
+    def take_back(self, context: bpy.types.Context) -> None:
+        """Ends the work without a result."""
+        self.job.work.stop()
+        self.end(context)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Ends the work when Blender exits or opens another file."""
+        self.take_back(context)
+
+    def end(self, context: bpy.types.Context) -> None:
+        running_operators.note_end(self)
+        context.window_manager.event_timer_remove(self.timer)
+        context.workspace.status_text_set(None)
+
+
+register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_inspect])
+
+
+def unregister() -> None:
+    running_operators.take_back(REFLINES_OT_inspect)
+    unregister_classes()

@@ -1,0 +1,117 @@
+"""Show Spot, Next Spot and Export Spots: what is done with the worst spots of an inspection."""
+from pathlib import Path
+
+import bpy
+from bpy.props import IntProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+from mathutils import Vector
+
+from ..bridge import light_angles, scene_objects, select_faces
+from ..model import inspection
+from ..model.refusal import Refusal
+
+FRAMED = 5.0  # sizes of the spot that the view shows
+
+
+def has_spots(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    ob = scene_objects.read_active_object(context)
+    operator.poll_message_set("Make a panel active that was inspected and has spots")
+    return ob is not None and ob.type == 'MESH' and len(ob.reflection_lines.inspection.spots) > 0
+
+
+def show_spot(context: bpy.types.Context, ob: bpy.types.Object, index: int) -> str:
+    """Frames a spot in the 3D view, turns the light to it and selects its faces; returns the line that tells of it."""
+    stored = ob.reflection_lines.inspection
+    stored.active = index
+    spot, settings = stored.spots[index], context.scene.reflection_lines
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    select_faces.select_faces(ob, select_faces.find_faces_near(ob, spot.find_place(), 0.5 * spot.size))
+    camera = settings.picture_camera()
+    if not settings.explain_fixed_light():
+        axes = light_angles.read_picture_axes(camera)
+        light_angles.point_light(camera, settings.light, axes.transposed() @ Vector(spot.line))
+    region_3d = getattr(context.space_data, "region_3d", None)
+    if region_3d is not None:
+        frame_spot(region_3d, camera, spot)
+    return f"Spot {index + 1} of {len(stored.spots)}: {spot.describe()}, seen best from {spot.view}"
+
+
+def frame_spot(region_3d: bpy.types.RegionView3D, camera: bpy.types.Object | None, spot: bpy.types.PropertyGroup,
+               ) -> None:
+    """Looks at a spot in the direction of the view camera, for which the stripes are drawn."""
+    if region_3d.view_perspective == 'CAMERA':
+        region_3d.view_perspective = 'ORTHO'
+    if camera is not None:
+        region_3d.view_rotation = camera.matrix_world.to_quaternion()
+    region_3d.view_location = spot.find_place().tolist()
+    region_3d.view_distance = FRAMED * spot.size
+
+
+class REFLINES_OT_show_spot(bpy.types.Operator):
+    """Look at this spot: the view frames it, the light turns to what shows it best, and its faces are selected"""
+    bl_idname = "reflines.show_spot"
+    bl_label = "Show Spot"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    index: IntProperty(name="Spot", min=0, options={'HIDDEN'}, description="From 0, the worst")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_spots(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob = scene_objects.read_active_object(context)
+        count = len(ob.reflection_lines.inspection.spots)
+        if self.index >= count:
+            self.report({'ERROR'}, f"{ob.name} has {count} spots: there is no number {self.index + 1}")
+            return {'CANCELLED'}
+        self.report({'INFO'}, show_spot(context, ob, self.index))
+        return {'FINISHED'}
+
+
+class REFLINES_OT_next_spot(bpy.types.Operator):
+    """Look at the next spot, the worst first; after the last at the first"""
+    bl_idname = "reflines.next_spot"
+    bl_label = "Next Spot"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_spots(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob = scene_objects.read_active_object(context)
+        stored = ob.reflection_lines.inspection
+        self.report({'INFO'}, show_spot(context, ob, (stored.active + 1) % len(stored.spots)))
+        return {'FINISHED'}
+
+
+class REFLINES_OT_export_spots(ExportHelper, bpy.types.Operator):
+    """Write the spots of the last inspection to a .csv file, for tables"""
+    bl_idname = "reflines.export_spots"
+    bl_label = "Export Spots"
+
+    filename_ext = ".csv"
+    filter_glob: StringProperty(default="*.csv", options={'HIDDEN'})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_spots(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
+        spots = [spot.to_spot() for spot in ob.reflection_lines.inspection.spots]
+        try:
+            if path.suffix.lower() != ".csv":
+                raise Refusal(f"{path.name or 'The file'} does not end in .csv: add that")
+            path.write_text(inspection.format_csv(spots), encoding="utf-8")
+        except (Refusal, OSError) as error:
+            self.report({'ERROR'}, str(error))
+            return {'CANCELLED'}
+        self.report({'INFO'}, f"{ob.name}: {len(spots)} spots written to {path.name}")
+        return {'FINISHED'}
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_show_spot, REFLINES_OT_next_spot,
+                                                           REFLINES_OT_export_spots])

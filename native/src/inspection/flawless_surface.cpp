@@ -1,0 +1,58 @@
+#include "inspection/flawless_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "inspection/line_deviation.h"
+#include "inspection/local_surface.h"
+#include "restoration/adaptive_smoother.h"
+
+namespace reflines {
+namespace {
+
+// Times that what smoothing takes away is smoothed again and given back (Tukey's twicing). With 1, 2 and 4 the border
+// of a clean dome seems to have flaws of 0.21, 0.14 and 0.10 degrees; of a dent 95, 93 and 92 % are seen.
+constexpr int kRounds = 4;
+
+// Radius of the polynomials' disks, relative to the length. Of dents with a radius of 0.45 lengths 45 and 83 % are seen
+// with 1.25 and 1.7, and clean real outlines with coarse meshes deviate by 0.03 and 0.07 degrees.
+constexpr double kDisk = 1.5;
+
+// Times what smoothing takes away that a flaw counts at most: smoothing leaves a part of wide flaws.
+constexpr double kAtMost = 1.6;
+
+constexpr double kFitting = 0.45;  // of the work, for the bar of its progress
+
+Vector smooth_by_place(const HeightField& field, double length, Progress* progress) {
+  AdaptiveSmoother smoother(field, length);
+  const Vector once = smoother.adapt(field.z, progress);
+  Vector result = once;
+  for (int round = 1; round < kRounds; ++round) {
+    throw_if_cancelled(progress);
+    result = once + (result - smoother.smooth(result));
+  }
+  return result;
+}
+
+// Returns the part of `fitted` that `smoothed` tells, too: numbers of the same sign.
+double agree(double smoothed, double fitted) {
+  if (smoothed * fitted <= 0) return 0.0;
+  return std::copysign(std::min(kAtMost * std::abs(smoothed), std::abs(fitted)), fitted);
+}
+
+}  // namespace
+
+FlawlessSurface find_flawless_surface(const HeightField& field, double length, Progress* progress) {
+  const Vector smoothed = field.z - smooth_by_place(field, length, progress);
+  if (progress) progress->enter(kFitting, "fitting the surface around each place");
+  const Vector fitted = field.z - fit_local_surface(field, kDisk * length, progress);
+  FlawlessSurface result{find_slopes(field, field.z), smoothed.binaryExpr(fitted, &agree)};
+  const PlaneVectors one = find_slopes(field, smoothed), other = find_slopes(field, fitted);
+  for (Eigen::Index t = 0; t < one.rows(); ++t) {
+    const double share = one.row(t).dot(other.row(t)) / std::max(one.row(t).squaredNorm(), 1e-300);
+    result.slopes.row(t) -= std::clamp(share, 0.0, kAtMost) * one.row(t);
+  }
+  return result;
+}
+
+}  // namespace reflines

@@ -1,0 +1,210 @@
+#include "reflines/inspect_panel.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "geometry/bounding_box.h"
+#include "geometry/height_field.h"
+#include "geometry/mesh.h"
+#include "inspection/flawless_surface.h"
+#include "inspection/line_deviation.h"
+#include "inspection/peaks.h"
+#include "inspection/view_visibility.h"
+#include "reflines/errors.h"
+#include "restoration/smoothstep.h"
+#include "restoration/used_vertices.h"
+#include "threads/abandonable_work.h"
+
+namespace reflines {
+namespace {
+
+// Radius of the mean, relative to the length: a flaw counts as one place, and the facets of a mesh are none.
+constexpr double kRadius = 0.35;
+
+// The cosine of the angle between normal and view from which on a triangle is seen, and seen well.
+constexpr double kGrazing = 0.2, kFacing = 0.35;
+
+constexpr double kClearance = 1e-6;  // relative to the diagonal: what is no further in front of a place hides nothing
+
+constexpr double kLooking = 0.5;  // of the work, for the bar of its progress
+
+constexpr double kLongest = 1e3;  // length, relative to the diagonal
+
+void check_directions(const Positions& directions, const std::string& name) {
+  if (directions.rows() == 0) throw InvalidInput("There is no " + name + " direction; give one or more.");
+  for (Eigen::Index k = 0; k < directions.rows(); ++k) {
+    if (directions.row(k).allFinite() && !directions.row(k).isZero(0)) continue;
+    throw InvalidInput("The direction of " + name + " " + std::to_string(k) +
+                       " has no length or is not a number; give three finite numbers.");
+  }
+}
+
+// Throws where a light is parallel to a view, with the names of both.
+void check_pairs(const Positions& views, const Positions& lines) {
+  check_directions(views, "view");
+  check_directions(lines, "light");
+  for (Eigen::Index k = 0; k < views.rows(); ++k) {
+    for (Eigen::Index l = 0; l < lines.rows(); ++l) {
+      try {
+        const ImagePlane plane(views.row(k), lines.row(l));
+      } catch (const InvalidInput&) {
+        throw InvalidInput("Light " + std::to_string(l) + " is parallel to view " + std::to_string(k) +
+                           ", so no reflection lines can be seen; turn one of them.");
+      }
+    }
+  }
+}
+
+void check_options(const InspectOptions& options) {
+  const auto refuse = [](const char* what) { throw InvalidInput(what); };
+  if (!(options.length >= 0) || !std::isfinite(options.length))
+    refuse("The length must be a positive length, or 0 for automatic.");
+  if (!(options.flaw_size > 0) || !std::isfinite(options.flaw_size)) refuse("The flaw size must be a number above 0.");
+  if (!(options.noise_floor >= 0)) refuse("The noise floor must be 0 or more degrees.");
+  if (options.most_spots < 0) refuse("The number of spots must be 0 or more.");
+  if (!options.blocker_vertices.allFinite()) refuse("A vertex of what may hide the panel is no finite number.");
+  check_indices(options.blocker_vertices, options.blockers);
+}
+
+// The panel's own vertices and triangles, with what may hide them after these.
+struct Scene {
+  Positions V;
+  Triangles F;
+  int own_vertices, own_triangles;
+
+  auto panel_vertices() const { return V.topRows(own_vertices); }
+  auto panel() const { return F.topRows(own_triangles); }
+  Vector3 cross(int t) const {
+    const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
+    return (b - a).cross(c - a);
+  }
+  Vector3 middle(int t) const { return (V.row(F(t, 0)) + V.row(F(t, 1)) + V.row(F(t, 2))) / 3; }
+};
+
+Scene make_scene(const Positions& V, const UsedVertices& used, const InspectOptions& options) {
+  const auto count = static_cast<int>(used.index.size());
+  Scene scene{Positions(count + options.blocker_vertices.rows(), 3),
+              Triangles(used.F.rows() + options.blockers.rows(), 3), count, static_cast<int>(used.F.rows())};
+  scene.V << V(used.index, Eigen::all), options.blocker_vertices;
+  scene.F << used.F, options.blockers.array() + count;
+  return scene;
+}
+
+HeightField make_field(const Scene& scene, const ImagePlane& frame) {
+  const Boundary boundary{std::vector<Border>(scene.own_vertices, Border::kFixed), {}, {.rule = CreaseRule::kNone}};
+  return make_height_field(scene.panel_vertices(), scene.panel(), frame, boundary);
+}
+
+// Returns how well a view sees each triangle of the field (#T): 0 where it is hidden, grazing or turned away.
+Vector weigh_view(const Scene& scene, const std::vector<int>& source, const Vector3& view, double clearance) {
+  const ViewVisibility visibility(scene.V, scene.F, view);
+  const int count = static_cast<int>(source.size());
+  Vector weight(count);
+#pragma omp parallel for schedule(dynamic, 256)
+  for (int t = 0; t < count; ++t) {
+    weight(t) = smoothstep(kGrazing, kFacing, visibility.facing(source[t]));
+    if (weight(t) > 0 && visibility.is_hidden(source[t], clearance)) weight(t) = 0;
+  }
+  return weight;
+}
+
+LineDeviation look_around(const Scene& scene, const HeightField& field, const ImagePlane& frame,
+                          const PlaneVectors& course, double length, const Positions& views, const Positions& lines,
+                          const InspectOptions& options) {
+  DeviationSum sum(field, frame, course, kRadius * length, options.keep_maps);
+  const double clearance = kClearance * bounding_box_diagonal(scene.V);
+  for (Eigen::Index k = 0; k < views.rows(); ++k) {
+    const double done = static_cast<double>(k) / static_cast<double>(views.rows());
+    if (options.progress) options.progress->enter(kLooking + (1 - kLooking) * done, "looking from each view");
+    const Vector3 view = views.row(k).transpose().stableNormalized();
+    sum.add_view(view, lines, weigh_view(scene, field.source, view, clearance));
+  }
+  return sum.result();
+}
+
+WorstSpot make_spot(const Peak& peak, const Scene& scene, const HeightField& field, const LineDeviation& deviation,
+                    const Vector& flaws, const Vector3& axis) {
+  WorstSpot spot{.place = scene.middle(field.source[peak.top]),
+                 .degrees = deviation.worst(peak.top),
+                 .view = deviation.view(peak.top),
+                 .light = deviation.light(peak.top),
+                 .front_light = deviation.front_light(peak.top)};
+  double area = 0;
+  for (const int t : peak.triangles) {
+    const Vector3 cross = scene.cross(field.source[t]);
+    area += 0.5 * cross.norm();
+    spot.triangles.push_back(field.source[t]);
+    for (int i = 0; i < 3; ++i) {
+      const double height = flaws(field.F(t, i)) * cross.normalized().dot(axis);
+      if (std::abs(height) > std::abs(spot.height)) spot.height = height;
+    }
+  }
+  spot.size = 2 * std::sqrt(area / std::numbers::pi);
+  return spot;
+}
+
+// Fills in what is told of all lights and views together.
+void sum_up(PanelInspection& result) {
+  const double views = (result.seen.array() > 0).count();
+  if (views == 0) return;
+  result.mean = result.degrees.sum() / (views * static_cast<double>(result.degrees.cols()));
+  result.degrees.rowwise().mean().maxCoeff(&result.worst_view);
+  result.degrees.colwise().mean().maxCoeff(&result.worst_light);
+}
+
+// Spreads the deviations of a field's triangles over those of the panel.
+void spread(const LineDeviation& deviation, const std::vector<int>& source, Eigen::Index triangles,
+            PanelInspection& result) {
+  result.degrees = deviation.degrees;
+  result.seen = deviation.seen;
+  result.deviation = Vector::Zero(triangles);
+  result.view = result.light = IndexVector::Zero(triangles);
+  result.deviation(source) = deviation.worst;
+  result.view(source) = deviation.view;
+  result.light(source) = deviation.light;
+  if (deviation.maps.cols() == 0) return;
+  result.maps = Eigen::MatrixXf::Zero(triangles, deviation.maps.cols());
+  result.maps(source, Eigen::all) = deviation.maps;
+}
+
+PanelInspection inspect(const Positions& V, const Triangles& F, const Positions& views, const Positions& lines,
+                        const InspectOptions& options) {
+  const UsedVertices used = find_used_vertices(F, static_cast<int>(V.rows()));
+  const Scene scene = make_scene(V, used, options);
+  const ImagePlane frame(views.row(0), lines.row(0));
+  const HeightField field = make_field(scene, frame);
+  PanelInspection result;
+  const double diagonal = bounding_box_diagonal(scene.panel_vertices());
+  result.length = std::min(options.length > 0 ? options.length : options.flaw_size * kInspectedLength * diagonal,
+                           kLongest * diagonal);
+  const FlawlessSurface flawless = find_flawless_surface(field, result.length, options.progress.get());
+  const LineDeviation deviation =
+      look_around(scene, field, frame, flawless.slopes, result.length, views, lines, options);
+  spread(deviation, field.source, F.rows(), result);
+  result.height = Vector::Zero(V.rows());
+  result.height(used.index) = flawless.flaws;
+  for (const Peak& peak : find_peaks(deviation.worst, field.neighbors, options.noise_floor)) {
+    if (static_cast<int>(result.spots.size()) == options.most_spots) break;
+    result.spots.push_back(make_spot(peak, scene, field, deviation, flawless.flaws, frame.z()));
+  }
+  sum_up(result);
+  return result;
+}
+
+}  // namespace
+
+PanelInspection inspect_panel(const Positions& V, const Triangles& F, const Positions& views, const Positions& lines,
+                              const InspectOptions& options) {
+  check_options(options);
+  check_pairs(views, lines);
+  check_surface(V, F);
+  const auto result = std::make_shared<PanelInspection>();
+  run_abandonable(options.progress.get(), [=] { *result = inspect(V, F, views, lines, options); });
+  return std::move(*result);
+}
+
+}  // namespace reflines

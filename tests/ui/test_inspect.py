@@ -1,0 +1,69 @@
+"""Inspect in a real window: Blender goes on meanwhile, Esc cancels, and a click on a spot frames it."""
+import sys
+import time
+from collections.abc import Generator
+
+import bpy
+import numpy as np
+
+import scenes
+import window
+
+Steps = Generator[float, None, None]
+CELLS = 100
+PATIENCE = 120.0  # seconds
+PLACE = (0.4, 0.3)
+
+
+def dented(x: float, y: float) -> float:
+    return scenes.crown(x, y) - 0.002 * float(np.exp(-((x - PLACE[0])**2 + (y - PLACE[1])**2) / 0.06**2))
+
+
+def begin(driver: window.Window) -> Generator[float, None, bpy.types.Object]:
+    """Inspects a panel with a dent as the button does; returns while that is at work."""
+    with driver.override():
+        if bpy.context.mode != 'OBJECT':
+            scenes.object_mode()
+        ob = scenes.panel(height=dented, cells=CELLS)
+        scenes.look_from_above()
+        bpy.context.scene.reflection_lines.stripes.show = True
+    driver.move(300, 300)
+    yield 0.1
+    with driver.override():
+        assert bpy.ops.reflines.inspect('INVOKE_DEFAULT', True) == {'RUNNING_MODAL'}
+    return ob
+
+
+def wait() -> Generator[float, None, float]:
+    """Waits until nothing runs; returns the longest time in which Blender did nothing else."""
+    longest, before, begun = 0.0, time.monotonic(), time.monotonic()
+    while sys.modules["reflection_lines"].interactive.running_operators._running and before - begun < PATIENCE:
+        yield 0.01
+        longest, before = max(longest, time.monotonic() - before), time.monotonic()
+    yield 0.2
+    return longest
+
+
+def test_blender_goes_on_and_a_spot_is_framed(driver: window.Window) -> Steps:
+    ob = yield from begin(driver)
+    longest = yield from wait()
+    found = ob.reflection_lines.inspection
+    assert len(found.spots) == 1 and longest < 0.5, f"Blender stood still for {longest:.2f} s"
+    with driver.override():
+        assert bpy.ops.reflines.show_spot('EXEC_DEFAULT', True, index=0) == {'FINISHED'}
+    yield 0.3
+    assert np.allclose(tuple(driver.region_3d().view_location)[:2], PLACE, atol=0.1)
+    assert driver.region_3d().view_distance < 2.0
+    assert any(face.select for face in ob.data.polygons) and not all(face.select for face in ob.data.polygons)
+
+
+def test_escape_cancels(driver: window.Window) -> Steps:
+    ob = yield from begin(driver)
+    driver.key('ESC')
+    yield 0.3
+    yield from wait()
+    assert not ob.reflection_lines.inspection.summary
+
+
+if __name__ == "__main__":
+    window.run(test_blender_goes_on_and_a_spot_is_framed, test_escape_cancels)
