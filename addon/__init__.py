@@ -15,7 +15,7 @@ bl_info = {
 # unregistered backwards.
 NAMES = (
     "library_copy", "native", "native_call",
-    "model.border", "model.check_table", "model.checked_surface", "model.edit_cage", "model.gain",
+    "model.beside", "model.border", "model.check_table", "model.checked_surface", "model.edit_cage", "model.gain",
     "model.inspection", "model.looks",
     "model.creases", "model.line_curve", "model.mirror", "model.orientation", "model.refusal", "model.surroundings",
     "model.line_handle", "model.kept_handles", "model.bake_frames", "model.line_run", "model.nearest_line",
@@ -28,7 +28,7 @@ NAMES = (
     "bridge.baked_keys", "bridge.handle_keys",
     "bridge.dense_mesh", "bridge.falloff_curve", "bridge.mesh_checks", "bridge.read_mirror", "bridge.read_creases",
     "bridge.vertex_attributes", "bridge.border_segments", "bridge.read_surroundings", "bridge.group_weights",
-    "bridge.read_limit_share", "bridge.scene_objects",
+    "bridge.read_limit_share", "bridge.scene_objects", "bridge.read_beside",
     "bridge.read_patch", "bridge.read_cage", "bridge.read_checked", "bridge.shape_keys", "bridge.gather",
     "bridge.image_pixels",
     "bridge.write_mesh",

@@ -33,8 +33,8 @@ def read_border(ob: bpy.types.Object, index: np.ndarray) -> np.ndarray:
     values = (read_edit_values if ob.mode == 'EDIT' else read_object_values)(ob.data)[index].astype(np.int64)
     wrong = int(((values < 0) | (values > LARGEST)).sum())
     if wrong:
-        raise Refusal(f"{ob.name}: {wrong} vertices have a border that is none of Free, Position, Tangent, Curvature "
-                      "and Flow: select them and press one of these under Border of the Selected")
+        raise Refusal(f"{ob.name}: {wrong} vertices have a border that is none of Free, Position, Tangent, Curvature, "
+                      "Flow and Follow Neighbours: select them and press one of these under Border of the Selected")
     return values - 1
 
 

@@ -2,13 +2,15 @@
 import bpy
 import numpy as np
 
+from ..model.beside import Crossing
 from ..model.patch import Patch
 from . import modifiers, read_cage, read_patch, shape_keys
 from .mesh_checks import Purpose
 
 
 def gather_patch(ob: bpy.types.Object, solve_for: str, result: str, local: np.ndarray | None = None, *,
-             or_all: bool = False, purpose: Purpose = Purpose.WRITE, reach: float = 0.0) -> Patch:
+             or_all: bool = False, purpose: Purpose = Purpose.WRITE, reach: float = 0.0,
+                 crossing: Crossing | None = None) -> Patch:
     """Gathers the patch of an object, for the mesh or its cage.
 
     `solve_for` and `result` are values of the properties of these names; the rest is as in
@@ -17,4 +19,5 @@ def gather_patch(ob: bpy.types.Object, solve_for: str, result: str, local: np.nd
     key = shape_keys.NAME if result == 'SHAPE_KEY' else ""
     if solve_for == 'CAGE' and modifiers.is_cage(ob):
         return read_cage.gather_cage_patch(ob, local, key, or_all=or_all, purpose=purpose)
-    return read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, purpose=purpose, reach=reach)
+    return read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, purpose=purpose, reach=reach,
+                                        crossing=crossing)

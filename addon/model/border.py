@@ -1,9 +1,10 @@
 """The condition at a region's border: one for all vertices, or each segment's own."""
 import numpy as np
 
-CODES = {"free": 0, "fixed": 1, "clamped": 2, "curvature": 3, "flow": 4}  # by which the native module knows them
+# The numbers by which the native module knows them.
+CODES = {"free": 0, "fixed": 1, "clamped": 2, "curvature": 3, "flow": 4, "follow": 5}
 NAMES = {"free": "Free", "fixed": "Position (G0)", "clamped": "Tangent (G1)", "curvature": "Curvature (G2)",
-         "flow": "Flow (G3)"}  # by which the artist knows them
+         "flow": "Flow (G3)", "follow": "Follow Neighbours"}  # by which the artist knows them
 UNSET = -1  # of a vertex without a condition of its own
 
 
@@ -15,7 +16,7 @@ def name_border(border: str) -> str:
 def needs_surroundings(border: str | np.ndarray) -> bool:
     """Returns whether a border, or one of its codes, takes its curvature, or more, from the faces around the region."""
     codes = CODES[border] if isinstance(border, str) else border
-    return bool(np.max(codes) >= CODES["curvature"])
+    return bool(np.isin(codes, (CODES["curvature"], CODES["flow"])).any())
 
 
 def fill_border(own: np.ndarray, border: str) -> str | np.ndarray:
@@ -23,3 +24,10 @@ def fill_border(own: np.ndarray, border: str) -> str | np.ndarray:
     codes, with the name's for the others.
     """
     return np.where(own == UNSET, CODES[border], own) if (own != UNSET).any() else border
+
+
+def clamp_instead(border: str | np.ndarray) -> str | np.ndarray:
+    """Returns the border, or its codes, clamped where it would follow its neighbours."""
+    if isinstance(border, str):
+        return "clamped" if border == "follow" else border
+    return np.where(border == CODES["follow"], CODES["clamped"], border)

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from .refusal import Refusal
 
-CHOICES = {"border": ("clamped", "curvature", "flow", "fixed", "free"), "lights": ("CROSSED", "SINGLE"),
+CHOICES = {"border": ("clamped", "curvature", "flow", "fixed", "free", "follow"),
+           "lights": ("CROSSED", "SINGLE"),
            "solve_for": ("CAGE", "MESH"), "result": ("MESH", "SHAPE_KEY")}  # the defaults first
 
 

@@ -1,9 +1,10 @@
 """The patch: the region of one mesh as arrays, and the way back to the mesh."""
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from . import mirror
+from .beside import Beside, have_same_beside
 from .creases import Creases
 from .mirror import Mirror
 from .refusal import Refusal
@@ -27,6 +28,7 @@ class Patch:
     border: np.ndarray   # #V: codes of the border's own conditions, border.UNSET where the tool's holds
     around: Surroundings
     share: np.ndarray | None  # #V x 2: of the limit, for the lowest move (-1 to 0) and the highest; None: the whole one
+    beside: Beside | None = field(default=None, kw_only=True)  # what the border can follow, where it is to
 
     @property
     def center(self) -> np.ndarray:
@@ -82,7 +84,8 @@ class Patch:
         return (type(self) is type(other) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
                 and mirror.are_equal(self.mirror, other.mirror) and np.array_equal(self.matrix, other.matrix)
                 and self.creases.same(other.creases) and np.array_equal(self.border, other.border)
-                and self.around.same(other.around) and have_same_share(self, other))
+                and self.around.same(other.around) and have_same_share(self, other)
+                and have_same_beside(self.beside, other.beside))
 
 
 def have_same_share(one: Patch, other: Patch) -> bool:

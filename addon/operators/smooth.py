@@ -6,6 +6,7 @@ import bpy
 
 from ..bridge import facing
 from ..interactive.drag_handles import Handle
+from ..model.beside import Crossing
 from ..model.patch import Patch
 from ..model.solution import BuildCrossed, Solution, SolveSettings
 from ..native_call import run_now
@@ -77,6 +78,16 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
     def choose_reach(self) -> float:
         press = self.choose_press()
         return press.choose_reach() if press is not None else 0.0
+
+    def choose_crossing(self) -> Crossing | None:
+        """Returns what the border follows. Of several objects each follows those before it as they will be, in the
+        order of their names.
+        """
+        solved = getattr(self, "solved", {})  # a drag solves none before the others
+        return Crossing(self.gap, self.border == 'follow', solved) if self.choose_press() is not None else None
+
+    def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        return sorted(super().find_subjects(context), key=lambda ob: ob.name)
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
         """Records a solution. What the length 0 stands for is known after an automatic press only."""

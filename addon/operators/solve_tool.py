@@ -6,6 +6,7 @@ from bpy.props import BoolProperty
 from ..bridge import (facing, gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, shown_surface,
                       unjoined_border, view_and_light, write_mesh)
 from ..bridge.mesh_checks import Purpose
+from ..model.beside import Crossing
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -73,12 +74,14 @@ class SolveTool:
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()  # scripts may have set transforms that are not evaluated yet
         self.copy_settings(context.scene)
-        subjects = []
+        subjects, solutions = [], []
+        self.solved = {}
         try:
             subjects = self.find_subjects(context)
-            solutions = [self.solve(context, ob) for ob in subjects]
-            for solution in solutions:  # all or none are written
-                solution.patch.to_object_space(solution.positions)
+            for ob in subjects:  # all or none are written
+                solutions.append(self.solve(context, ob))
+                patch = solutions[-1].patch
+                self.solved[ob.name] = patch.index, patch.to_object_space(solutions[-1].positions)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
@@ -120,7 +123,7 @@ class SolveTool:
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
         return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), reach=self.choose_reach(),
-                                   purpose=self.choose_purpose())
+                                   purpose=self.choose_purpose(), crossing=self.choose_crossing())
 
     def choose_purpose(self) -> Purpose:
         return Purpose.WRITE_EDITED if self.edited else Purpose.WRITE
@@ -128,6 +131,10 @@ class SolveTool:
     def choose_reach(self) -> float:
         """Returns how far the faces beside the region are read, in its diagonals; 0: some rings of them."""
         return 0.0
+
+    def choose_crossing(self) -> Crossing | None:
+        """Returns what the border follows across gaps; None where the tool does not."""
+        return None
 
     def begin_run(self, ob: bpy.types.Object) -> np.ndarray | None:
         """Returns the shape to begin with: #vertices x 3, None for the mesh as it is.

@@ -12,7 +12,7 @@ from . import surface_lines
 from .surface_lines import SurfaceLines
 
 COLORS = {"free": (0.25, 0.85, 0.3), "fixed": (1.0, 0.55, 0.05), "clamped": (0.2, 0.5, 1.0),
-          "curvature": (0.75, 0.3, 1.0), "flow": (1.0, 0.15, 0.45)}  # sRGB
+          "curvature": (0.75, 0.3, 1.0), "flow": (1.0, 0.15, 0.45), "follow": (0.1, 0.9, 0.9)}  # sRGB
 
 
 @dataclass

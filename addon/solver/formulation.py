@@ -10,7 +10,8 @@ import numpy as np
 
 from .. import native
 from ..model import mirror
-from ..model.border import CODES, UNSET, fill_border, needs_surroundings
+from ..model.beside import Beside
+from ..model.border import CODES, UNSET, clamp_instead, fill_border, needs_surroundings
 from ..model.cage import CagePatch
 from ..model.line_surface import LineState
 from ..model.patch import Patch
@@ -77,8 +78,10 @@ class Formulation:
         return own
 
     def choose_border(self, border: str) -> str | np.ndarray:
-        """Returns the border, or its codes vertex by vertex (#V), as the native module takes it."""
-        return fill_border(self.choose_own_border(), border)
+        """Returns the border, or its codes vertex by vertex (#V), as the native module takes it: clamped where it
+        would follow its neighbours, which the automatic press of Smooth alone does.
+        """
+        return clamp_instead(fill_border(self.choose_own_border(), border))
 
     def read_around(self) -> Surroundings:
         """Returns the surroundings of all that is solved."""
@@ -101,6 +104,32 @@ class Formulation:
         around = self.read_around() if fair or needs_surroundings(codes) else None
         edges = {"border": codes, "around": None if around is None else (around.V, around.F)}
         return {**edges, "fair_border": self.choose_own_border() == UNSET} if fair else edges
+
+    def read_beside(self) -> Beside | None:
+        """Returns what the border of all that is solved can follow."""
+        return self.patch.beside
+
+    def find_following(self, border: str) -> np.ndarray:
+        """Returns which vertices are to follow what lies beside them: #V, bool."""
+        own = self.choose_own_border()
+        return np.where(own == UNSET, CODES[border], own) == CODES["follow"]
+
+    async def choose_press_edges(self, V: np.ndarray, F: np.ndarray, border: str, *,
+                                 fair: bool) -> dict[str, "str | np.ndarray | tuple[np.ndarray, np.ndarray] | None"]:
+        """Returns what holds at the border of the solved triangles (#V x 3, #F x 3) as arguments of the native press.
+        A border that is faired moves to where the joined faces beside it tell, and follows no others.
+        """
+        edges, beside = self.choose_edges(border, fair=fair), self.read_beside()
+        if beside is None or fair:
+            return edges
+        joined, codes = self.read_around(), edges["border"]
+        found = await call(native.reflines.continue_over_gap, V, F, beside.V, beside.F, around=(joined.V, joined.F),
+                           gap=beside.gap, reach=beside.reach)
+        follows = self.find_following(border) & found.followed
+        if not follows.any():
+            return edges
+        held = np.full(len(V), CODES[codes]) if isinstance(codes, str) else codes
+        return {"border": np.where(follows, CODES["follow"], held), "around": (found.V, found.F)}
 
     async def build(self, border: str, progress: "native.Progress | None", *,
                     sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
@@ -157,7 +186,8 @@ class Formulation:
         """Builds the native smoother, where `fair` with a border that moves, too; raises the module's errors."""
         return await call(
             native.reflines.PanelSmoother.create, self.patch.V, self.patch.F, **self.choose_press_directions(),
-            fixed=self.hold_marked_creases(), partner=self.partner, **self.choose_edges(border, fair=fair),
+            fixed=self.hold_marked_creases(), partner=self.partner,
+            **await self.choose_press_edges(self.patch.V, self.patch.F, border, fair=fair),
             face_of_triangle=self.patch.face_of_triangle, **settings)
 
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
@@ -221,6 +251,16 @@ class JoinedFormulation(Formulation):
         seam = mirror.find_seam(self.patch.mirror, local)
         return join_images(around, mirrored, seam, own, partner[:own], len(partner))
 
+    def read_beside(self) -> Beside | None:
+        beside = self.patch.beside
+        return None if beside is None else beside.add_image(self.mirror_places(beside.V))
+
+    def mirror_places(self, places: np.ndarray) -> np.ndarray:
+        """Returns the mirror images of places in world space: #places x 3."""
+        matrix = self.patch.matrix
+        local = (places - matrix[:3, 3]) @ np.linalg.inv(matrix[:3, :3]).T
+        return self.patch.to_world(local * self.patch.mirror.sign)
+
     async def build(self, border: str, progress: "native.Progress | None", *,
                     sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
         V, F, partner = self.join()
@@ -247,7 +287,8 @@ class JoinedFormulation(Formulation):
         held = np.append(own, own[partner[len(own):]])
         return await call(
             native.reflines.PanelSmoother.create, V, F, **self.choose_press_directions(), fixed=held, partner=partner,
-            **self.choose_edges(border, fair=fair), face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
+            **await self.choose_press_edges(V, F, border, fair=fair),
+            face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
             **settings)
 
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:

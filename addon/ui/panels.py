@@ -113,7 +113,7 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         head.prop(settings, "show_borders", text="", icon='HIDE_OFF' if settings.show_borders else 'HIDE_ON')
         head.operator("reflines.set_border", text="", icon='X').border = 'unset'
         grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
-        for name in ("flow", "curvature", "clamped", "fixed", "free"):
+        for name in ("follow", "flow", "curvature", "clamped", "fixed", "free"):
             grid.operator("reflines.set_border", text=name_border(name)).border = name
 
     def draw_creases(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:

@@ -59,6 +59,9 @@ LAST_FRAME = 1048574  # of Blender
 SAVED = {'options': {'SKIP_SAVE'}}
 # With the numbers that files hold: a new border gets a new one.
 BORDERS = (
+    ('follow', NAMES["follow"], "Border vertices stay, and the slope becomes that of what lies beside across a gap: "
+     "other objects, and faces that are not joined. Tangent where nothing does, and in all tools but Smooth with the "
+     "automatic length", 'NONE', 5),
     ('flow', NAMES["flow"], "As Curvature, and the curvature changes across the border as it does in the faces beside "
      "the region, where they tell it", 'NONE', 4),
     ('curvature', NAMES["curvature"], "As Tangent, and the lines run on from the faces beside the region without a "
@@ -131,6 +134,9 @@ class SmoothSettings:
     fair_border: BoolProperty(name="Fair Border", **SAVED,
                               description="With the automatic length, move the border of the region, too, to where the "
                               "faces beside it tell that it should run: a border that is held keeps its flaws")
+    gap: FloatProperty(name="Widest Gap", unit='LENGTH', min=0.0, soft_max=0.1, precision=4, **SAVED,
+                       description="Across gaps up to this the border follows its neighbours, where it is to. 0, "
+                       "automatic: 12 thousandths of the region's diagonal")
     limit: limit_property()
 
     def draw_smooth(self, layout: bpy.types.UILayout, draw_value: Callable) -> None:
@@ -144,6 +150,8 @@ class SmoothSettings:
         automatic.prop(self, "flaw_size")
         draw_switch(automatic, self, "symmetric")
         draw_switch(automatic, self, "fair_border")
+        if self.border == 'follow':
+            automatic.prop(self, "gap")
 
 
 class DirectionSettings(FalloffSettings):

@@ -20,11 +20,9 @@ Enum find_named(const std::map<std::string, Enum>& names, const std::string& nam
   throw InvalidInput("There is no " + what + " named '" + name + "'; choose one of " + list + ".");
 }
 
-inline const std::map<std::string, Border> kBorders = {{"free", Border::kFree},
-                                                       {"fixed", Border::kFixed},
-                                                       {"clamped", Border::kClamped},
-                                                       {"curvature", Border::kCurvature},
-                                                       {"flow", Border::kFlow}};
+inline const std::map<std::string, Border> kBorders = {{"free", Border::kFree},       {"fixed", Border::kFixed},
+                                                       {"clamped", Border::kClamped}, {"curvature", Border::kCurvature},
+                                                       {"flow", Border::kFlow},       {"follow", Border::kFollow}};
 inline const std::map<std::string, StencilKind> kStencils = {{"averaged", StencilKind::kAveraged},
                                                              {"quadratic", StencilKind::kQuadratic},
                                                              {"hybrid", StencilKind::kHybrid},

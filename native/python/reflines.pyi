@@ -6,7 +6,7 @@ surface towards the viewer), line_direction a (3, along the line lights). Angles
 from typing import Any, Callable, Generic, Literal, ParamSpec, Sequence, TypeVar
 import numpy as np
 
-Border = Literal["free", "fixed", "clamped", "curvature", "flow"]
+Border = Literal["free", "fixed", "clamped", "curvature", "flow", "follow"]
 Stencil = Literal["averaged", "quadratic", "hybrid", "consistent"]
 CreaseRule = Literal["automatic", "marked", "none"]
 Strategy = Literal["adaptive", "linearized", "gauss_newton", "newton"]
@@ -133,7 +133,7 @@ class ShapeOptimizer:
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
                  line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
                  border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature,
-                                                                 # 4 flow
+                                                                 # 4 flow, 5 follow
                  fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
                  partner: np.ndarray | None = None,              # #V of mirror_pairs, mutual, -1: none. Partners keep equal
                                                                  # moves, and what holds or limits one holds for both
@@ -257,7 +257,7 @@ class PanelSmoother:
 
 def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                  border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature,
-                                                                    # 4 flow
+                                                                    # 4 flow, 5 follow
                  fixed: np.ndarray | None = None,                   # #V bool: held whatever the border says
                  partner: np.ndarray | None = None,                 # #V, as in ShapeOptimizer
                  around: tuple[np.ndarray, np.ndarray] | None = None,  # as in ShapeOptimizer
@@ -315,6 +315,25 @@ class CheckRow:
                          # value, and of most seams
     better: int          # seams that are
     worse: int
+
+class GapContinuation:
+    """The result of `continue_over_gap`; see native/include/reflines/gap_continuation.h."""
+    V: np.ndarray         # #S x 3: `around` of a press is (V, F)
+    F: np.ndarray         # #G x 3: names the region's vertices by their numbers and those of V after them
+    followed: np.ndarray  # #V bool: border vertices that can have the border "follow"
+    gap: float            # the widest gap that was crossed
+    width: np.ndarray     # #V: of the gap at followed vertices
+    flush: np.ndarray     # #V: the step there, by which the other side is higher
+
+AUTOMATIC_GAP: float  # relative to the diagonal
+
+def continue_over_gap(V: np.ndarray, F: np.ndarray, beside_V: np.ndarray, beside_F: np.ndarray, *,
+                      around: tuple[np.ndarray, np.ndarray] | None = None,  # the faces joined with the region
+                      gap: float | None = None,    # the widest gap; None: AUTOMATIC_GAP times the diagonal
+                      reach: float | None = None   # how far the surfaces are followed; None: the widest gap
+                      ) -> GapContinuation:
+    """Continues a region V (#V x 3), F (#F x 3) over the gap between its open border and the surfaces beside it. Raises
+    InvalidInput."""
 
 class PanelCheck:
     """The result of `check`; see native/include/reflines/check_panel.h."""

@@ -201,7 +201,7 @@ def test_other_segments_make_another_optimizer() -> None:
     assert not (scenes.positions(ob) != before).any(axis=1)[side(2)].any()  # clamped, as the tool has it
 
 
-@pytest.mark.parametrize("value", [-1, 6, 2**31 - 1, -2**31])
+@pytest.mark.parametrize("value", [-1, 7, 2**31 - 1, -2**31])
 def test_values_that_are_no_borders_are_refused(value: int) -> None:
     ob = segmented_panel()
     scenes.object_mode()

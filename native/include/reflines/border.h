@@ -15,6 +15,15 @@ enum class Border : signed char {
   // It is kCurvature at vertices whose surroundings do not tell that rate, and of a cage, where neither differs from
   // kClamped.
   kFlow = 4,
+  // Positions stay, and tangents become those of the faces beside the region, which stay, too: of a press of Smooth,
+  // see SmoothPanelOptions::around and GapContinuation. For other solves it is kFixed, of a cage kClamped.
+  kFollow = 5,
 };
+
+// Returns whether tangents stay as they are at a border, too.
+constexpr bool keeps_tangents(Border border) { return border >= Border::kClamped && border != Border::kFollow; }
+
+// Returns whether lines run on over a border from the surroundings.
+constexpr bool continues_lines(Border border) { return border == Border::kCurvature || border == Border::kFlow; }
 
 }  // namespace reflines

@@ -96,7 +96,7 @@ void assign_roles(const Triangles& F, const Mask& edge, const Boundary& boundary
     const bool by_border = edge(v) && boundary.border[v] != Border::kFree;
     if (always_fixed(v) || held || by_border) hold(field.role, v, VertexRole::kFixed);
   }
-  const auto clamps = [&](int v) { return edge(v) && boundary.border[v] >= Border::kClamped; };
+  const auto clamps = [&](int v) { return edge(v) && keeps_tangents(boundary.border[v]); };
   for (int t = 0; t < F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
       if (!clamps(F(t, i))) continue;

@@ -8,17 +8,11 @@
 #include "restoration/controlled_surface.h"
 #include "restoration/held_border.h"
 #include "restoration/joined_mesh.h"
+#include "restoration/joined_options.h"
 #include "restoration/restoration.h"
 
 namespace reflines {
 namespace {
-
-template <typename Values>
-Values append(const Values& values, Eigen::Index count, typename Values::Scalar filling) {
-  Values result = Values::Constant(values.size() + count, filling);
-  result.head(values.size()) = values;
-  return result;
-}
 
 // Returns the border with the vertices free that are to be faired.
 std::vector<Border> free_border(const ShapeOptions& shape, const Mask& faired) {
@@ -26,42 +20,6 @@ std::vector<Border> free_border(const ShapeOptions& shape, const Mask& faired) {
   if (result.empty()) result.assign(faired.size(), Border::kClamped);
   for (Eigen::Index v = 0; v < faired.size(); ++v) {
     if (faired(v)) result[v] = Border::kFree;
-  }
-  return result;
-}
-
-// Returns the options for the joined mesh: what the region holds stays, and the mesh ends clamped.
-ShapeOptions join_shape(const ShapeOptions& shape, const Mask& region_free, const JoinedMesh& joined,
-                        Eigen::Index region_triangles) {
-  const Eigen::Index beside = joined.V.rows() - region_free.size();
-  ShapeOptions result = shape;
-  result.border.clear();
-  result.around = {};
-  result.held = append(Mask(!region_free), beside, false);
-  if (shape.partner.size() > 0) result.partner = append(shape.partner, beside, -1);
-  if (shape.face_of_triangle.size() > 0) {
-    const int next = shape.face_of_triangle.maxCoeff() + 1;
-    result.face_of_triangle = append(shape.face_of_triangle, joined.F.rows() - region_triangles, 0);
-    for (Eigen::Index t = region_triangles; t < joined.F.rows(); ++t)
-      result.face_of_triangle(t) = next + static_cast<int>(t - region_triangles);
-  }
-  return result;
-}
-
-SmoothPanelOptions join_options(const SmoothPanelOptions& options, double length, const IndexVector& partner) {
-  SmoothPanelOptions result = options;
-  result.length = length;
-  result.partner = partner;
-  return result;
-}
-
-// Returns the amount for the joined mesh, with the limit that the region has.
-PressAmount join_amount(const PressAmount& amount, double limit, Eigen::Index beside) {
-  PressAmount result = amount;
-  result.limit = limit;
-  if (amount.limit_share.exists()) {
-    result.limit_share = {append(amount.limit_share.lowest, beside, -1.0),
-                          append(amount.limit_share.highest, beside, 1.0)};
   }
   return result;
 }
@@ -148,7 +106,7 @@ std::unique_ptr<Press> prepare_faired_border(const Positions& V, const Triangles
   const Mask wanted = movable && options.fair_border && find_border_vertices(F, static_cast<int>(V.rows()));
   if (!wanted.any()) return prepare_held_border(V, F, view, families, shape, options);
   const JoinedMesh joined = join_surroundings(V, F, shape.around, kFairReach * judge->report().length);
-  const ShapeOptions joined_shape = join_shape(own, movable, joined, F.rows());
+  const ShapeOptions joined_shape = join_shape(own, movable, joined, F.rows(), BesideRegion::kMoves);
   auto press = std::make_unique<FairedBorderPress>(std::move(region), std::move(judge), joined, view, families,
                                                    joined_shape, options, wanted);
   if (press->held().count() < wanted.count()) return press;

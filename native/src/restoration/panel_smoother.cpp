@@ -9,6 +9,7 @@
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/faired_border.h"
+#include "restoration/followed_border.h"
 #include "restoration/held_border.h"
 #include "restoration/press.h"
 #include "restoration/press_checks.h"
@@ -70,8 +71,10 @@ class MeshPress : public Press {
     if (own.fair_border.size() > 0) own.fair_border = options.fair_border(used_.index);
     const Positions used = V_(used_.index, Eigen::all);
     const std::vector<Vector3> families = make_families(view, lines, options.lights);
-    press_ = own.fair_border.any() ? prepare_faired_border(used, used_.F, view, families, shape, own)
-                                   : prepare_held_border(used, used_.F, view, families, shape, own);
+    const auto prepare = own.fair_border.any()   ? prepare_faired_border
+                         : follows(shape.border) ? prepare_followed_border
+                                                 : prepare_held_border;
+    press_ = prepare(used, used_.F, view, families, shape, own);
   }
 
   SmoothPanelResult run(const PressAmount& amount) override {

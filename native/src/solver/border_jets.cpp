@@ -128,7 +128,7 @@ BorderJets fit_border(const Beside& beside, const HeightField& field, const std:
   BorderJets result;
   for (int v = 0; v < field.vertex_count(); ++v) {
     const bool used = field.role[v] != VertexRole::kUnused;
-    if (!used || border[v] < Border::kCurvature || !has_neighbor(beside, v)) continue;
+    if (!used || !continues_lines(border[v]) || !has_neighbor(beside, v)) continue;
     const HeightFit fit = fit_beside(beside, v);
     result.unknown += fit.degree == 0;
     if (fit.degree == 0) continue;

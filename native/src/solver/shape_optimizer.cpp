@@ -104,8 +104,7 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
 
 void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
                                      const std::vector<ReflectionFunction>& families) {
-  const auto continues = [](Border border) { return border >= Border::kCurvature; };
-  if (std::none_of(boundary.border.begin(), boundary.border.end(), continues)) return;
+  if (std::none_of(boundary.border.begin(), boundary.border.end(), continues_lines)) return;
   BorderCurvature curvature;
   if (around.exist()) {
     check_surroundings(around, pieces_->vertex_count());

@@ -1,0 +1,90 @@
+"""Reads the surfaces beside a region that its border can follow: what is visible near it, of all objects."""
+from collections.abc import Iterator
+
+import bpy
+import numpy as np
+
+from .. import native
+from ..model import triangulation
+from ..model.beside import Beside, Crossing, join_soups
+from ..model.patch import Patch, compute_bounds
+from . import read_mesh, read_surroundings, region_faces
+
+REACH_MARGIN = 1.05  # of the two lengths that a press takes in
+SOLID = {'SOLID', 'TEXTURED'}  # objects drawn as bounds or wires are cutters and aids
+
+Box = tuple[np.ndarray, np.ndarray]  # lowest and highest corner
+Soup = tuple[np.ndarray, np.ndarray]  # vertices in world space and triangles
+
+
+def read_beside(ob: bpy.types.Object, patch: Patch, whole: np.ndarray, crossing: Crossing) -> Beside:
+    """Reads what lies beside the region of a mesh, whose vertices are `whole` in world space (#vertices x 3): its own
+    visible faces, and those of other objects as their modifiers leave them. In Edit Mode the mesh must have been
+    updated from it. Nothing of it is changed.
+    """
+    gap = crossing.gap or native.reflines.AUTOMATIC_GAP * patch.diagonal
+    reach = REACH_MARGIN * native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * patch.diagonal
+    low, high = compute_bounds(patch.V)
+    box = low - gap - reach, high + gap + reach
+    own = cut_near(ob.data, whole, ~patch.faces, box, turned=np.linalg.det(patch.matrix[:3, :3]) < 0.0)
+    return Beside(*join_soups([own, *read_others(ob, box, crossing)]), gap, reach)
+
+
+def read_others(ob: bpy.types.Object, box: Box, crossing: Crossing) -> Iterator[Soup]:
+    """Reads what other visible objects, and instances, have within a box."""
+    for instance in bpy.context.evaluated_depsgraph_get().object_instances:
+        other, matrix = instance.object, np.array(instance.matrix_world, dtype=np.float64)
+        original = other.original
+        own = original == ob and not instance.is_instance
+        if own or other.type != 'MESH' or other.display_type not in SOLID or not is_near(other, matrix, box):
+            continue
+        if not instance.is_instance and not original.visible_get():
+            continue
+        yield read_near(original if original.mode == 'EDIT' else other, matrix, box, crossing)
+
+
+def is_near(other: bpy.types.Object, matrix: np.ndarray, box: Box) -> bool:
+    """Returns whether the bounding box of an object touches a box in world space; False where it has no extent that a
+    surface could have, or its transform none that keeps one.
+    """
+    corners = np.array([corner[:] for corner in other.bound_box]) @ matrix[:3, :3].T + matrix[:3, 3]
+    if not np.isfinite(corners).all() or np.linalg.matrix_rank(matrix[:3, :3]) < 3:
+        return False
+    low, high = compute_bounds(corners)
+    return bool((low <= box[1]).all() and (high >= box[0]).all())
+
+
+def read_near(other: bpy.types.Object, matrix: np.ndarray, box: Box, crossing: Crossing) -> Soup:
+    """Reads the faces of an evaluated object, or of one in Edit Mode, that have a vertex in a box."""
+    if other.mode == 'EDIT':
+        other.update_from_editmode()
+    mesh = other.data
+    local = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", local)
+    local = local.reshape(-1, 3)
+    if other.mode == 'EDIT' and other.name in crossing.solved:
+        index, moved = crossing.solved[other.name]
+        local[index] = moved
+    V = local.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    return cut_near(mesh, V, np.ones(len(mesh.polygons), dtype=bool), box, turned=np.linalg.det(matrix[:3, :3]) < 0.0)
+
+
+def cut_near(mesh: bpy.types.Mesh, V: np.ndarray, faces: np.ndarray, box: Box, *, turned: bool) -> Soup:
+    """Cuts those of the faces (#faces, bool) into triangles that are visible and have a vertex in a box, with the
+    vertices V (#vertices x 3) in world space; `turned` tells of a mirroring transform, which turns triangles over.
+    """
+    nothing = np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
+    if len(mesh.polygons) == 0:
+        return nothing
+    corners, sizes = read_mesh.read_corners(mesh)
+    with np.errstate(invalid="ignore"):
+        inside = (np.abs(V - 0.5 * (box[0] + box[1])) <= 0.5 * (box[1] - box[0])).all(axis=1)
+    near = faces & np.logical_or.reduceat(inside[corners], np.cumsum(sizes) - sizes)
+    if not near.any():
+        return nothing
+    near &= region_faces.read_visible_faces(mesh) & read_surroundings.find_readable(corners, sizes, V)
+    if not near.any():
+        return nothing
+    F = read_surroundings.cut_faces(mesh, near, corners[np.repeat(near, sizes)], sizes[near], V)
+    index, F = triangulation.renumber_vertices(F, len(V))
+    return V[index], F[:, ::-1] if turned else F

@@ -1,0 +1,46 @@
+"""The surfaces beside a region that are not joined with it: other objects, and faces of its mesh across a gap."""
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """The choice of what a border follows."""
+    gap: float        # widest gap that is crossed, world units; 0: automatic
+    everywhere: bool  # whether the whole border does, or only the segments that are set so
+    # Of objects that the same run has solved already, by name: vertices, and where they will be (#V x 3, object space).
+    solved: Mapping[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Triangles beside a region, in world space, whose normals point outwards."""
+    V: np.ndarray  # #S x 3
+    F: np.ndarray  # #G x 3
+    gap: float     # see Crossing
+    reach: float   # how far beyond the gap they were read, world units
+
+    def same(self, other: "Beside") -> bool:
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
+
+    def add_image(self, mirrored: np.ndarray) -> "Beside":
+        """Returns these and their mirror images, whose vertices are given (#S x 3)."""
+        return Beside(np.concatenate([self.V, mirrored]),
+                      np.concatenate([self.F, self.F[:, ::-1] + len(self.V)]), self.gap, self.reach)
+
+
+def join_soups(soups: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
+    """Joins meshes (vertices, triangles) to one."""
+    starts = np.cumsum([0, *(len(V) for V, _ in soups)])
+    V = [np.zeros((0, 3)), *(V for V, _ in soups)]
+    F = [np.zeros((0, 3), dtype=np.int64), *(F + start for (_, F), start in zip(soups, starts[:-1], strict=True))]
+    return np.concatenate(V), np.concatenate(F)
+
+
+def have_same_beside(one: Beside | None, other: Beside | None) -> bool:
+    """Returns whether two borders can follow the same."""
+    if one is None or other is None:
+        return one is other
+    return one.same(other)

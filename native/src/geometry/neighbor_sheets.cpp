@@ -1,0 +1,87 @@
+#include "geometry/neighbor_sheets.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "base/union_find.h"
+#include "geometry/mesh.h"
+
+namespace reflines {
+namespace {
+
+constexpr double kTurned = 0.5;  // cosine of 60 degrees
+
+// Returns the vertices of a mask as triangles without area, a vertex at each of their corners.
+Triangles list_points(const Mask& vertices) {
+  Triangles points(vertices.count(), 3);
+  Eigen::Index count = 0;
+  for (int v = 0; v < vertices.size(); ++v) {
+    if (vertices(v)) points.row(count++).setConstant(v);
+  }
+  return points;
+}
+
+// Returns the triangles (#F) that are within reach of the border and face as it does.
+Mask find_facing(const Positions& region, const OpenBorder& border, const Positions& V, const Triangles& F,
+                 double reach) {
+  const Triangles points = list_points(border.vertices);
+  std::vector<int> all(points.rows());
+  std::iota(all.begin(), all.end(), 0);
+  const NearestSurface rim(region, points, std::move(all));
+  Mask facing = Mask::Constant(F.rows(), false);
+#pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
+  for (Eigen::Index t = 0; t < F.rows(); ++t) {
+    const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2)), n = (b - a).cross(c - a);
+    const double far = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+    if (!n.allFinite() || !(n.norm() > 0)) continue;
+    const int nearest = rim.find((a + b + c) / 3, reach + far).triangle;
+    facing(t) = nearest >= 0 && n.dot(border.normal.row(points(nearest, 0))) > kTurned * n.norm();
+  }
+  return facing;
+}
+
+// Names equal vertices of the triangles alike.
+void join_doubled(const Positions& V, Triangles& F) {
+  std::map<std::array<double, 3>, int> first;
+  for (int& v : F.reshaped()) v = first.try_emplace({V(v, 0), V(v, 1), V(v, 2)}, v).first->second;
+}
+
+std::vector<std::vector<int>> find_components(const Triangles& neighbors) {
+  UnionFind joined(neighbors.rows());
+  for (int t = 0; t < neighbors.rows(); ++t) {
+    for (const int other : neighbors.row(t)) {
+      if (other >= 0) joined.unite(t, other);
+    }
+  }
+  std::map<int, std::vector<int>> of_first;
+  for (int t = 0; t < neighbors.rows(); ++t) of_first[joined.find(t)].push_back(t);
+  std::vector<std::vector<int>> result;
+  for (auto& [first, triangles] : of_first) result.push_back(std::move(triangles));
+  return result;
+}
+
+}  // namespace
+
+void find_neighbor_sheets(const Positions& region, const OpenBorder& border, const Positions& V, const Triangles& F,
+                          double reach, NeighborSheets& sheets) {
+  const Mask facing = find_facing(region, border, V, F, reach);
+  sheets.V = V;
+  sheets.F.resize(facing.count(), 3);
+  for (Eigen::Index t = 0, count = 0; t < F.rows(); ++t) {
+    if (facing(t)) sheets.F.row(count++) = F.row(t);
+  }
+  join_doubled(V, sheets.F);
+  sheets.neighbors = edge_neighbors(sheets.F);
+  for (std::vector<int>& triangles : find_components(sheets.neighbors)) {
+    Eigen::AlignedBox3d box;
+    for (const int t : triangles) {
+      for (const int v : sheets.F.row(t)) box.extend(sheets.V.row(v).transpose());
+    }
+    sheets.list.push_back({box, NearestSurface(sheets.V, sheets.F, std::move(triangles))});
+  }
+}
+
+}  // namespace reflines

@@ -1,0 +1,261 @@
+"""Smooth Lines across gaps in Blender: the slope at a border becomes that of what lies beside."""
+from collections.abc import Callable
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+from mathutils import Matrix
+
+CELLS = 24
+Array = np.ndarray
+KINK = 0.05  # slope by which the left half is bent at its right side: 2.9 degrees
+
+
+def bent(x: float, y: float) -> float:
+    """The clean panel, bent beside x = 0, where its height is right."""
+    near = np.clip(1.0 + x / 0.4, 0.0, 1.0)
+    return scenes.crown(x, y) + KINK * x * near**2 * np.exp(-(y / 0.7) ** 4)
+
+
+def half(name: str, low: float, high: float, height: Callable, cells: int = CELLS,
+         matrix: Matrix | None = None) -> bpy.types.Object:
+    """A sheet over x from low to high and y from -1 to 1, which the object's matrix leaves in place."""
+    columns, rows = np.linspace(low, high, cells + 1), np.linspace(-1.0, 1.0, 2 * cells + 1)
+    points = np.array([(x, y, height(x, y)) for y in rows for x in columns])
+    matrix = Matrix() if matrix is None else matrix
+    inverse = np.array(matrix.inverted())
+    points = points @ inverse[:3, :3].T + inverse[:3, 3]
+    row = cells + 1
+    faces = [(i, i + 1, i + row + 1, i + row) for j in range(2 * cells) for i in range(j * row, j * row + cells)]
+    if matrix.determinant() < 0.0:
+        faces = [face[::-1] for face in faces]
+    ob = scenes.linked(name, points.tolist(), faces)
+    ob.parent, ob.matrix_parent_inverse = find_parent(), matrix  # an object's own transform cannot shear
+    bpy.context.view_layer.update()
+    return ob
+
+
+def find_parent() -> bpy.types.Object:
+    found = bpy.data.objects.get("Parent")
+    if found is None:
+        found = bpy.data.objects.new("Parent", None)
+        bpy.context.collection.objects.link(found)
+    return found
+
+
+def places(ob: bpy.types.Object) -> Array:
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    V = np.array([vertex.co[:] for vertex in ob.data.vertices], dtype=float)
+    matrix = np.array(ob.matrix_world)
+    return V @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def slopes(V: Array, x: float) -> tuple[Array, Array]:
+    """The slope along x of a sheet at its side x, from a parabola through its three last columns; ascending y."""
+    order = np.lexsort([V[:, 1], np.round(np.abs(V[:, 0] - x), 4)])
+    count = int((np.abs(V[:, 0] - x) < 1e-5).sum())
+    a, b, c = V[order[:3 * count]].reshape(3, count, 3)
+    h, k = b[:, 0] - a[:, 0], c[:, 0] - a[:, 0]
+    return a[:, 1], ((b[:, 2] - a[:, 2]) * k / h - (c[:, 2] - a[:, 2]) * h / k) / (k - h)
+
+
+def kink(left: Array, right: Array, gap: float) -> float:
+    """Degrees, the largest: by how much the slope jumps from one sheet to the other, beyond what the gap's width and
+    the crown's bend explain."""
+    (y, one), (other_y, other) = slopes(left, -0.5 * gap), slopes(right, 0.5 * gap)
+    jump = np.interp(y, other_y, other) - one + 0.3 * gap
+    return float(np.degrees(np.abs(jump[np.abs(y) < 0.8]).max()))
+
+
+def start(ob: bpy.types.Object) -> None:
+    bpy.ops.object.select_all(action='DESELECT')
+    scenes.activate(ob)
+    scenes.look_from_above()
+    scenes.edit(ob)
+    scenes.select_faces(ob, lambda _face: True)
+
+
+MATRICES = {"plain": Matrix(), "mirrored": Matrix.Diagonal((-2.0, 0.5, 1.5, 1.0)) @ Matrix.Rotation(0.4, 4, 'Z'),
+            "sheared": Matrix(((1.0, 0.3, 0.0, 2.0), (0.0, 1.0, 0.0, 0.1), (0.2, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0)))}
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.002, 0.016])
+@pytest.mark.parametrize("kind", list(MATRICES))
+def test_the_kink_goes_and_the_gap_stays(kind: str, gap: float) -> None:
+    right = half("Right", 0.5 * gap, 1.0, scenes.crown, 17, MATRICES[kind])
+    left = half("Left", -1.0, -0.5 * gap, bent)
+    start(left)
+    before, other = places(left), places(right)
+    held = np.abs(before[:, 0] + 0.5 * gap) < 1e-6
+    kinks = [kink(before, other, gap)]
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    after = places(left)
+    kinks.append(kink(after, other, gap))
+    print(kind, gap, kinks)
+    assert kinks[0] > 2.5 and kinks[1] < 0.3
+    assert np.array_equal(after[held], before[held]) and np.array_equal(places(right), other)
+
+
+def test_halves_of_one_mesh_that_are_not_joined_follow_each_other() -> None:
+    half("Right", 0.0, 1.0, scenes.crown)
+    left = half("Left", -1.0, 0.0, bent)
+    count = len(left.data.polygons)
+    scenes.activate(bpy.data.objects["Right"])
+    scenes.activate(left)
+    bpy.ops.object.join()
+    start(left)
+    scenes.select_faces(left, lambda face: face < count)
+    before = places(left)
+    own = np.arange(len(before)) < (CELLS + 1) * (2 * CELLS + 1)
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    after = places(left)
+    assert kink(before[own], before[~own], 0.0) > 2.5 and kink(after[own], after[~own], 0.0) < 0.3
+    assert np.array_equal(after[~own], before[~own])
+
+
+def over(x: float, y: float) -> float:
+    return scenes.crown(x, y) + 0.003
+
+
+def hide(right: bpy.types.Object) -> None:
+    right.hide_set(True)
+
+
+def turn_away(right: bpy.types.Object) -> None:
+    right.data.flip_normals()
+
+
+def move_back(right: bpy.types.Object) -> None:
+    right.location.z = -0.05
+
+
+def move_away(right: bpy.types.Object) -> None:
+    right.location.x = 0.1
+
+
+def draw_as_wire(right: bpy.types.Object) -> None:
+    right.display_type = 'WIRE'
+
+
+def flatten(right: bpy.types.Object) -> None:
+    right.scale.z = 0.0
+
+
+def slide_under(right: bpy.types.Object) -> None:
+    right.location = (-0.3, 0.0, -0.003)
+
+
+def tilt(right: bpy.types.Object) -> None:
+    right.rotation_euler.y = 0.5
+
+
+def break_vertices(right: bpy.types.Object) -> None:
+    right.data.vertices.foreach_set("co", np.full(3 * len(right.data.vertices), np.nan, dtype=np.float32))
+    right.data.update()
+
+
+NO_NEIGHBOURS = [hide, turn_away, move_back, move_away, draw_as_wire, flatten, slide_under, tilt, break_vertices]
+
+
+@pytest.mark.parametrize("change", NO_NEIGHBOURS, ids=lambda change: change.__name__)
+def test_what_is_no_neighbour_changes_no_bit(change: Callable) -> None:
+    results = []
+    for alone in (True, False):
+        bpy.ops.wm.read_homefile(use_empty=True)
+        right = half("Right", 0.0, 1.0, scenes.crown)
+        change(right)
+        if alone:
+            bpy.data.objects.remove(right)
+        left = half("Left", -1.0, 0.0, bent)
+        start(left)
+        assert scenes.smooth(border='clamped' if alone else 'follow') == {'FINISHED'}
+        results.append(places(left))
+    assert np.array_equal(*results)
+
+
+def test_a_neighbour_is_followed_as_its_modifiers_leave_it() -> None:
+    right = half("Right", 0.0, 1.0, lambda x, y: scenes.crown(x, y) - 1.0, 12)
+    lift = right.modifiers.new("Lift", 'DISPLACE')
+    lift.direction, lift.mid_level, lift.strength = 'Z', 0.0, 1.0
+    left = half("Left", -1.0, 0.0, bent)
+    start(left)
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    other = places(right)
+    other[:, 2] += 1.0
+    assert kink(places(left), other, 0.0) < 0.3
+
+
+def test_a_clean_half_moves_no_further_than_alone() -> None:
+    half("Right", 0.004, 1.0, scenes.crown, 17)
+    left = half("Left", -1.0, -0.004, scenes.crown)
+    start(left)
+    before = places(left)
+    scenes.smooth(border='follow')
+    assert np.abs(places(left) - before).max() < 2e-5
+
+
+def test_a_segment_follows_alone() -> None:
+    """Where only the upper part of the rim is set to follow, the lower part keeps its kink."""
+    right = half("Right", 0.0, 1.0, scenes.crown)
+    left = half("Left", -1.0, 0.0, bent)
+    start(left)
+    edit = bmesh.from_edit_mesh(left.data)
+    layer = edit.verts.layers.int.new("reflines_border")
+    for vertex in edit.verts:
+        vertex[layer] = 6 if abs(vertex.co.x) < 1e-6 and vertex.co.y > -0.1 else 0
+    bmesh.update_edit_mesh(left.data)
+    scenes.smooth(border='clamped')
+    y, one = slopes(places(left), 0.0)
+    jump = np.degrees(np.abs(slopes(places(right), 0.0)[1] - one))
+    assert jump[(y > 0.3) & (y < 0.8)].max() < 1.0 and jump[(y > -0.6) & (y < -0.3)].min() > 2.4
+
+
+def test_two_objects_in_edit_mode_become_one_surface() -> None:
+    right = half("Right", 0.002, 1.0, lambda x, y: bent(-x, y), 17)
+    left = half("Left", -1.0, -0.002, bent)
+    start(left)
+    bpy.ops.object.mode_set(mode='OBJECT')
+    scenes.edit(left, right)
+    for ob in (left, right):
+        scenes.select_faces(ob, lambda _face: True)
+    before = places(left), places(right)
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    after = places(left), places(right)
+    assert kink(*before, 0.004) > 5.0 and kink(*after, 0.004) < 0.7
+    for V, was, x in zip(after, before, (-0.002, 0.002), strict=True):
+        rim = np.abs(was[:, 0] - x) < 1e-6
+        assert rim.any() and np.array_equal(V[rim], was[rim])
+
+
+def test_a_linked_neighbour_is_followed_and_stays(tmp_path: Path) -> None:
+    """An object of another file cannot be edited, and is read all the same."""
+    right = half("Right", 0.0, 1.0, scenes.crown)
+    bpy.data.libraries.write(str(tmp_path / "right.blend"), {right})
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(tmp_path / "right.blend"), link=True) as (_, linked):
+        linked.objects = ["Right"]
+    right = bpy.data.objects["Right"]
+    bpy.context.collection.objects.link(right)
+    left = half("Left", -1.0, 0.0, bent)
+    start(left)
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    assert kink(places(left), places(right), 0.0) < 0.3
+
+
+def test_an_instance_of_a_collection_is_followed() -> None:
+    right = half("Right", 0.0, 1.0, scenes.crown)
+    panels = bpy.data.collections.new("Panels")
+    panels.objects.link(right)
+    bpy.context.collection.objects.unlink(right)
+    instance = bpy.data.objects.new("Instance", None)
+    instance.instance_type, instance.instance_collection = 'COLLECTION', panels
+    bpy.context.collection.objects.link(instance)
+    left = half("Left", -1.0, 0.0, bent)
+    start(left)
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    assert kink(places(left), places(right), 0.0) < 0.3
