@@ -53,8 +53,8 @@ class UnjoinedBorder:
         """Says where lines can break, and what joins the faces."""
         own = [f"{count_edges(self.own)} faces that are not joined to it, where lines can break: merge by distance"
                ] if self.own else []
-        return (*own, *(f"{count_edges(count)} {name}, where lines can break: join the objects, then merge by distance"
-                        for name, count in self.others))
+        return (*own, *(f"{count_edges(count)} {name}, where lines can break: press Smooth Lines with the border "
+                        "Follow Neighbours, or join the objects and merge by distance" for name, count in self.others))
 
 
 def count_edges(count: int) -> str:

@@ -182,4 +182,5 @@ class SolveTool:
         scene, report = bpy.context.scene, ob.reflection_lines.report
         unjoined, turn = unjoined_border.find_unjoined(scene, ob, patch), shown_surface.measure_rounding(patch)
         report.merge_distance, report.rounding = unjoined.distance if unjoined.own else 0.0, turn
-        return (*shown_surface.describe_rounding(scene, patch, turn), *unjoined.describe())
+        told = unjoined.describe() if self.border != "follow" else ()  # then the lines do not break there
+        return (*shown_surface.describe_rounding(scene, patch, turn), *told)

@@ -85,7 +85,7 @@ def test_another_object_at_the_border_is_named() -> None:
     scenes.select_faces(ob, lambda face: face % 16 >= 8)
     assert scenes.smooth() == {'FINISHED'}
     report = ob.reflection_lines.report
-    assert "16 edges of the border lie on Right, where lines can break: join the objects" in report.notes
+    assert "16 edges of the border lie on Right, where lines can break: press Smooth Lines with the" in report.notes
     assert report.merge_distance == 0.0
     other.hide_set(True)
     assert scenes.smooth() == {'FINISHED'} and "Right" not in report.notes
