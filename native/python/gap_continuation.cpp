@@ -24,13 +24,13 @@ double given(const std::optional<double>& length, const char* name) {
   return length.value_or(0.0);
 }
 
-py::object continue_gap(const Positions& V, const Indices& F, const Positions& beside_V, const Indices& beside_F,
+py::object continue_gap(const Positions& V, const Indices& F, const Positions& V_beside, const Indices& F_beside,
                         const Around& around, const std::optional<double>& gap, const std::optional<double>& reach) {
   const GapOptions options{given(gap, "The gap"), given(reach, "The reach")};
-  const Triangles region = triangles_of(F), beside = triangles_of(beside_F);
+  const Triangles region = triangles_of(F), beside = triangles_of(F_beside);
   const Surroundings joined = surroundings_of(around);
   check_surroundings(joined, V.rows());
-  return run_native([=] { return continue_over_gap(V, region, joined, beside_V, beside, options); });
+  return run_native([=] { return continue_over_gap(V, region, joined, V_beside, beside, options); });
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ void bind_gap_continuation(py::module_& module) {
       .def_readonly("width", &GapContinuation::width)
       .def_readonly("flush", &GapContinuation::flush);
   module.attr("AUTOMATIC_GAP") = kAutomaticGap;
-  module.def("continue_over_gap", &continue_gap, py::arg("V"), py::arg("F"), py::arg("beside_V"), py::arg("beside_F"),
+  module.def("continue_over_gap", &continue_gap, py::arg("V"), py::arg("F"), py::arg("V_beside"), py::arg("F_beside"),
              py::kw_only(), py::arg("around") = py::none(), py::arg("gap") = py::none(), py::arg("reach") = py::none());
 }
 

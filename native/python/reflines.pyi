@@ -327,7 +327,7 @@ class GapContinuation:
 
 AUTOMATIC_GAP: float  # relative to the diagonal
 
-def continue_over_gap(V: np.ndarray, F: np.ndarray, beside_V: np.ndarray, beside_F: np.ndarray, *,
+def continue_over_gap(V: np.ndarray, F: np.ndarray, V_beside: np.ndarray, F_beside: np.ndarray, *,
                       around: tuple[np.ndarray, np.ndarray] | None = None,  # the faces joined with the region
                       gap: float | None = None,    # the widest gap; None: AUTOMATIC_GAP times the diagonal
                       reach: float | None = None   # how far the surfaces are followed; None: the widest gap

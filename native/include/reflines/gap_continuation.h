@@ -33,6 +33,6 @@ struct GapContinuation {
 // width of the gap shows in them, and are moved by the step along its normal: they begin at the border without a step,
 // with the tangents and the curvature that the neighbour has there. They end where it does.
 GapContinuation continue_over_gap(const Positions& V, const Triangles& F, const Surroundings& around,
-                                  const Positions& beside_V, const Triangles& beside_F, const GapOptions& options = {});
+                                  const Positions& V_beside, const Triangles& F_beside, const GapOptions& options = {});
 
 }  // namespace reflines

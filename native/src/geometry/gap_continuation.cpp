@@ -139,12 +139,12 @@ GapContinuation start_result(const Positions& V, double gap) {
   return result;
 }
 
-void check(const Positions& V, const Positions& beside_V, const Triangles& beside_F, const GapOptions& options) {
+void check(const Positions& V, const Positions& V_beside, const Triangles& F_beside, const GapOptions& options) {
   if (!(options.gap >= 0) || !(options.reach >= 0) || !std::isfinite(options.gap) || !std::isfinite(options.reach))
     throw InvalidInput("The gap and the reach must be positive lengths, or 0 for automatic.");
   if (!V.allFinite()) throw InvalidInput("A coordinate of the region is not finite.");
-  if (beside_F.size() > 0 && (beside_F.minCoeff() < 0 || beside_F.maxCoeff() >= beside_V.rows())) {
-    throw InvalidInput("The triangles beside the region name a vertex beyond the " + std::to_string(beside_V.rows()) +
+  if (F_beside.size() > 0 && (F_beside.minCoeff() < 0 || F_beside.maxCoeff() >= V_beside.rows())) {
+    throw InvalidInput("The triangles beside the region name a vertex beyond the " + std::to_string(V_beside.rows()) +
                        " that there are.");
   }
 }
@@ -169,15 +169,15 @@ void finish(const Search& search, const std::vector<Contact>& contacts, const Ma
 }  // namespace
 
 GapContinuation continue_over_gap(const Positions& V, const Triangles& F, const Surroundings& around,
-                                  const Positions& beside_V, const Triangles& beside_F, const GapOptions& options) {
-  check(V, beside_V, beside_F, options);
+                                  const Positions& V_beside, const Triangles& F_beside, const GapOptions& options) {
+  check(V, V_beside, F_beside, options);
   const double gap = options.gap > 0 ? options.gap : kAutomaticGap * bounding_box_diagonal(V);
   const double reach = std::max(options.reach, gap);
   GapContinuation result = start_result(V, gap);
   const OpenBorder border = find_open_border(V, F, around);
-  if (border.edges.empty() || beside_F.rows() == 0) return result;
+  if (border.edges.empty() || F_beside.rows() == 0) return result;
   NeighborSheets sheets;
-  find_neighbor_sheets(V, border, beside_V, beside_F, gap + reach, sheets);
+  find_neighbor_sheets(V, border, V_beside, F_beside, gap + reach, sheets);
   const Search search{V, border, sheets, gap};
   std::vector<Contact> contacts(V.rows());
   std::vector<std::vector<Vector3>> places(V.rows());
