@@ -34,7 +34,7 @@ def read_border(ob: bpy.types.Object, index: np.ndarray) -> np.ndarray:
     wrong = int(((values < 0) | (values > LARGEST)).sum())
     if wrong:
         raise Refusal(f"{ob.name}: {wrong} vertices have a border that is none of Free, Position, Tangent, Curvature, "
-                      "Flow and Follow Neighbours: select them and press one of these under Border of the Selected")
+                      "Flow and Neighbours: select them and press one of these under Border of the Selected")
     return values - 1
 
 

@@ -54,7 +54,7 @@ class UnjoinedBorder:
         own = [f"{count_edges(self.own)} faces that are not joined to it, where lines can break: merge by distance"
                ] if self.own else []
         return (*own, *(f"{count_edges(count)} {name}, where lines can break: press Smooth Lines with the border "
-                        "Follow Neighbours, or join the objects and merge by distance" for name, count in self.others))
+                        "Neighbours, or join the objects and merge by distance" for name, count in self.others))
 
 
 def count_edges(count: int) -> str:

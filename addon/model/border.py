@@ -4,7 +4,7 @@ import numpy as np
 # The numbers by which the native module knows them.
 CODES = {"free": 0, "fixed": 1, "clamped": 2, "curvature": 3, "flow": 4, "follow": 5}
 NAMES = {"free": "Free", "fixed": "Position (G0)", "clamped": "Tangent (G1)", "curvature": "Curvature (G2)",
-         "flow": "Flow (G3)", "follow": "Follow Neighbours"}  # by which the artist knows them
+         "flow": "Flow (G3)", "follow": "Neighbours"}  # by which the artist knows them
 UNSET = -1  # of a vertex without a condition of its own
 
 

@@ -295,7 +295,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     result: result_property()
     show_borders: BoolProperty(name="Show Borders", default=True,
                                description="Draw the borders that were set by segment: green Free, orange Position, "
-                               "blue Tangent, violet Curvature, red Flow, cyan Follow Neighbours")
+                               "blue Tangent, violet Curvature, red Flow, cyan Neighbours")
     direction: PointerProperty(type=ReflinesDirection)
     untwist: PointerProperty(type=ReflinesUntwist)
     pull: PointerProperty(type=ReflinesPull)

@@ -233,7 +233,7 @@ def test_the_same_bits_for_any_number_of_targets_before() -> None:
     ({"level": 9}, "level is 9"),
     ({"border": "glued"}, "'glued'"),
     ({"border": np.zeros(3, int)}, "border codes has 3 entries"),
-    ({"border": np.full(255, 5)}, "Border codes are"),
+    ({"border": np.full(255, 6)}, "Border codes are"),
     ({"view_direction": (0, 0, -1)}, "turn away"),
 ])
 def test_unusable_input_gets_one_sentence(options: dict, said: str) -> None:

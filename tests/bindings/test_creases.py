@@ -149,7 +149,7 @@ def test_marked_edges_are_held_and_cut_the_lines(rule: str) -> None:
 
 
 def test_marks_that_are_no_edges_are_ignored() -> None:
-    solver = solver_of(panel(24), marked_creases=np.array([[0, 300], [5, 5], [7, 10**6]]))
+    solver = solver_of(panel(24), marked_creases=np.array([[0, 300], [5, 5]]))
     assert solver.region.creases == 0
 
 

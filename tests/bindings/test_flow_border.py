@@ -186,8 +186,8 @@ def test_surroundings_that_turn_away_move_a_panel_little(bend: float) -> None:
 
 def test_codes_beyond_are_refused() -> None:
     panel = Panel(*mesh("regular", 12))
-    with pytest.raises(reflines.InvalidInput, match="4 \\(flow\\); one is 5"):
-        panel.build(np.full(len(panel.used), 5))
+    with pytest.raises(reflines.InvalidInput, match="5 \\(follow\\); one is 6"):
+        panel.build(np.full(len(panel.used), 6))
 
 
 def test_the_press_takes_it_too() -> None:

@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "reflines/progress.h"
+#include "reflines/smooth_panel.h"
 #include "reflines/types.h"
 
 namespace reflines {
 
-// Size of the flaws that are looked for, relative to the diagonal.
-inline constexpr double kInspectedLength = 1.0 / 14.0;
-
 struct InspectOptions {
-  double length = 0.0;       // size of the flaws, in units of V; 0: kInspectedLength times the diagonal and flaw_size
+  double length = 0.0;       // size of the flaws, in units of V; 0: kAutomaticLength times the diagonal and flaw_size
   double flaw_size = 1.0;    // see length; above 0
   double noise_floor = 0.1;  // degrees: places that deviate by less are no spots
   int most_spots = 100;

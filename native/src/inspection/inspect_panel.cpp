@@ -179,7 +179,7 @@ PanelInspection inspect(const Positions& V, const Triangles& F, const Positions&
   const HeightField field = make_field(scene, frame);
   PanelInspection result;
   const double diagonal = bounding_box_diagonal(scene.panel_vertices());
-  result.length = std::min(options.length > 0 ? options.length : options.flaw_size * kInspectedLength * diagonal,
+  result.length = std::min(options.length > 0 ? options.length : options.flaw_size * kAutomaticLength * diagonal,
                            kLongest * diagonal);
   const FlawlessSurface flawless = find_flawless_surface(field, result.length, options.progress.get());
   const LineDeviation deviation =
