@@ -33,7 +33,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.operator_menu_enum("reflines.set_border", "border")
         layout.separator()
         stripes = context.scene.reflection_lines.stripes
-        layout.prop(stripes, "show")
+        layout.prop(stripes, "show", text="Show Stripes (Zebra)")  # F3 finds it by the trade's word, too
         layout.prop(stripes, "before")
         layout.prop_menu_enum(stripes, "mode")
         layout.operator("reflines.freeze_eye", icon='FREEZE')

@@ -1,9 +1,9 @@
 """Adjust Last Operation and undo, in a window, with the operator started by a key as an artist does."""
+import sys
 from collections.abc import Generator
 
 import bpy
 import numpy as np
-from reflection_lines.state import press_cache
 
 import scenes
 import window
@@ -55,6 +55,7 @@ def test_another_strength_is_that_of_a_fresh_press(driver: window.Window) -> Ste
     expected = smoothed(driver, strength=0.4)
     panel(driver)
     yield from press_smooth(driver)
+    press_cache = sys.modules["reflection_lines"].state.press_cache
     kept, = press_cache.list_kept()
     yield from adjust(driver, strength=0.4)
     assert press_cache.list_kept()[0].smoother is kept.smoother
@@ -86,5 +87,6 @@ def test_resolve_in_edit_mode_is_one_step_there(driver: window.Window) -> Steps:
 
 
 window.run(test_other_settings_start_from_the_mesh_before,
-           test_the_settings_of_the_automatic_length_can_be_changed, test_one_undo_takes_it_back_and_redo_brings_it,
+           test_the_settings_of_the_automatic_length_can_be_changed,
+           test_another_strength_is_that_of_a_fresh_press, test_one_undo_takes_it_back_and_redo_brings_it,
            test_resolve_in_edit_mode_is_one_step_there)
