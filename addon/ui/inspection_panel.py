@@ -29,7 +29,7 @@ class VIEW3D_PT_reflines_inspection(ReflinesPanel, bpy.types.Panel):
         column = layout.column(align=True)
         for index, spot in enumerate(inspection.spots[:MOST_LINES]):
             shown = index == inspection.active
-            button = column.operator("reflines.show_spot", text=f"{index + 1}. {spot.describe()}", depress=shown)
+            button = column.operator("reflines.show_spot", text=f"{index + 1}. {spot.describe_shortly()}", depress=shown)
             button.index = index
         if len(inspection.spots) > MOST_LINES:
             column.label(text=f"and {len(inspection.spots) - MOST_LINES} more")

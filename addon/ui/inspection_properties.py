@@ -28,8 +28,13 @@ class ReflinesSpot(bpy.types.PropertyGroup):
 
     def describe(self) -> str:
         """Describes the spot in the scene's units."""
-        height, size = (units.format_length(value, bpy.context.scene, 2) for value in (abs(self.height), self.size))
-        return f"{'Dent' if self.height < 0.0 else 'Bump'} {height}, {size} wide: {self.degrees:.2g}\u00b0"
+        size = units.format_length(self.size, bpy.context.scene, 2)
+        return f"{self.describe_shortly()}, {size} wide"
+
+    def describe_shortly(self) -> str:
+        """Describes the spot for a button, which the sidebar's default width cuts beyond some 25 letters."""
+        height = units.format_length(abs(self.height), bpy.context.scene, 2)
+        return f"{'Dent' if self.height < 0.0 else 'Bump'} {height}: {self.degrees:.2g}\u00b0"
 
 
 class ReflinesInspection(bpy.types.PropertyGroup):
