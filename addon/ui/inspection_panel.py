@@ -28,8 +28,8 @@ class VIEW3D_PT_reflines_inspection(ReflinesPanel, bpy.types.Panel):
             return
         column = layout.column(align=True)
         for index, spot in enumerate(inspection.spots[:MOST_LINES]):
-            shown = index == inspection.active
-            button = column.operator("reflines.show_spot", text=f"{index + 1}. {spot.describe_shortly()}", depress=shown)
+            text, shown = f"{index + 1}. {spot.describe_shortly()}", index == inspection.active
+            button = column.operator("reflines.show_spot", text=text, depress=shown)
             button.index = index
         if len(inspection.spots) > MOST_LINES:
             column.label(text=f"and {len(inspection.spots) - MOST_LINES} more")
