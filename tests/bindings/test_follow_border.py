@@ -172,5 +172,22 @@ def test_no_vertex_moves_beyond_the_limit() -> None:
     V, F = half(-1, 0.0, "regular", 40)
     bent = V.copy()
     bent[:, 2] += bend(V)
-    positions, told, _ = follow(bent, F, half(1, 0.0, "regular", 40), limit=5e-4)
-    assert told.largest_move <= 5e-4 and np.abs(positions - bent).max() <= 5e-4 and told.largest_move > 3e-4
+    positions, told, _ = follow(bent, F, half(1, 0.0, "regular", 40), limit=1e-3)
+    assert told.largest_move <= 1e-3 and np.abs(positions - bent).max() <= 1e-3 and told.largest_move > 6e-4
+
+
+@pytest.mark.parametrize("case", ["a limit that leaves most of a kink", "a kink that runs into a held corner"])
+def test_a_border_is_clamped_where_following_would_make_a_worse_place(case: str) -> None:
+    V, F = half(-1, 0.0, "regular", 40)
+    beside = half(1, 0.0, "regular", 40)
+    bent, options = V.copy(), {}
+    if "limit" in case:
+        bent[:, 2] += bend(V)
+        options = {"limit": 5e-4}
+    else:
+        x = V[:, 0] - cut(V[:, 1])
+        bent[:, 2] += 0.06 * x * np.exp(-(x / 0.15) ** 2)
+    positions, told, found = follow(bent, F, beside, **options)
+    clamped, _ = reflines.smooth_panel(bent, F, **DIRECTIONS, **options)
+    assert found.followed.any() and np.array_equal(positions, clamped)
+    assert "only clamped: following its neighbours" in told.messages[-1]

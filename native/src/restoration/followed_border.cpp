@@ -22,6 +22,9 @@ namespace {
 // degrees are left so, and 0.32 with two lengths.
 constexpr double kReachBefore = 2.0, kReachAfter = 1.0;
 
+// The factor of the worst deviation of lines before, and the degrees of it, from which on a result has a worse place.
+constexpr double kWorsePlace = 1.05, kLeastWorst = 0.3;
+
 constexpr double kToldTurn = 0.3;  // degrees of the border's tangents that are worth a word
 
 // Returns the options of the region alone: nothing but the neighbours that are joined with it tells what lies beside.
@@ -61,6 +64,12 @@ PressAmount begin_after(const PressAmount& amount, const Vector& move) {
   return result;
 }
 
+// Returns whether some place of the result is worse than the worst one before. Where a bent border meets one that is
+// held, the turned tangents of the one and those of the other make a curl in the corner.
+bool has_worse_place(const HealedFlaws& healed) {
+  return healed.worst_after > kWorsePlace * std::max(healed.worst_before, kLeastWorst);
+}
+
 class FollowedBorderPress : public Press {
  public:
   // `own` are the options of the region alone.
@@ -90,7 +99,7 @@ class FollowedBorderPress : public Press {
     Vector move = turned + press_->find_move(begin_after(joined_amount, turned));
     move += pad(turn(range, limit, move.head(V_.rows()), kReachAfter));
     const SmoothPanelResult judged = press_->judge(amount.strength * (move - turned));
-    if (!judged.report.applied) return press_clamped(amount);
+    if (!judged.report.applied || has_worse_place(judged.report.healed)) return press_clamped(amount);
     return take_region(judged, range, amount.strength * move.head(V_.rows()), amount.strength * turned.head(V_.rows()));
   }
 
