@@ -189,27 +189,27 @@ def test_faces_hidden_after_the_region_was_stored_stay() -> None:
     assert not moved[hidden].any()
 
 
-def test_resolve_after_an_undo_in_edit_mode_takes_the_selected_faces() -> None:
+def undo_a_press_in_edit_mode() -> tuple[bpy.types.Object, np.ndarray]:
+    """Returns the panel and the positions that the press gave."""
     ob = scenes.panel(cells=16)
     scenes.look_from_above()
     scenes.edit_inner(ob)
     bpy.ops.ed.undo_push(message="Edit Mode")
     scenes.smooth(length=0.5)
-    wanted = scenes.positions(ob)
+    pressed = scenes.positions(ob)
     bpy.ops.ed.undo()
-    ob = bpy.context.view_layer.objects.active
-    assert ob.mode == 'EDIT' and not np.array_equal(scenes.positions(ob), wanted)
+    return bpy.context.view_layer.objects.active, pressed
+
+
+def test_resolve_after_an_undo_in_edit_mode_takes_the_selected_faces() -> None:
+    ob, pressed = undo_a_press_in_edit_mode()
+    assert ob.mode == 'EDIT' and not np.array_equal(scenes.positions(ob), pressed)
     assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
-    assert ob.mode == 'EDIT' and np.array_equal(scenes.positions(ob), wanted)
+    assert ob.mode == 'EDIT' and np.array_equal(scenes.positions(ob), pressed)
 
 
 def test_resolve_without_region_and_selection_says_what_to_do() -> None:
-    ob = scenes.panel(cells=16)
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
-    bpy.ops.ed.undo_push(message="Edit Mode")
-    scenes.smooth(length=0.5)
-    bpy.ops.ed.undo()
+    undo_a_press_in_edit_mode()
     bpy.ops.mesh.select_all(action='DESELECT')
     with pytest.raises(RuntimeError, match="^Error: [^\n]*select") as failure:
         bpy.ops.reflines.resolve('EXEC_DEFAULT', True)
