@@ -32,7 +32,7 @@ def read_edge_creases(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def read_vertex_creases(mesh: bpy.types.Mesh) -> np.ndarray:
     """Reads the crease of every vertex: #vertices in [0, 1]. In Edit Mode Blender 3 has them in the edit mesh alone."""
-    layers = getattr(mesh, "vertex_creases", None)
+    layers = mesh.vertex_creases if bpy.app.version < (4, 0, 0) else ()  # Blender 4 has a collection of that name, too
     if layers and mesh.is_editmode:
         elements = bmesh.from_edit_mesh(mesh).verts
         layer = elements.layers.crease.verify()

@@ -1,4 +1,5 @@
 """A press on many faces in a real window: Blender goes on, Esc takes it back, the result is the operator's."""
+import sys
 import time
 from collections.abc import Generator
 
@@ -17,7 +18,8 @@ PATIENCE = 120.0  # seconds
 
 
 def prepare(driver: window.Window) -> None:
-    """Makes a panel whose vertices are noisy, which a press heals."""
+    """Makes a panel whose vertices are noisy, which a press heals, and of which no earlier press is kept."""
+    sys.modules["reflection_lines"].state.press_cache.clear_cache()
     ob = panel(driver, CELLS)
     random = np.random.default_rng(3)
     mesh = bmesh.from_edit_mesh(ob.data)
