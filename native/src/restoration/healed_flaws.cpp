@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/smoothstep.h"
 #include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/line_evenness.h"
-#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {
@@ -25,11 +25,12 @@ double mean_of(const Vector& degrees, const Vector& weight) {
   return std::sqrt(weight.dot(degrees.cwiseAbs2()) / std::max(weight.sum(), 1e-300));
 }
 
-// Returns the squared deviations of heights z (#V) in each light: #F x lights, degrees^2.
+// Returns the squared deviations of heights z (#V) in each light, where its eye sees them: #F x lights, degrees^2.
 Eigen::MatrixXd measure_squares(ControlledSurface& surface, const Vector& z, const Vector& course) {
   Eigen::MatrixXd result(surface.triangles().rows(), surface.optimizer().family_count());
   for (int k = 0; k < result.cols(); ++k)
-    result.col(k) = (kDegrees * measure_offsets(surface, z, course, k)).cwiseAbs2();
+    result.col(k) =
+        surface.optimizer().sight(k).cwiseProduct((kDegrees * measure_offsets(surface, z, course, k)).cwiseAbs2());
   return result;
 }
 
