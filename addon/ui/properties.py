@@ -13,6 +13,7 @@ from .automatic_values import shown_property, switch_property
 from .check_properties import ReflinesCheck, ReflinesMarks
 from .handle_properties import ReflinesHandles
 from .inspection_properties import ReflinesInspection
+from .light_set_properties import ReflinesLightSet
 from .stripe_properties import ReflinesSetups, ReflinesStripes
 from .tool_properties import (ReflinesBake, ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
                               ReflinesUntwist, ReflinesWarp, SmoothSettings)
@@ -308,6 +309,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     stripes: PointerProperty(type=ReflinesStripes)
     marks: PointerProperty(type=ReflinesMarks)
     setups: PointerProperty(type=ReflinesSetups)
+    light_set: PointerProperty(type=ReflinesLightSet)
 
     def missing(self) -> str:
         """Returns what is missing before any tool can run, as a sentence; empty where nothing is."""

@@ -13,7 +13,7 @@ def unit(vector: Array) -> Array:
 
 
 def theta_of(normals: Array, eye: Array, line: Array) -> Array:
-    """Returns equation 1 of the paper in space: the mirrored eye direction, projected along the lines, from the eye's."""
+    """Returns equation 1 of the paper in space: the mirrored eye direction, projected along the lines, from its own."""
     n, v, a = unit(normals), unit(eye), unit(line)
     mirrored = 2 * (n @ v)[:, None] * n - v
     start = unit(v - (v @ a) * a)
