@@ -57,6 +57,10 @@ class LightSet:
         return native.reflines.LightSet(np.array([light.line for light in self.lights]), eyes,
                                         weight=[light.weight for light in self.lights], blockers=beside)
 
+    def name_light(self, index: int) -> tuple[str, Direction]:
+        """Returns the name of a light and the direction of its lines."""
+        return self.lights[index].name, self.lights[index].line
+
     def describe(self, seen: Sequence[float], before: Sequence[float], after: Sequence[float], *,
                  applied: bool) -> tuple[str, ...]:
         """Describes what a press says of the lights by their names: those that see next to nothing of the region, and

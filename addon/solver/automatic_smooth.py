@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import native
-from ..model.gain import Healed
+from ..model.gain import Healed, Worse
 from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.solution import SolveReport, Solution
@@ -91,8 +91,19 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
                     automatic_limit=0.0 if settings.limit else told.limit, cage_move=press.cage_move,
                     turn_before=turns[0], turn_after=turns[1],
                     kept=(*remarks.describe_marked_creases(patch), *told.region.messages),
-                    healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after),
+                    healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after,
+                                  find_worse(kept.view, settings.light_set, told)),
                     longer_waves=told.longer_waves)
+
+
+def find_worse(seen: View, light_set: LightSet | None, told: "native.SmoothPanelReport") -> Worse | None:
+    """Finds the place that a press made worse, with the light that shows it; None where there is none."""
+    worse = told.healed.worse
+    if worse.light < 0:
+        return None
+    crossed = ("the crossed light" if worse.light else "the light", tuple(seen.both_directions[worse.light].tolist()))
+    name, line = crossed if light_set is None else light_set.name_light(worse.light)
+    return Worse(name, line, tuple(worse.place.tolist()), told.length, worse.before, worse.after)
 
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:

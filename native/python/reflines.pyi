@@ -192,6 +192,13 @@ class LineScore:
                   # round the circle it is n / 360 times as many distances of two lines
     turn: float   # mean along the lines, degrees in the image plane: angle between a line and its smooth course
 
+class WorsePlace:
+    """The place where lines got worse by most in one of the lights of a press; see native/include/reflines/smooth_panel.h."""
+    light: int         # of the press; -1: there is none
+    before: float      # degrees that lines are off their course there, in that light
+    after: float
+    place: np.ndarray  # 3, on the surface at the start
+
 class HealedFlaws:
     """Tells what a press healed. The deviation of lines is how far they are from the course that they would have without flaws:
     degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most."""
@@ -200,6 +207,7 @@ class HealedFlaws:
     worst_after: float
     mean_before: float   # likewise, root mean square over the healed area
     mean_after: float
+    worse: WorsePlace
 
 class PressWork:
     """The work of a press, whose time it is: that of its smoother and its solves together."""

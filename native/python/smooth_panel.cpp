@@ -116,12 +116,18 @@ auto press_once(BuildSmoother (*prepare)(Arguments...)) {
 
 void bind_press_report(py::module_& module) {
   using Told = SmoothPanelReport;
+  py::class_<WorsePlace>(module, "WorsePlace", py::module_local())
+      .def_readonly("light", &WorsePlace::light)
+      .def_readonly("before", &WorsePlace::before)
+      .def_readonly("after", &WorsePlace::after)
+      .def_readonly("place", &WorsePlace::place);
   py::class_<HealedFlaws>(module, "HealedFlaws", py::module_local())
       .def_readonly("area", &HealedFlaws::area)
       .def_readonly("worst_before", &HealedFlaws::worst_before)
       .def_readonly("worst_after", &HealedFlaws::worst_after)
       .def_readonly("mean_before", &HealedFlaws::mean_before)
-      .def_readonly("mean_after", &HealedFlaws::mean_after);
+      .def_readonly("mean_after", &HealedFlaws::mean_after)
+      .def_readonly("worse", &HealedFlaws::worse);
   py::class_<PressWork>(module, "PressWork", py::module_local())
       .def_readonly("factorizations", &PressWork::factorizations)
       .def_readonly("solves", &PressWork::solves);

@@ -127,6 +127,28 @@ def test_a_light_that_is_parallel_to_its_view_is_refused_by_name() -> None:
     assert scenes.fingerprint(ob) == before
 
 
+def test_the_place_that_became_worse_is_told_and_shown() -> None:
+    ob = scenes.panel(height=lambda x, y: scenes.crown(x, y) + 3.0 * (dented(x, y) - scenes.crown(x, y)), cells=60)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, 60)
+    add_light()
+    settings().light_set.find_active().name = "Its light"
+    press(limit=0.0008)
+    report = ob.reflection_lines.report
+    assert "; one place worse in Its light: " in report.headline()
+    before = settings().light.matrix_world.copy()
+    settings().light.rotation_euler.z += 1.0
+    assert bpy.ops.reflines.show_worse('EXEC_DEFAULT', True) == {'FINISHED'}
+    bpy.context.view_layer.update()
+    assert np.allclose(np.array(settings().light.matrix_world)[:3, 2], np.array(before)[:3, 2], atol=1e-5)
+    place = np.array(report.worse_spot.find_place())
+    assert 0.02 < np.linalg.norm(place[:2] - (0.1, -0.2)) < 0.4
+    ob.update_from_editmode()
+    assert 0 < sum(face.select for face in ob.data.polygons) < 200
+    press(strength=0.0)
+    assert not report.worse and not bpy.ops.reflines.show_worse.poll()
+
+
 def test_the_choice_is_that_of_the_sidebar_and_the_set_is_emptied() -> None:
     make_panel()
     walk()

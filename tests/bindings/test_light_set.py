@@ -67,6 +67,19 @@ def test_a_heavier_light_ends_more_even_where_a_limit_holds_the_press_back():
     assert off[0][0] < off[1][0] and off[1][1] < off[0][1]
 
 
+def test_the_place_that_became_worse_is_told_with_its_light():
+    """A limit leaves most of a dent, and an edge round it, where the lines were even."""
+    V, F = grid(dented(depth=0.004), 60)
+    positions, report = press(V, F, limit=6e-4)
+    worse = report.healed.worse
+    away = np.linalg.norm(V[F].mean(1) - worse.place, axis=1)
+    there = F[away < 0.35 * report.length]
+    line = (LIGHT, np.cross(VIEW, LIGHT))[worse.light]
+    assert measure(positions, there, VIEW, line) > 0.1 + measure(V, there, VIEW, line)
+    assert worse.after > 0.1 + worse.before and worse.after > 0.3
+    assert press(V, F, limit=0.1)[1].healed.worse.light == -1
+
+
 def test_an_eye_that_sees_nothing_is_told_of_and_judges_nothing():
     V, F = grid(dented(), CELLS)
     positions, report = press(V, F, reflines.LightSet([LIGHT, LIGHT], [VIEW, -VIEW]))

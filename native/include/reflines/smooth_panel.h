@@ -60,12 +60,24 @@ struct SmoothPanelOptions {
   std::shared_ptr<Progress> progress;  // or none
 };
 
+// The place where lines got worse by most in one of the lights: by at least kWorsened, and off their course by kWorst
+// or more.
+struct WorsePlace {
+  int light = -1;                    // or -1: there is none
+  double before = 0.0, after = 0.0;  // degrees that lines deviate there in that light, see HealedFlaws
+  Vector3 place = Vector3::Zero();   // on the surface at the start
+};
+
+// Degrees by which lines get worse, and are then off their course, before a press tells of it.
+inline constexpr double kWorsened = 0.1, kWorst = 0.3;
+
 // Tells what a press healed. The deviation of lines is how far they are from the course that they would have without
 // flaws: degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most.
 struct HealedFlaws {
   double area = 0.0;  // share of the region's area where lines deviated visibly and most of that went
   double worst_before = 0.0, worst_after = 0.0;  // deviation of the worst place of the region
   double mean_before = 0.0, mean_after = 0.0;    // likewise, root mean square over the healed area
+  WorsePlace worse;
 };
 
 // Counts the work of a press, whose time these are: that of its smoother and of its solves together.

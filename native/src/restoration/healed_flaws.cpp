@@ -34,6 +34,22 @@ Eigen::MatrixXd measure_squares(ControlledSurface& surface, const Vector& z, con
   return result;
 }
 
+// Finds the place that got worse by most; `before` and `after` (#F x lights) are degrees.
+WorsePlace find_worse(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, const ControlledSurface& surface) {
+  WorsePlace result;
+  double most = kWorsened;
+  for (Eigen::Index k = 0; k < before.cols(); ++k) {
+    for (Eigen::Index t = 0; t < before.rows(); ++t) {
+      if (after(t, k) < kWorst || after(t, k) - before(t, k) < most) continue;
+      most = after(t, k) - before(t, k);
+      const auto corners = surface.triangles().row(t);
+      result = {static_cast<int>(k), before(t, k), after(t, k),
+                surface.positions()(corners, Eigen::all).colwise().mean().transpose()};
+    }
+  }
+  return result;
+}
+
 // Sums deviations (#F) up; `area` (#F) is that of the triangles.
 HealedFlaws sum_up(const Vector& before, const Vector& after, const Vector& area) {
   Vector weight(area.size());
@@ -41,8 +57,8 @@ HealedFlaws sum_up(const Vector& before, const Vector& after, const Vector& area
     const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
     weight(t) = area(t) * smoothstep(kLeast, kWhole, before(t)) * smoothstep(kPart, kMost, gone);
   }
-  return {weight.sum() / area.sum(), before.maxCoeff(), after.maxCoeff(), mean_of(before, weight),
-          mean_of(after, weight)};
+  return {weight.sum() / area.sum(), before.maxCoeff(),      after.maxCoeff(),
+          mean_of(before, weight),   mean_of(after, weight), {}};
 }
 
 }  // namespace
@@ -55,9 +71,11 @@ HealedFlaws measure_healed(ControlledSurface& surface, const Vector& before, con
   Eigen::MatrixXd squares(area.size(), 2 * lights);
   squares << measure_squares(surface, before, course), measure_squares(surface, after, course);
   const DiskMean around(find_centroids(optimizer.xy(), surface.triangles()), area, kRadius * length);
-  const Eigen::MatrixXd mean = around.of_columns(squares);
-  return sum_up(mean.leftCols(lights).rowwise().maxCoeff().cwiseSqrt(),
-                mean.rightCols(lights).rowwise().maxCoeff().cwiseSqrt(), area);
+  const Eigen::MatrixXd degrees = around.of_columns(squares).cwiseSqrt();
+  const auto at_start = degrees.leftCols(lights), at_end = degrees.rightCols(lights);
+  HealedFlaws result = sum_up(at_start.rowwise().maxCoeff(), at_end.rowwise().maxCoeff(), area);
+  result.worse = find_worse(at_start, at_end, surface);
+  return result;
 }
 
 }  // namespace reflines
