@@ -9,11 +9,13 @@ from . import modifiers, read_mesh, view_and_light
 
 
 def read_light_set(settings: bpy.types.PropertyGroup, subjects: Sequence[bpy.types.Object]) -> LightSet | None:
-    """Reads the lights that can be used; None where there is none. `subjects` are the panels of the press, of which all
-    faces may hide the region.
+    """Reads the lights that can be used; None where there is none. `subjects` are the panels of the press, whose faces
+    beside the region may hide it; those of a cage lie beside its surface, and so hide nothing.
     """
     lights = tuple(read_light(entry) for entry in settings.light_set.entries if entry.is_used())
-    return LightSet(lights, read_blockers(subjects)) if lights else None
+    if not lights:
+        return None
+    return LightSet(lights, tuple(read_blockers(ob) for ob in subjects if not modifiers.is_cage(ob)))
 
 
 def read_light(entry: bpy.types.PropertyGroup) -> SetLight:
@@ -26,20 +28,12 @@ def read_light(entry: bpy.types.PropertyGroup) -> SetLight:
     return SetLight(entry.name, line, tuple(float(x) for x in eye), is_place, entry.weight)
 
 
-def read_blockers(subjects: Sequence[bpy.types.Object]) -> Blockers | None:
-    """Reads all faces of the panels that are no cages, whose own faces lie beside their surface."""
-    V, F, count = [], [], 0
-    for ob in subjects:
-        if modifiers.is_cage(ob):
-            continue
-        if ob.mode == 'EDIT':
-            ob.update_from_editmode()
-        matrix = np.array(ob.matrix_world, dtype=np.float64)
-        places = read_mesh.read_coordinates(ob, "") @ matrix[:3, :3].T + matrix[:3, 3]
-        triangles = read_mesh.read_triangles(ob.data)[0]
-        triangles = triangles[np.isfinite(places[triangles]).all(axis=(1, 2))]
-        used, corners = np.unique(triangles, return_inverse=True)
-        V.append(places[used])
-        F.append(corners.reshape(-1, 3) + count)
-        count += len(used)
-    return Blockers(np.concatenate(V), np.concatenate(F)) if count else None
+def read_blockers(ob: bpy.types.Object) -> Blockers:
+    """Reads all faces of a panel whose vertices have finite coordinates."""
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    matrix = np.array(ob.matrix_world, dtype=np.float64)
+    V = read_mesh.read_coordinates(ob, "") @ matrix[:3, :3].T + matrix[:3, 3]
+    F, face = read_mesh.read_triangles(ob.data)
+    finite = np.isfinite(V).all(axis=1)[F].all(axis=1)
+    return Blockers(ob.name, V, F[finite], face[finite])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
+from .patch import Patch
 from .refusal import Refusal
 from .view import View
 
@@ -36,24 +37,33 @@ class SetLight:
 
 @dataclass(frozen=True, eq=False)
 class Blockers:
-    """The surfaces that may hide a region from a view, in world space."""
-    V: np.ndarray  # #B x 3
-    F: np.ndarray  # #G x 3
+    """The surface of an object, which may hide a region from a view, in world space."""
+    name: str         # of the object
+    V: np.ndarray     # #B x 3
+    F: np.ndarray     # #G x 3
+    face: np.ndarray  # #G: the mesh's face that each was cut from
 
-    def __eq__(self, other: "Blockers | None") -> bool:
-        return isinstance(other, Blockers) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
+    def __eq__(self, other: "Blockers") -> bool:
+        return (self.name == other.name and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
+                and np.array_equal(self.face, other.face))
+
+    def leave_out(self, patch: Patch) -> tuple[np.ndarray, np.ndarray]:
+        """Returns vertices and triangles without those of a region, whose shape before its last run may be another."""
+        F = self.F if self.name != patch.name else self.F[~patch.faces[self.face]]
+        used, corners = np.unique(F, return_inverse=True)
+        return self.V[used], corners.reshape(-1, 3)
 
 
 @dataclass(frozen=True)
 class LightSet:
     """The lights that are not muted, at least one."""
     lights: tuple[SetLight, ...]
-    blockers: Blockers | None = None
+    blockers: tuple[Blockers, ...] = ()
 
-    def build_argument(self, center: np.ndarray) -> "native.LightSet":
-        """Builds what the native press takes, for a region around this centre."""
-        eyes = np.array([light.find_eye(center) for light in self.lights])
-        beside = None if self.blockers is None else (self.blockers.V, self.blockers.F)
+    def build_argument(self, patch: Patch) -> "native.LightSet":
+        """Builds what the native press of a patch takes."""
+        eyes = np.array([light.find_eye(patch.center) for light in self.lights])
+        beside = join([each.leave_out(patch) for each in self.blockers]) if self.blockers else None
         return native.reflines.LightSet(np.array([light.line for light in self.lights]), eyes,
                                         weight=[light.weight for light in self.lights], blockers=beside)
 
@@ -72,6 +82,13 @@ class LightSet:
         if not applied and after[worse] > before[worse]:
             return (f"That light of the set is {self.lights[worse].name}", *notes)
         return notes
+
+
+def join(surfaces: Sequence[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
+    """Joins surfaces, each vertices and triangles, to one."""
+    first = np.cumsum([0, *(len(V) for V, _ in surfaces)])
+    return (np.concatenate([V for V, _ in surfaces]),
+            np.concatenate([F + start for (_, F), start in zip(surfaces, first[:-1], strict=True)]))
 
 
 def find_walk(seen: View, up: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

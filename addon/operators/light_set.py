@@ -1,4 +1,6 @@
 """Add Light to Set, Remove Light from Set and Walk Around: what fills the scene's set of lights."""
+import itertools
+
 import bpy
 import numpy as np
 
@@ -30,7 +32,9 @@ class REFLINES_OT_add_set_light(bpy.types.Operator):
         settings = context.scene.reflection_lines
         entry = settings.light_set.entries.add()
         entry.camera, entry.light = settings.camera, settings.light
-        entry.name = f"{settings.camera.name}, {settings.light.name}"
+        names = {each.name for each in settings.light_set.entries}
+        numbered = (f"{settings.camera.name} {number}" for number in itertools.count(2))
+        entry.name = next(name for name in itertools.chain((settings.camera.name,), numbered) if name not in names)
         settings.light_set.active = len(settings.light_set.entries) - 1
         return {'FINISHED'}
 

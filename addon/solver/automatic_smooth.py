@@ -29,9 +29,9 @@ class AutomaticSmooth:
     fair_border: bool = False   # the border moves, too; see native/include/reflines/smooth_panel.h
     light_set: LightSet | None = None  # takes the place of `lights`
 
-    def choose_flaws(self, center: np.ndarray) -> dict[str, "str | bool | float | native.LightSet | None"]:
-        """Returns what tells flaws from design, as arguments of the native smoother of a region around this centre."""
-        light_set = None if self.light_set is None else self.light_set.build_argument(center)
+    def choose_flaws(self, patch: Patch) -> dict[str, "str | bool | float | native.LightSet | None"]:
+        """Returns what tells flaws from design, as arguments of the native smoother of a patch."""
+        light_set = None if self.light_set is None else self.light_set.build_argument(patch)
         return {"lights": self.lights, "light_set": light_set, "symmetric": self.symmetric,
                 "flaw_size": self.flaw_size}
 
@@ -62,7 +62,7 @@ class KeptPress:
 async def build_press(patch: Patch, seen: View, border: str, settings: AutomaticSmooth) -> KeptPress:
     """Builds the native smoother of a patch, which does its work in the first press; raises the native module's errors.
     """
-    smoother = await choose_formulation(patch, seen).build_smoother(border, settings.choose_flaws(patch.center),
+    smoother = await choose_formulation(patch, seen).build_smoother(border, settings.choose_flaws(patch),
                                                                     fair=settings.fair_border)
     return KeptPress(patch, seen, border, settings, smoother)
 

@@ -4,6 +4,8 @@ import bpy
 from .panels import ReflinesPanel, draw_paragraph
 
 ROWS = 3
+MANY = 20       # lights from which on the panel tells what they take
+MEGABYTES = 2.5  # for a light, with 10,000 quads in the region
 
 
 class REFLINES_UL_light_set(bpy.types.UIList):
@@ -43,6 +45,9 @@ class VIEW3D_PT_reflines_light_set(ReflinesPanel, bpy.types.Panel):
         if not entry.keeps_directions:
             column.prop(entry, "camera")
             column.prop(entry, "light")
+        if len(chosen.entries) > MANY:
+            taken = f"{MEGABYTES * len(chosen.entries):.0f} MB for 10,000 faces"
+            draw_paragraph(layout, context, f"{len(chosen.entries)} lights take {taken}, and longer each", 'INFO')
         if entry.find_problem():
             draw_paragraph(layout, context, entry.find_problem(), 'ERROR')
 

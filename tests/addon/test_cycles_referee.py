@@ -182,8 +182,8 @@ def find_theta(V: np.ndarray, F: np.ndarray, **light: object) -> np.ndarray:
 
 
 def test_a_camera_sees_the_theta_of_a_family_with_its_eye(seen: Seen) -> None:
-    """The solve's view is another: it looks from above. Between pixels theta is off by the square of its change from one
-    to the next, and a facet's by the square of its size."""
+    """The solve's view is another: it looks from above. Between pixels theta is off by the square of its change from
+    one to the next, and a facet's by the square of its size."""
     theta, _, v, a, frame = seen
     cells = CELLS // 2
     x, y = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-1.0, 1.0, cells + 1)] * 2))

@@ -1,11 +1,18 @@
 """The set of lights: what fills it, the press of Smooth with it, and what of it cannot be used."""
 from collections.abc import Callable
+from dataclasses import replace
 
 import bpy
 import numpy as np
 import pytest
 from reflection_lines import native
+from reflection_lines.bridge import facing
 from reflection_lines.bridge.read_light_set import read_light_set
+from reflection_lines.interactive.solve_job import SolveJob, SolveRequest
+from reflection_lines.model.light_set import Blockers
+from reflection_lines.native_call import run_now
+from reflection_lines.solver import automatic_smooth
+from reflection_lines.solver.automatic_smooth import AutomaticSmooth
 from reflection_lines.state import solve_history
 
 import scenes
@@ -62,7 +69,7 @@ def test_the_walk_around_has_five_views_and_two_lights() -> None:
     assert len(entries) == 10
     press()
     found = read_light_set(settings(), [ob])
-    assert len(found.lights) == 10 and len(found.blockers.F) == 2 * CELLS**2
+    assert len(found.lights) == 10 and len(found.blockers[0].F) == 2 * CELLS**2
     eyes, lines = (np.array([getattr(light, name) for light in found.lights]) for name in ("eye", "line"))
     patch = solve_history.find_last_solve(ob.name).patch
     assert np.array_equal(solve_history.find_last_solve(ob.name).positions,
@@ -81,6 +88,49 @@ def test_a_light_of_its_own_stays_beside_a_walk_around_and_follows_its_objects()
     assert np.allclose(own.line, np.array(settings().light.matrix_world)[:3, 2])
     settings().camera.data.type = 'PERSP'
     assert read_light_set(settings(), [ob]).lights[0].is_place
+
+
+@pytest.mark.parametrize(("kind", "blocked"), [('MIRROR', True), ('SUBSURF', False)])
+def test_a_mirrored_half_and_a_cage_are_pressed_for_the_set(kind: str, blocked: bool) -> None:
+    """The faces of a cage lie beside its surface, and so hide nothing."""
+    ob = make_panel()
+    walk()
+    ob.modifiers.new("Modifier", kind)
+    press()
+    assert ob.reflection_lines.report.largest_move > 0.001 and not ob.reflection_lines.report.notes
+    assert len(read_light_set(settings(), [ob]).blockers) == blocked
+
+
+def test_the_background_press_takes_the_set() -> None:
+    """A long press runs beside Blender, with what the operator chose before."""
+    ob = make_panel()
+    walk()
+    press()
+    found = solve_history.find_last_solve(ob.name)
+    asked = AutomaticSmooth("crossed", 1.0, True, light_set=read_light_set(settings(), [ob]))
+    job = SolveJob([found.patch], [facing.read_patch_view(bpy.context.scene, found.patch)], "clamped")
+    outcome = run_now(job.run(SolveRequest((), (), final=True, press=asked)))
+    assert np.array_equal(outcome.solutions[0].positions, found.positions)
+
+
+def test_faces_beside_the_region_hide_it_from_a_view() -> None:
+    """A roof over the panel, of the same mesh, leaves nothing to see from above."""
+    ob = make_panel()
+    walk()
+    press()
+    found = solve_history.find_last_solve(ob.name).patch
+    roof = np.array([(-20.0, -20.0, 1.0), (20.0, -20.0, 1.0), (0.0, 30.0, 1.0)])
+    asked = read_light_set(settings(), [ob])
+    above = replace(asked, blockers=(Blockers(ob.name, roof, np.array([[0, 1, 2]]), np.flatnonzero(~found.faces)[:1]),))
+    with pytest.raises(native.InvalidInput, match="No eye direction sees the region"):
+        run_now(automatic_smooth.press_panel(run_now(automatic_smooth.build_press(
+            found, facing.read_patch_view(bpy.context.scene, found), "clamped",
+            AutomaticSmooth("crossed", 1.0, True, light_set=above))), AutomaticSmooth("crossed", 1.0, True)))
+
+
+def test_two_lights_of_one_camera_have_two_names() -> None:
+    make_panel()
+    assert [add_light().name for _ in range(3)] == [settings().camera.name + end for end in ("", " 2", " 3")]
 
 
 def test_an_empty_set_is_pressed_in_crossed_lights_and_says_so() -> None:
