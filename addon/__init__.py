@@ -70,7 +70,7 @@ NAMES = (
     "operators.pick_direction", "operators.pin_lines", "operators.pull_line",
     "operators.resolve", "operators.set_border", "operators.smooth", "operators.spots",
     "operators.store_result", "operators.stripes",
-    "operators.sweep_light", "operators.untwist", "operators.use_look", "operators.warp",
+    "operators.sweep_light", "operators.sweep_view", "operators.untwist", "operators.use_look", "operators.warp",
     "ui.divider_gizmo", "ui.gizmos", "ui.handle_gizmos", "ui.keymaps", "ui.manual_links", "ui.menus", "ui.panels",
     "ui.handles_panel", "ui.check_panel", "ui.inspection_panel", "ui.light_set_panel",
     "ui.preferences", "ui.toolbar",
