@@ -198,7 +198,7 @@ Vector PieceProblem::find_unseen(const std::vector<Target>& targets) const {
   Vector seen = Vector::Zero(stencils_.triangle_count());
   if (!has_eyes_) return seen;
   for (const Target& target : targets) seen = seen.cwiseMax(visible_[target.family]);
-  return Vector::Ones(seen.size()) - seen;
+  return (visible_.back().array() > 0).select(1.0 - seen.array(), 0.0);  // of held triangles nothing is open
 }
 
 double PieceProblem::energy() {
