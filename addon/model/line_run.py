@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from .refusal import Refusal
 
 CHOICES = {"border": ("clamped", "curvature", "flow", "fixed", "free", "follow"),
-           "lights": ("CROSSED", "SINGLE"),
+           "lights": ("CROSSED", "SINGLE", "SET"),
            "solve_for": ("CAGE", "MESH"), "result": ("MESH", "SHAPE_KEY")}  # the defaults first
 
 

@@ -70,7 +70,7 @@ class DraggedTool(SolveTool):
 
     def keeps_crossed(self) -> bool:
         """Returns whether the lines that cross the wanted ones count."""
-        return self.lights == 'CROSSED'
+        return self.lights != 'SINGLE'
 
     def choose_crossed(self) -> BuildCrossed:
         """Returns the builder of the target for the lines that cross the wanted ones."""

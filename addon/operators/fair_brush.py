@@ -63,7 +63,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         self.subject, self.stroke = ob.name, BrushStroke(context, ob, patch, self.border)
         length = solve.choose_length(patch, context.scene.reflection_lines.length)
         limit = limited_solve.choose_limit(patch, SolveSettings(self.border, length, self.limit, limit_length=length))
-        self.brush = Brush(0.0, self.strength, length, limit, 2 if self.lights == 'CROSSED' else 1)
+        self.brush = Brush(0.0, self.strength, length, limit, 1 if self.lights == 'SINGLE' else 2)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         ob = bpy.data.objects.get(self.subject)

@@ -4,9 +4,10 @@ from functools import partial
 
 import bpy
 
-from ..bridge import facing
+from ..bridge import facing, read_light_set
 from ..interactive.drag_handles import Handle
 from ..model.beside import Crossing
+from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.solution import BuildCrossed, Solution, SolveSettings
 from ..native_call import run_now
@@ -69,22 +70,43 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         """Reads the settings, with an automatic limit that is a share of the length, as in the automatic press."""
         return replace(super().read_solve_settings(scene), limit_length=self.filter_length)
 
+    def is_automatic(self) -> bool:
+        """Returns whether the automatic press takes the place of a solve."""
+        return not self.length and not self.directional
+
     def choose_press(self) -> AutomaticSmooth | None:
-        if self.length or self.directional:
-            return None
-        return AutomaticSmooth(self.lights.lower(), self.strength, self.symmetric, self.limit or None, self.flaw_size,
+        return replace(self.choose_settings(), light_set=self.read_lights()) if self.is_automatic() else None
+
+    def choose_settings(self) -> AutomaticSmooth:
+        lights = "single" if self.lights == 'SINGLE' else "crossed"
+        return AutomaticSmooth(lights, self.strength, self.symmetric, self.limit or None, self.flaw_size,
                                self.fair_border)
 
+    def read_lights(self) -> LightSet | None:
+        """Reads the set of lights; None where another choice is made, or none of them can be used."""
+        if self.lights != 'SET':
+            return None
+        context = bpy.context
+        return read_light_set.read_light_set(context.scene.reflection_lines, self.find_subjects(context))
+
+    def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
+        """Returns what is wrong with the set of lights, where it is asked for."""
+        if self.lights != 'SET' or not self.is_automatic():
+            return ()
+        chosen = bpy.context.scene.reflection_lines.light_set
+        if any(entry.is_used() for entry in chosen.entries):
+            return chosen.describe_problems()
+        return ("The set has no light that can be used: crossed lights were taken", *chosen.describe_problems())
+
     def choose_reach(self) -> float:
-        press = self.choose_press()
-        return press.choose_reach() if press is not None else 0.0
+        return self.choose_settings().choose_reach() if self.is_automatic() else 0.0
 
     def choose_crossing(self) -> Crossing | None:
         """Returns what the border follows. Of several objects each follows those before it as they will be, in the
         order of their names.
         """
         solved = getattr(self, "solved", {})  # a drag solves none before the others
-        return Crossing(self.gap, self.border == 'follow', solved) if self.choose_press() is not None else None
+        return Crossing(self.gap, self.border == 'follow', solved) if self.is_automatic() else None
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         return sorted(super().find_subjects(context), key=lambda ob: ob.name)
@@ -95,7 +117,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         super().record_solution(ob, replace(solution, automatic_length=0.0) if given else solution)
 
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
-        if self.length or self.directional:
+        if not self.is_automatic():
             return super().solve_patch(context, ob, patch)
         settings = self.choose_press()
         seen = facing.read_patch_view(context.scene, patch)

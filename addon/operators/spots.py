@@ -20,10 +20,17 @@ def has_spots(operator: type[bpy.types.Operator], context: bpy.types.Context) ->
 
 
 def show_spot(context: bpy.types.Context, ob: bpy.types.Object, index: int) -> str:
-    """Frames a spot in the 3D view, turns the light to it and selects its faces; returns the line that tells of it."""
+    """Shows a spot of the last inspection; returns the line that tells of it."""
     stored = ob.reflection_lines.inspection
     stored.active = index
-    spot, settings = stored.spots[index], context.scene.reflection_lines
+    spot = stored.spots[index]
+    look_at_spot(context, ob, spot)
+    return f"Spot {index + 1} of {len(stored.spots)}: {spot.describe()}, seen best from {spot.view}"
+
+
+def look_at_spot(context: bpy.types.Context, ob: bpy.types.Object, spot: bpy.types.PropertyGroup) -> None:
+    """Frames a spot in the 3D view, turns the light to it and selects its faces."""
+    settings = context.scene.reflection_lines
     if ob.mode == 'EDIT':
         ob.update_from_editmode()
     select_faces.select_faces(ob, select_faces.find_faces_near(ob, spot.find_place(), 0.5 * spot.size))
@@ -34,7 +41,6 @@ def show_spot(context: bpy.types.Context, ob: bpy.types.Object, index: int) -> s
     region_3d = getattr(context.space_data, "region_3d", None)
     if region_3d is not None:
         frame_spot(region_3d, camera, spot)
-    return f"Spot {index + 1} of {len(stored.spots)}: {spot.describe()}, seen best from {spot.view}"
 
 
 def frame_spot(region_3d: bpy.types.RegionView3D, camera: bpy.types.Object | None, spot: bpy.types.PropertyGroup,
@@ -87,6 +93,26 @@ class REFLINES_OT_next_spot(bpy.types.Operator):
         return {'FINISHED'}
 
 
+class REFLINES_OT_show_worse(bpy.types.Operator):
+    """Look at the place that the last press made worse: the view frames it, the light turns to the one in which it is
+worse, and its faces are selected"""
+    bl_idname = "reflines.show_worse"
+    bl_label = "Show Worse Place"
+    bl_options = {'REGISTER', 'UNDO'}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = scene_objects.read_active_object(context)
+        cls.poll_message_set("Make a panel active on which a press of Smooth Lines made a place worse")
+        return ob is not None and ob.type == 'MESH' and ob.reflection_lines.report.worse != ""
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob = scene_objects.read_active_object(context)
+        look_at_spot(context, ob, ob.reflection_lines.report.worse_spot)
+        self.report({'INFO'}, f"{ob.name}: {ob.reflection_lines.report.worse}")
+        return {'FINISHED'}
+
+
 class REFLINES_OT_export_spots(ExportHelper, bpy.types.Operator):
     """Write the spots of the last inspection to a .csv file, for tables"""
     bl_idname = "reflines.export_spots"
@@ -114,4 +140,4 @@ class REFLINES_OT_export_spots(ExportHelper, bpy.types.Operator):
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_show_spot, REFLINES_OT_next_spot,
-                                                           REFLINES_OT_export_spots])
+                                                           REFLINES_OT_show_worse, REFLINES_OT_export_spots])

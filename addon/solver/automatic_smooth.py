@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import native
-from ..model.gain import Healed
+from ..model.gain import Healed, Worse
+from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.solution import SolveReport, Solution
 from ..model.view import View
@@ -26,10 +27,13 @@ class AutomaticSmooth:
     limit: float | None = None  # largest move along the view, world units; None: automatic
     flaw_size: float = 1.0      # of the automatic length
     fair_border: bool = False   # the border moves, too; see native/include/reflines/smooth_panel.h
+    light_set: LightSet | None = None  # takes the place of `lights`
 
-    def choose_flaws(self) -> dict[str, "str | bool | float"]:
-        """Returns what tells flaws from design, as arguments of the native smoother."""
-        return {"lights": self.lights, "symmetric": self.symmetric, "flaw_size": self.flaw_size}
+    def choose_flaws(self, patch: Patch) -> dict[str, "str | bool | float | native.LightSet | None"]:
+        """Returns what tells flaws from design, as arguments of the native smoother of a patch."""
+        light_set = None if self.light_set is None else self.light_set.build_argument(patch)
+        return {"lights": self.lights, "light_set": light_set, "symmetric": self.symmetric,
+                "flaw_size": self.flaw_size}
 
     def choose_reach(self) -> float:
         """Returns how far beside the region faces are needed, in diagonals of the region."""
@@ -58,7 +62,7 @@ class KeptPress:
 async def build_press(patch: Patch, seen: View, border: str, settings: AutomaticSmooth) -> KeptPress:
     """Builds the native smoother of a patch, which does its work in the first press; raises the native module's errors.
     """
-    smoother = await choose_formulation(patch, seen).build_smoother(border, settings.choose_flaws(),
+    smoother = await choose_formulation(patch, seen).build_smoother(border, settings.choose_flaws(patch),
                                                                     fair=settings.fair_border)
     return KeptPress(patch, seen, border, settings, smoother)
 
@@ -83,11 +87,23 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
     scores = told.score_before, told.score_after if told.applied else told.score_before
     shifts, turns = np.mean([[(score.shift, score.turn) for score in each] for each in scores], axis=1).T.tolist()
     return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *shifts,
-                    choose_notes(formulation, told), told.length, automatic_limit=0.0 if settings.limit else told.limit,
-                    cage_move=press.cage_move, turn_before=turns[0], turn_after=turns[1],
+                    choose_notes(formulation, told, settings.light_set), told.length,
+                    automatic_limit=0.0 if settings.limit else told.limit, cage_move=press.cage_move,
+                    turn_before=turns[0], turn_after=turns[1],
                     kept=(*remarks.describe_marked_creases(patch), *told.region.messages),
-                    healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after),
+                    healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after,
+                                  find_worse(kept.view, settings.light_set, told)),
                     longer_waves=told.longer_waves)
+
+
+def find_worse(seen: View, light_set: LightSet | None, told: "native.SmoothPanelReport") -> Worse | None:
+    """Finds the place that a press made worse, with the light that shows it; None where there is none."""
+    worse = told.healed.worse
+    if worse.light < 0:
+        return None
+    crossed = ("the crossed light" if worse.light else "the light", tuple(seen.both_directions[worse.light].tolist()))
+    name, line = crossed if light_set is None else light_set.name_light(worse.light)
+    return Worse(name, line, tuple(worse.place.tolist()), told.length, worse.before, worse.after)
 
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:
@@ -97,8 +113,11 @@ def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveRepor
     return SolveReport(termination, message, told.solve.iterations, seconds, told.solve.unknowns, move, limited)
 
 
-def choose_notes(formulation: Formulation, told: "native.SmoothPanelReport") -> tuple[str, ...]:
+def choose_notes(formulation: Formulation, told: "native.SmoothPanelReport",
+                 light_set: LightSet | None) -> tuple[str, ...]:
     """Returns the most important sentences."""
     told_of_limit = told.applied and told.limited > 0  # by the first sentence; the headline of the result has it too
     lopsided = () if told.mirrored else remarks.describe_mirror(formulation)
-    return (*told.messages[told_of_limit:], *lopsided)[:MOST_NOTES]
+    lights = () if light_set is None else light_set.describe(told.seen, told.unevenness_before, told.unevenness_after,
+                                                             applied=told.applied)
+    return (*told.messages[told_of_limit:], *lights, *lopsided)[:MOST_NOTES]

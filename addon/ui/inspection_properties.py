@@ -5,6 +5,7 @@ from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, In
 from mathutils import Vector
 
 from ..bridge import units
+from ..model.gain import Worse
 from ..model.inspection import Inspection, Spot
 
 
@@ -17,6 +18,11 @@ class ReflinesSpot(bpy.types.PropertyGroup):
     view: StringProperty(name="View")
     light: IntProperty(name="Light")
     line: FloatVectorProperty(name="Light Direction", subtype='XYZ')
+
+    def keep_worse(self, worse: Worse) -> None:
+        """Keeps the place that a press made worse; what flaw is there is not known."""
+        self.place = self.id_data.matrix_world.inverted() @ Vector(worse.place)
+        self.size, self.degrees, self.height, self.view, self.line = worse.size, worse.after, 0.0, "", worse.line
 
     def find_place(self) -> np.ndarray:
         """Returns the place in world space."""

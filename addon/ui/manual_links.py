@@ -27,6 +27,8 @@ SETTINGS = (
     ("bpy.types.reflinesmarks.*", "#reflines.check"),
     ("bpy.types.reflinesinspection.*", "#reflines.inspect"),
     ("bpy.types.reflinesspot.*", "#reflines.inspect"),
+    ("bpy.types.reflinessetlight.*", "#light-set"),
+    ("bpy.types.reflineslightset.*", "#light-set"),
     ("bpy.types.reflinesscene.*", "#reflines.smooth"),
     ("bpy.types.reflinesstripes.*", "#stripes"),
     ("bpy.types.reflinessetups.*", "#stripes"),

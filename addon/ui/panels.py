@@ -364,6 +364,8 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
                          icon='MOD_MIRROR')
         if ob.type == 'MESH':
             self.draw_mesh_remedies(ob, report)
+        if report.worse:
+            self.layout.operator("reflines.show_worse", icon='VIEWZOOM')
         if report.longer_waves and run.operator:
             self.layout.operator("reflines.resolve", text="Take Longer Waves Too").flaw_size = 2.0
         self.layout.operator("reflines.resolve", icon='FILE_REFRESH')

@@ -12,7 +12,8 @@ from ..model.solution import Solution
 from .automatic_values import shown_property, switch_property
 from .check_properties import ReflinesCheck, ReflinesMarks
 from .handle_properties import ReflinesHandles
-from .inspection_properties import ReflinesInspection
+from .inspection_properties import ReflinesInspection, ReflinesSpot
+from .light_set_properties import ReflinesLightSet
 from .stripe_properties import ReflinesSetups, ReflinesStripes
 from .tool_properties import (ReflinesBake, ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
                               ReflinesUntwist, ReflinesWarp, SmoothSettings)
@@ -80,6 +81,8 @@ class ReflinesReport(bpy.types.PropertyGroup):
     worst_before: FloatProperty(name="Worst Before", description="Degrees that lines were off their course where they "
                                 "were so most, without what counts as design")
     worst_after: FloatProperty(name="Worst After", description="The same after the solve")
+    worse: StringProperty(name="Worse", description="What became worse, in which light; empty where nothing did")
+    worse_spot: PointerProperty(type=ReflinesSpot, description="Where that is")
     longer_waves: BoolProperty(name="Longer Waves", description="Waves longer than the flaws were left, which may be "
                                "flaws, too")
     score_before: FloatProperty(name="Line Deviation Before", description="Mean sideways shift of the reflection lines "
@@ -109,6 +112,10 @@ class ReflinesReport(bpy.types.PropertyGroup):
         if healed is not None:
             self.healed_area, self.worst_before, self.worst_after = (healed.area, healed.worst_before,
                                                                      healed.worst_after)
+        worse = healed.worse if healed is not None else None
+        self.worse = worse.describe() if worse is not None else ""
+        if worse is not None:
+            self.worse_spot.keep_worse(worse)
         for name in ("length", "score_before", "score_after", "turn_before", "turn_after", "residual_before",
                      "residual_after", "remedy", "automatic_length", "automatic_limit", "cage_move"):
             setattr(self, name, getattr(solution, name))
@@ -119,7 +126,8 @@ class ReflinesReport(bpy.types.PropertyGroup):
         if self.largest_move <= FLOAT_EPSILON * max(self.id_data.dimensions):  # no bit of a coordinate
             return "Nothing moved"
         held = f" (the limit held {self.limited} back)" if self.limited else ""
-        return f"{self.gain()}, moved at most {self.moved(2)}{self.moved_cage()}{held}"
+        worse = f"; {self.worse}" if self.worse else ""
+        return f"{self.gain()}, moved at most {self.moved(2)}{self.moved_cage()}{held}{worse}"
 
     def moved_cage(self) -> str:
         """Says how far the cage's vertices moved, where that is more than their surface."""
@@ -308,6 +316,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     stripes: PointerProperty(type=ReflinesStripes)
     marks: PointerProperty(type=ReflinesMarks)
     setups: PointerProperty(type=ReflinesSetups)
+    light_set: PointerProperty(type=ReflinesLightSet)
 
     def missing(self) -> str:
         """Returns what is missing before any tool can run, as a sentence; empty where nothing is."""

@@ -54,6 +54,7 @@ LIGHTS = (
     ('CROSSED', "Crossed", "The light and the same turned by 90 degrees in the camera's picture: what one of them does "
      "not show cannot pay for the other"),
     ('SINGLE', "This Light", "Only the light as it is"),
+    ('SET', "The Set", "In Smooth with the automatic length the set's lights, each with its own view; else crossed"),
 )
 LAST_FRAME = 1048574  # of Blender
 SAVED = {'options': {'SKIP_SAVE'}}

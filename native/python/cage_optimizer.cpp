@@ -8,6 +8,7 @@
 #include "python/bind.h"
 #include "python/cage_arrays.h"
 #include "python/exclusive_use.h"
+#include "python/eyes.h"
 #include "python/line_directions.h"
 #include "python/native_call.h"
 #include "python/option_names.h"
@@ -48,12 +49,13 @@ constexpr double kCageCreaseAngle = 1.5 * kCreaseAngle;
 
 std::function<std::unique_ptr<CageOptimizer>()> prepare_cage_optimizer(
     const Positions& V, const Indices& face_offsets, const Indices& face_vertices, const Vector3& view_direction,
-    const Eigen::MatrixXd& line_direction, const std::optional<Mask>& region, const Codes& border,
-    const std::optional<Mask>& fixed, const std::optional<Indices>& partner, const std::optional<Indices>& image_of,
-    int level, const std::string& scheme, const std::string& boundary, const Indices& creases,
-    const Numbers& crease_sharpness, const Indices& corners, const Numbers& corner_sharpness, bool limit, bool sparse,
-    const std::string& stencil, const std::string& linear_solver, const std::string& crease_rule, double crease_angle,
-    double proximity, std::shared_ptr<Progress> progress) {
+    const Eigen::MatrixXd& line_direction, const EyeDirections& eye_directions, const Blockers& blockers,
+    const std::optional<Mask>& region, const Codes& border, const std::optional<Mask>& fixed,
+    const std::optional<Indices>& partner, const std::optional<Indices>& image_of, int level, const std::string& scheme,
+    const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness, const Indices& corners,
+    const Numbers& corner_sharpness, bool limit, bool sparse, const std::string& stencil,
+    const std::string& linear_solver, const std::string& crease_rule, double crease_angle, double proximity,
+    std::shared_ptr<Progress> progress) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions options = cage_options_of(region, border, V.rows(), fixed, partner);
@@ -64,6 +66,7 @@ std::function<std::unique_ptr<CageOptimizer>()> prepare_cage_optimizer(
   options.shape.linear_solver = find_named(kSolvers, linear_solver, "linear solver");
   options.shape.creases = {find_named(kCreaseRules, crease_rule, "rule of creases"), crease_angle, {}};
   options.shape.proximity = proximity;
+  options.shape.eyes = eyes_of(eye_directions, blockers);
   options.shape.progress = std::move(progress);
   const std::vector<Vector3> lines = read_line_directions(line_direction);
   return [=] {
@@ -85,9 +88,10 @@ void bind_cage_optimizer(py::module_& module) {
     optimizer.def_static("create", create(&prepare_cage_optimizer), arguments...);
   };
   define("V"_a, "face_offsets"_a, "face_vertices"_a, py::kw_only(), "view_direction"_a, "line_direction"_a,
-         "region"_a = py::none(), "border"_a = "clamped", "fixed"_a = py::none(), "partner"_a = py::none(),
-         "image_of"_a = py::none(), "level"_a = defaults.subdivision.level, "scheme"_a = "catmull_clark",
-         "boundary"_a = "all", "creases"_a = Indices(), "crease_sharpness"_a = Numbers(), "corners"_a = Indices(),
+         "eye_directions"_a = py::none(), "blockers"_a = py::none(), "region"_a = py::none(), "border"_a = "clamped",
+         "fixed"_a = py::none(), "partner"_a = py::none(), "image_of"_a = py::none(),
+         "level"_a = defaults.subdivision.level, "scheme"_a = "catmull_clark", "boundary"_a = "all",
+         "creases"_a = Indices(), "crease_sharpness"_a = Numbers(), "corners"_a = Indices(),
          "corner_sharpness"_a = Numbers(), "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse,
          "stencil"_a = "consistent", "linear_solver"_a = "cholmod", "crease_rule"_a = "automatic",
          "crease_angle"_a = kCageCreaseAngle, "proximity"_a = defaults.shape.proximity, "progress"_a = py::none());

@@ -8,6 +8,7 @@
 
 #include "python/array_arguments.h"
 #include "python/bind.h"
+#include "python/eyes.h"
 #include "python/index_arrays.h"
 #include "python/native_call.h"
 #include "reflines/errors.h"
@@ -19,7 +20,7 @@ namespace {
 
 py::object inspect(const Positions& V, const Indices& F, const Positions& views, const Positions& lines,
                    const std::optional<double>& length, double flaw_size, double noise_floor, int most_spots, bool maps,
-                   const std::optional<std::pair<Positions, Indices>>& blockers, std::shared_ptr<Progress> progress) {
+                   const Blockers& blockers, std::shared_ptr<Progress> progress) {
   InspectOptions options;
   if (length && !(*length > 0)) throw InvalidInput("The length must be a positive length, or None for automatic.");
   options.length = length.value_or(0.0);
@@ -27,10 +28,9 @@ py::object inspect(const Positions& V, const Indices& F, const Positions& views,
   options.noise_floor = noise_floor;
   options.most_spots = most_spots;
   options.keep_maps = maps;
-  if (blockers) {
-    options.blocker_vertices = blockers->first;
-    options.blockers = triangles_of(blockers->second);
-  }
+  const Eyes beside = eyes_of({}, blockers);
+  options.blocker_vertices = beside.blocker_vertices;
+  options.blockers = beside.blockers;
   options.progress = std::move(progress);
   const Triangles triangles = triangles_of(F);
   return run_native([=] { return inspect_panel(V, triangles, views, lines, options); });

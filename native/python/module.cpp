@@ -43,6 +43,7 @@ PYBIND11_MODULE(reflines, module) {
   reflines::bind_subdivision(module);
   reflines::bind_target(module);
   reflines::bind_report(module);
+  reflines::bind_light_set(module);
   reflines::bind_smooth_panel(module);
   reflines::bind_check_panel(module);
   reflines::bind_inspect_panel(module);

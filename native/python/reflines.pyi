@@ -113,7 +113,8 @@ class Report:
     residual_rms: float   # rms of |grad theta - target| over the triangles that can change, radians / length
 
 class ShapeOptimizer:
-    """The optimizer of one region seen from one view, expensive to build and cheap to solve again.
+    """The optimizer of one region along one view, for lines seen along it or by eyes of their own. It is expensive to
+    build and cheap to solve again.
 
     Raises InvalidInput for data that cannot be used; never changes the arrays handed in. It computes without the GIL, for one
     thread at a time: a call from another thread meanwhile (of a builder of targets, too) raises InvalidInput at once, except
@@ -132,6 +133,10 @@ class ShapeOptimizer:
     changeable: np.ndarray # #F bool: those of them with a vertex that can move
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float],
                  line_direction: Sequence[float] | np.ndarray,   # 3, or #families x 3
+                 eye_directions: np.ndarray | None = None,       # of each family, from the surface to the eye that sees it; None:
+                                                                 # all along the view. What an eye does not see has no weight
+                 blockers: tuple[np.ndarray, np.ndarray] | None = None,  # V, F of what may hide the region from an eye beside
+                                                                 # itself
                  border: Border | np.ndarray = "clamped",        # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature,
                                                                  # 4 flow, 5 follow
                  fixed: np.ndarray | None = None,                # #V bool: held whatever the border says
@@ -156,6 +161,8 @@ class ShapeOptimizer:
         """Returns the reflection function of every triangle (#F), radians in (-pi, pi]."""
     def field(self, family: int = 0) -> np.ndarray:
         """Returns the gradient of theta in every triangle (#F x 2), in the image plane, radians / length."""
+    def sight(self, family: int = 0) -> np.ndarray:
+        """Returns how well the family's eye saw every triangle at the start (#F, 0 to 1): 1 along the view."""
     def energy(self, target: Target | list[Target]) -> float:
         """Returns the energy that `solve` minimises, at the current heights; for several targets the sum of theirs."""
     def residual(self, target: Target) -> np.ndarray:
@@ -185,6 +192,13 @@ class LineScore:
                   # round the circle it is n / 360 times as many distances of two lines
     turn: float   # mean along the lines, degrees in the image plane: angle between a line and its smooth course
 
+class WorsePlace:
+    """The place where lines got worse by most in one of the lights of a press; see native/include/reflines/smooth_panel.h."""
+    light: int         # of the press; -1: there is none
+    before: float      # degrees that lines are off their course there, in that light
+    after: float
+    place: np.ndarray  # 3, on the surface at the start
+
 class HealedFlaws:
     """Tells what a press healed. The deviation of lines is how far they are from the course that they would have without flaws:
     degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most."""
@@ -193,6 +207,7 @@ class HealedFlaws:
     worst_after: float
     mean_before: float   # likewise, root mean square over the healed area
     mean_after: float
+    worse: WorsePlace
 
 class PressWork:
     """The work of a press, whose time it is: that of its smoother and its solves together."""
@@ -217,12 +232,20 @@ class SmoothPanelReport:
     score_after: list[LineScore]
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
     unevenness_after: list[float]   # length, degrees, root mean square; creases are those of both shapes
+    seen: list[float]          # one for each light: share of the panel's area that its eye sees; 1 along the view
     healed: HealedFlaws
     stray: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,
                                # radians / length; by area its root mean square is the first unevenness over the length
     region: Region             # of the panel as it came
     applied: bool              # False: some light would have become worse, and nothing was moved
     messages: list[str]        # sentences for the user, the most important first
+
+class LightSet:
+    """The lights of one press, each with the eye that sees it: directions #lights x 3, those of eyes from the surface to the eye.
+    Without eyes all are seen along the view. `weight` (#lights, 0 or more) is how much each counts where a limit or a cage keeps
+    a press from the shape without flaws; all are judged alike. `blockers` (V, F) may hide the panel from an eye."""
+    def __init__(self, line_directions: np.ndarray, eye_directions: np.ndarray | None = None, *,
+                 weight: Sequence[float] = ..., blockers: tuple[np.ndarray, np.ndarray] | None = None) -> None: ...
 
 class PanelSmoother:
     """Presses of Smooth on one panel, of which the second costs a tenth of the first: the flaws are found once.
@@ -233,13 +256,13 @@ class PanelSmoother:
                  border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                  around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
                  fair_border: np.ndarray | None = None, lights: Literal["crossed", "single"] = "crossed",
-                 length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> None: ...
+                 light_set: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> None: ...
     @staticmethod
     def create(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
                fair_border: np.ndarray | None = None, lights: Literal["crossed", "single"] = "crossed",
-               length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother:
+               light_set: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother:
         """Builds one as the constructor does; `start` runs it in the background."""
     @staticmethod
     def create_for_cage(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
@@ -249,7 +272,7 @@ class PanelSmoother:
                         image_of: np.ndarray | None = None, level: int = 2, scheme: Scheme = "catmull_clark",
                         boundary: Boundary = "all", creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                         corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit_surface: bool = True,
-                        lights: Literal["crossed", "single"] = "crossed", length: float | None = None,
+                        lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, length: float | None = None,
                         flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother: ...
     def press(self, *, strength: float = 1.0, limit: float | None = None, limit_share: np.ndarray | None = None,
               progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
@@ -264,6 +287,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  face_of_triangle: np.ndarray | None = None,        # #F, as in ShapeOptimizer
                  fair_border: np.ndarray | None = None,             # #V bool: border vertices that move, too, see below
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
+                 light_set: LightSet | None = None,                 # takes the place of these and of line_direction
                  length: float | None = None,                       # size of the flaws; None: the diagonal / 14 times flaw_size
                  flaw_size: float = 1.0,
                  strength: float = 1.0,                             # share of the move that is made, 0 to 1
@@ -292,7 +316,7 @@ def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np
                       boundary: Boundary = "all", creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                       corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,
                       limit_surface: bool = True,          # Subdivision's `limit`
-                      lights: Literal["crossed", "single"] = "crossed", length: float | None = None,
+                      lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, length: float | None = None,
                       flaw_size: float = 1.0, strength: float = 1.0,
                       limit: float | None = None,          # largest move along the view, of the cage and so of its surface
                       limit_share: np.ndarray | None = None,  # #V x 2, of the cage
@@ -420,6 +444,7 @@ class CageOptimizer(ShapeOptimizer):
     refined: np.ndarray         # #region vertices: which of Subdivision's refined vertices each is
     def __init__(self, V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
                  view_direction: Sequence[float], line_direction: Sequence[float] | np.ndarray,
+                 eye_directions: np.ndarray | None = None, blockers: tuple[np.ndarray, np.ndarray] | None = None,
                  region: np.ndarray | None = None,    # #faces bool: those that may change; default all
                  border: Border | np.ndarray = "clamped",  # of the region, on the surface: its limit position and tangents
                                                       # stay; or #V codes 0 free, 1 fixed, 2 clamped, see cage_border.h

@@ -9,6 +9,7 @@
 #include "python/bind.h"
 #include "python/border_codes.h"
 #include "python/exclusive_use.h"
+#include "python/eyes.h"
 #include "python/index_arrays.h"
 #include "python/line_directions.h"
 #include "python/native_call.h"
@@ -40,12 +41,13 @@ std::vector<Target> list_targets(const Targets& targets) {
 using BuildOptimizer = std::function<std::unique_ptr<ShapeOptimizer>()>;
 
 BuildOptimizer prepare_shape_optimizer(const Positions& V, const Indices& F, const Vector3& view_direction,
-                                       const Eigen::MatrixXd& line_direction, const Codes& border,
-                                       const std::optional<Mask>& fixed, const std::optional<Indices>& partner,
-                                       const Around& around, const std::optional<Indices>& face_of_triangle,
-                                       const std::string& stencil, const std::string& linear_solver,
-                                       const std::string& crease_rule, const Indices& marked_creases,
-                                       double crease_angle, double proximity, std::shared_ptr<Progress> progress) {
+                                       const Eigen::MatrixXd& line_direction, const EyeDirections& eye_directions,
+                                       const Blockers& blockers, const Codes& border, const std::optional<Mask>& fixed,
+                                       const std::optional<Indices>& partner, const Around& around,
+                                       const std::optional<Indices>& face_of_triangle, const std::string& stencil,
+                                       const std::string& linear_solver, const std::string& crease_rule,
+                                       const Indices& marked_creases, double crease_angle, double proximity,
+                                       std::shared_ptr<Progress> progress) {
   ShapeOptions options;
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -56,6 +58,7 @@ BuildOptimizer prepare_shape_optimizer(const Positions& V, const Indices& F, con
   options.linear_solver = find_named(kSolvers, linear_solver, "linear solver");
   options.creases = {find_named(kCreaseRules, crease_rule, "rule of creases"), crease_angle, edges_of(marked_creases)};
   options.proximity = proximity;
+  options.eyes = eyes_of(eye_directions, blockers);
   options.progress = std::move(progress);
   const std::vector<Vector3> lines = read_line_directions(line_direction);
   const Triangles triangles = triangles_of(F);
@@ -132,8 +135,9 @@ void bind_optimizer(py::module_& module) {
     optimizer.def_static("create", create(&prepare_shape_optimizer), arguments...);
   };
   define(py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
-         py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
-         py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(), py::arg("stencil") = "consistent",
+         py::arg("eye_directions") = py::none(), py::arg("blockers") = py::none(), py::arg("border") = "clamped",
+         py::arg("fixed") = py::none(), py::arg("partner") = py::none(), py::arg("around") = py::none(),
+         py::arg("face_of_triangle") = py::none(), py::arg("stencil") = "consistent",
          py::arg("linear_solver") = "cholmod", py::arg("crease_rule") = "automatic",
          py::arg("marked_creases") = Indices(), py::arg("crease_angle") = shape.creases.angle,
          py::arg("proximity") = shape.proximity, py::arg("progress") = py::none());
@@ -150,6 +154,7 @@ void bind_optimizer(py::module_& module) {
       .def_property_readonly("area", py::cpp_function(&ShapeOptimizer::area, Release()))
       .def("theta", &theta, py::arg("family") = 0)
       .def("field", &field, py::arg("family") = 0)
+      .def("sight", bind_method(&Shape::sight), py::arg("family") = 0)
       .def("energy", &energy, py::arg("target"))
       .def("residual", bind_method(&Shape::residual), py::arg("target"))
       .def("score", &score, py::arg("length"), py::arg("family") = 0)

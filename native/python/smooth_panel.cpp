@@ -40,10 +40,11 @@ PressAmount amount_of(double strength, const std::optional<double>& limit, const
   return amount;
 }
 
-SmoothPanelOptions options_of(const std::string& lights, const std::optional<double>& length, double flaw_size,
-                              bool symmetric) {
+SmoothPanelOptions options_of(const std::string& lights, const std::optional<LightSet>& set,
+                              const std::optional<double>& length, double flaw_size, bool symmetric) {
   SmoothPanelOptions options;
   options.lights = find_named(kLights, lights, "choice of lights");
+  if (set) options.set = *set;
   options.length = given(length, "The length");
   options.flaw_size = flaw_size;
   options.symmetric = symmetric;
@@ -56,9 +57,9 @@ BuildSmoother prepare_smoother(const Positions& V, const Indices& F, const Vecto
                                const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
                                const std::optional<Indices>& partner, const Around& around,
                                const std::optional<Indices>& face_of_triangle, const std::optional<Mask>& fair_border,
-                               const std::string& lights, const std::optional<double>& length, double flaw_size,
-                               bool symmetric) {
-  SmoothPanelOptions options = options_of(lights, length, flaw_size, symmetric);
+                               const std::string& lights, const std::optional<LightSet>& set,
+                               const std::optional<double>& length, double flaw_size, bool symmetric) {
+  SmoothPanelOptions options = options_of(lights, set, length, flaw_size, symmetric);
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   if (partner) options.partner = index_vector(*partner);
@@ -78,13 +79,14 @@ BuildSmoother prepare_cage_smoother(const Positions& V, const Indices& face_offs
                                     const std::string& boundary, const Indices& creases,
                                     const Numbers& crease_sharpness, const Indices& corners,
                                     const Numbers& corner_sharpness, bool limit_surface, const std::string& lights,
-                                    const std::optional<double>& length, double flaw_size, bool symmetric) {
+                                    const std::optional<LightSet>& set, const std::optional<double>& length,
+                                    double flaw_size, bool symmetric) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions cage_options = cage_options_of(region, border, V.rows(), fixed, partner);
   if (image_of) cage_options.image_of = index_vector(*image_of);
   cage_options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
-  return [=, options = options_of(lights, length, flaw_size, symmetric)] {
+  return [=, options = options_of(lights, set, length, flaw_size, symmetric)] {
     return std::make_unique<PanelSmoother>(cage, V, view_direction, line_direction, cage_options, options);
   };
 }
@@ -114,12 +116,18 @@ auto press_once(BuildSmoother (*prepare)(Arguments...)) {
 
 void bind_press_report(py::module_& module) {
   using Told = SmoothPanelReport;
+  py::class_<WorsePlace>(module, "WorsePlace", py::module_local())
+      .def_readonly("light", &WorsePlace::light)
+      .def_readonly("before", &WorsePlace::before)
+      .def_readonly("after", &WorsePlace::after)
+      .def_readonly("place", &WorsePlace::place);
   py::class_<HealedFlaws>(module, "HealedFlaws", py::module_local())
       .def_readonly("area", &HealedFlaws::area)
       .def_readonly("worst_before", &HealedFlaws::worst_before)
       .def_readonly("worst_after", &HealedFlaws::worst_after)
       .def_readonly("mean_before", &HealedFlaws::mean_before)
-      .def_readonly("mean_after", &HealedFlaws::mean_after);
+      .def_readonly("mean_after", &HealedFlaws::mean_after)
+      .def_readonly("worse", &HealedFlaws::worse);
   py::class_<PressWork>(module, "PressWork", py::module_local())
       .def_readonly("factorizations", &PressWork::factorizations)
       .def_readonly("solves", &PressWork::solves);
@@ -139,6 +147,7 @@ void bind_press_report(py::module_& module) {
       .def_readonly("score_after", &Told::score_after)
       .def_readonly("unevenness_before", &Told::unevenness_before)
       .def_readonly("unevenness_after", &Told::unevenness_after)
+      .def_readonly("seen", &Told::seen)
       .def_readonly("healed", &Told::healed)
       .def_readonly("stray", &Told::stray)
       .def_readonly("region", &Told::region)
@@ -165,8 +174,9 @@ void bind_smooth_panel(py::module_& module) {
     define(py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
            py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
            py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
-           py::arg("fair_border") = py::none(), py::arg("lights") = "crossed", py::arg("length") = py::none(),
-           py::arg("flaw_size") = defaults.flaw_size, py::arg("symmetric") = defaults.symmetric);
+           py::arg("fair_border") = py::none(), py::arg("lights") = "crossed", py::arg("light_set") = py::none(),
+           py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
+           py::arg("symmetric") = defaults.symmetric);
   };
   const SubdivisionOptions subdivision;
   const auto define_cage = [&](const auto& define) {
@@ -176,8 +186,8 @@ void bind_smooth_panel(py::module_& module) {
            py::arg("level") = subdivision.level, py::arg("scheme") = "catmull_clark", py::arg("boundary") = "all",
            py::arg("creases") = Indices(), py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
            py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
-           py::arg("lights") = "crossed", py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
-           py::arg("symmetric") = defaults.symmetric);
+           py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("length") = py::none(),
+           py::arg("flaw_size") = defaults.flaw_size, py::arg("symmetric") = defaults.symmetric);
   };
   define_mesh([&](const auto&... own) {
     smoother.def(py::init(construct(&prepare_smoother)), own...);

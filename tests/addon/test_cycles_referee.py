@@ -32,7 +32,8 @@ SITUATIONS = [
 TOLERANCE = 1e-4
 
 
-Seen = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]   # theta, normals, v, a
+# theta, normals, v, a, and the camera's axes and place
+Seen = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def height(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -140,7 +141,7 @@ def set_the_scene(v: np.ndarray) -> bpy.types.Object:
 
 @pytest.fixture(scope="module", params=SITUATIONS, ids=["lamps along y", "lamps along x", "lamps aslant"])
 def seen(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Seen:
-    """theta as Cycles sees it, the analytic normals at the same points, v and a."""
+    """theta as Cycles sees it, the analytic normals at the same points, v, a and the camera's matrix."""
     v, a = map(unit, request.param)
     camera = set_the_scene(v)
     light_by_angle(v, a)
@@ -148,23 +149,58 @@ def seen(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     assert picture[..., 3].min() > 0.999, "the camera must see the mirror in every pixel"
     cosine, sine = 2.0 * picture[..., 0] - 1.0, 2.0 * picture[..., 1] - 1.0
     assert np.abs(np.hypot(cosine, sine) - 1.0).max() < 1e-5, "the mirror must show the lights and nothing else"
-    return np.arctan2(sine, cosine), normals(*surface_points(camera)), v, a
+    return np.arctan2(sine, cosine), normals(*surface_points(camera)), v, a, np.array(camera.matrix_world)
 
 
 def test_mirror_shows_equation_1(seen: Seen) -> None:
-    theta, n, v, a = seen
+    theta, n, v, a, _ = seen
     assert difference(theta, equation_1(n, v, a)).max() < TOLERANCE
     assert np.ptp(theta) > 0.5, "the surface must turn the lines enough for the comparison to mean something"
 
 
 def test_mirror_shows_the_solvers_theta(seen: Seen) -> None:
-    theta, n, v, a = seen
+    theta, n, v, a, _ = seen
     solver = native.reflines.theta(n.reshape(-1, 3), v, a).reshape(theta.shape)
     assert difference(theta, solver).max() < TOLERANCE
 
 
+def sample(picture: np.ndarray, frame: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """theta of a picture at points (#P x 3), between its pixels' centres, and which of them it shows."""
+    place = ((points - frame[:3, 3]) @ frame[:3, :2] / PICTURE_WIDTH + 0.5) * PIXELS - 0.5
+    shown = ((place > 0.0) & (place < PIXELS - 1.0)).all(axis=1)
+    low = np.clip(place.astype(int), 0, PIXELS - 2)
+    right, up = (place - low).T
+    wave = sum(np.exp(1j * picture[low[:, 1] + j, low[:, 0] + i]) * abs(1 - i - right) * abs(1 - j - up)
+               for i in (0, 1) for j in (0, 1))
+    return np.angle(wave), shown
+
+
+def find_theta(V: np.ndarray, F: np.ndarray, **light: object) -> np.ndarray:
+    """The solver's theta of each quad that two triangles make, from above: the mean, whose error is of second order."""
+    theta = native.reflines.ShapeOptimizer(V, F, view_direction=(0.0, 0.0, 1.0), **light).theta()
+    return np.angle(np.exp(1j * theta).reshape(2, -1).sum(axis=0))
+
+
+def test_a_camera_sees_the_theta_of_a_family_with_its_eye(seen: Seen) -> None:
+    """The solve's view is another: it looks from above. Between pixels theta is off by the square of its change from
+    one to the next, and a facet's by the square of its size."""
+    theta, _, v, a, frame = seen
+    cells = CELLS // 2
+    x, y = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-1.0, 1.0, cells + 1)] * 2))
+    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+    halves = [np.stack([corner, corner + one, corner + other], axis=1)
+              for one, other in ((1, cells + 2), (cells + 2, cells + 1))]
+    V, F = np.stack([x, y, height(x, y)], axis=1), np.concatenate(halves)
+    middle = 0.5 * (V[corner] + V[corner + cells + 2])
+    told, shown = sample(theta, frame, middle)
+    assert shown.sum() > 5000
+    own = find_theta(V, F, line_direction=a, eye_directions=v)
+    assert difference(own, told)[shown].max() < 5e-4
+    assert np.median(difference(find_theta(V, F, line_direction=a), told)[shown]) > 0.01
+
+
 def test_the_mirror_tells_wrong_definitions_apart(seen: Seen) -> None:
-    theta, n, v, a = seen
+    theta, n, v, a, _ = seen
     mirrored = n * (-1.0, -1.0, 1.0)   # the normal of -f, as the paper prints it
     wrong = [-equation_1(n, v, a), 0.5 * equation_1(n, v, a), equation_1(mirrored, v, a),
              equation_1(n, v, unit(tuple(np.cross(v, a))))]

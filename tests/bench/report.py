@@ -49,7 +49,7 @@ REACH = {
     "restoration_dents_crossed": (0.5, True),
     "restoration_ripple_given": (0.4, True), "restoration_ripple_crossed": (0.5, True),
     "restoration_noise_given": (0.4, True), "restoration_noise_crossed": (0.5, True), "restoration_move": (0.05, True),
-    "restoration_cage_move": (3.0, True), "two_lights_over_one": (1.6, True),
+    "restoration_cage_move": (3.0, True), "two_lights_over_one": (1.6, True), "families_over_one_8": (2.75, True),
     "handle_step_ms_10k": (16.0, True), "handle_step_ms_100k": (60.0, True),
     "brush_dab_ms_100k": (33.0, True), "handle_first_ms_10k": (100.0, True), "handle_first_ms_100k": (500.0, True),
     "press_over_solve_10k": (5.0, True), "press_over_solve_100k": (5.0, True),

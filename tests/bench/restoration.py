@@ -138,6 +138,23 @@ def again_rows(name: str, cells: int) -> list[Row]:
     return rows
 
 
+def set_row() -> Row:
+    """Returns how many times as long a press for eight lights, two from each of four eyes, takes as one for one."""
+    V, F = make_noisy_panel(CELLS)
+    eyes, lines = reflines.walk_around((0, 0, 1), (0, 1, 0))
+    many = reflines.LightSet(np.tile(lines[[0, 4]], (4, 1)), np.repeat(eyes[:4], 2, axis=0))
+    times: dict[int, list[float]] = {8: [], 1: []}
+    for _ in range(REPETITIONS):
+        for count, taken in times.items():
+            start = time.perf_counter()
+            reflines.smooth_panel(V, F, view_direction=(0, 0, 1), line_direction=(0, 1, 0), lights="single",
+                                  light_set=many if count == 8 else None)
+            taken.append(1000 * (time.perf_counter() - start))
+    all_of_them, one = (statistics.median(times[count]) for count in (8, 1))
+    return Row("families_over_one_8", all_of_them / one, "",
+               f"a press at 10k from four eyes: {all_of_them:.0f} ms / {one:.0f} ms, medians of {REPETITIONS}")
+
+
 def lights_row() -> Row:
     """Returns how many times as long a press for two lights takes as one for one, by turns."""
     V, F = make_noisy_panel(CELLS)
@@ -153,7 +170,7 @@ def lights_row() -> Row:
 
 
 def rows() -> list[Row]:
-    return [*([*panel_rows(), cage_row()] if JUDGE.is_file() else []), lights_row(),
+    return [*([*panel_rows(), cage_row()] if JUDGE.is_file() else []), lights_row(), set_row(),
             press_row("10k", CELLS), press_row("100k", LARGE),
             *again_rows("100k", LARGE), work_row()]
 

@@ -78,6 +78,28 @@ def test_sweep_light_in_edit_mode(driver: window.Window) -> Steps:
     assert abs(settings().light_turn - 0.5) < 1e-4 and abs(settings().light_tilt - radians(28.0)) < 1e-4
 
 
+def test_sweep_view_walks_around_the_panel(driver: window.Window) -> Steps:
+    ob = edited_panel(driver, "Walked")
+    stripes, light = settings().stripes, np.array(settings().light.matrix_world)
+    for key in ('ESC', 'RET'):
+        view, start = driver.region_3d(), driver.region_3d().view_rotation.copy()
+        driver.move(300, 300)
+        yield 0.1
+        with driver.override():
+            bpy.ops.reflines.sweep_view('INVOKE_DEFAULT')
+        before = yield from captured(driver)
+        driver.move(400, 300)
+        turned = yield from captured(driver)
+        assert (np.abs(before - turned) > 0.1).sum() > 5000 and stripes.eye == 'VIEWPORT'
+        driver.key(key)
+        yield 0.3
+        turn = view.view_rotation.rotation_difference(start).angle
+        wanted = radians(0.0 if key == 'ESC' else 30.0)  # 0.3 degrees a pixel
+        assert abs(turn - wanted) < 1e-3 and (stripes.eye == 'CAMERA') == (key == 'ESC')
+    stripes.eye = 'CAMERA'
+    assert ob.mode == 'EDIT' and np.array_equal(np.array(settings().light.matrix_world), light)
+
+
 def test_turn_and_tilt_can_be_typed_while_the_light_is_swept(driver: window.Window) -> Steps:
     """With units and expressions, as in the drag of a tool; the tilt's limit of 85 degrees is applied."""
     edited_panel(driver, "Typed")
@@ -122,5 +144,5 @@ def test_another_light_picked_meanwhile_ends_the_sweep_and_stays(driver: window.
 
 
 window.run(test_the_sidebar_turns_the_light_in_edit_mode, test_sweep_light_in_edit_mode,
-           test_turn_and_tilt_can_be_typed_while_the_light_is_swept,
+           test_sweep_view_walks_around_the_panel, test_turn_and_tilt_can_be_typed_while_the_light_is_swept,
            test_another_light_picked_meanwhile_ends_the_sweep_and_stays)

@@ -73,5 +73,23 @@ def test_panels_with_a_perspective_camera_and_notes(driver: window.Window) -> St
     yield from all_panels_draw(driver)
 
 
+def test_panels_with_a_set_of_lights(driver: window.Window) -> Steps:
+    """A light of the set has lost its camera: its panel says so."""
+    settings = bpy.context.scene.reflection_lines
+    settings.lights = 'SET'
+    yield from all_panels_draw(driver)
+    with driver.override():
+        assert bpy.ops.reflines.walk_around('EXEC_DEFAULT', True) == {'FINISHED'}
+        assert bpy.ops.reflines.add_set_light('EXEC_DEFAULT', True) == {'FINISHED'}
+    settings.light_set.find_active().camera = None
+    assert settings.light_set.find_active().find_problem()
+    yield from all_panels_draw(driver)
+    with driver.override():
+        bpy.ops.wm.call_panel(name="VIEW3D_PT_reflines_light_set", keep_open=True)
+    yield 0.3
+    yield from window.take_picture(driver, "light_set")
+    driver.key('ESC')
+
+
 window.run(test_panels_before_anything_is_there, test_panels_with_view_light_and_result,
-           test_panels_with_a_perspective_camera_and_notes)
+           test_panels_with_a_perspective_camera_and_notes, test_panels_with_a_set_of_lights)

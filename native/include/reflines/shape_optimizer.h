@@ -1,5 +1,5 @@
-// The optimizer of a mesh region's heights for wanted reflection lines, seen from one view and lit by one or more
-// families of parallel light lines. It is expensive to build and cheap to solve again.
+// The optimizer of a mesh region's heights along a view for wanted reflection lines of one or more families of parallel
+// light lines, each seen along the view or by an eye of its own. It is expensive to build and cheap to solve again.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,6 +10,7 @@
 
 #include "reflines/border.h"
 #include "reflines/crease_options.h"
+#include "reflines/eyes.h"
 #include "reflines/image_plane.h"
 #include "reflines/line_score.h"
 #include "reflines/linear_solver_kind.h"
@@ -29,8 +30,8 @@
 namespace reflines {
 
 struct Boundary;
+struct Families;
 struct HeightField;
-class ReflectionFunction;
 class RegionPieces;
 enum class SurfaceKind;
 
@@ -42,6 +43,9 @@ struct ShapeOptions {
   // both. That preserves the symmetry of a mesh where the view direction lies in the mirror plane.
   IndexVector partner;
   Surroundings around;  // or none; read for border vertices with Border::kCurvature or kFlow
+  // One for each family, or none. Triangles that an eye does not see have no weight in its family; what no target's
+  // family sees keeps its lines along the view, weakly.
+  Eyes eyes;
   StencilKind stencil = StencilKind::kConsistent;
   LinearSolverKind linear_solver = LinearSolverKind::kCholmod;
   CreaseOptions creases;  // which edges are held, and no stencil reaches across
@@ -61,9 +65,9 @@ struct ShapeOptions {
 
 class ShapeOptimizer {
  public:
-  // V (#V x 3) and F (#F x 3) are the region's vertices and triangles; `line_directions` has one or more families of
-  // light lines, all seen from the same view, the first of which sets the frame. Throws InvalidInput; keeps no
-  // reference to its arguments.
+  // V (#V x 3) and F (#F x 3) are the region's vertices and triangles, `view_direction` the one along which it is a
+  // height field; `line_directions` has one or more families of light lines, the first of which sets the frame. Throws
+  // InvalidInput; keeps no reference to its arguments.
   ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
                  const std::vector<Vector3>& line_directions, const ShapeOptions& options = {});
   ~ShapeOptimizer();
@@ -92,6 +96,9 @@ class ShapeOptimizer {
   Mask changeable() const;               // #F: those of them with a vertex that can move
   Vector theta(int family) const;        // #F, radians
   PlaneVectors field(int family) const;  // #F x 2, grad theta
+
+  // Returns how well the family's eye saw each triangle at the start (#F, 0 to 1): 1 along the view.
+  Vector sight(int family) const;
 
   // Returns the input of the builders in targets/ at the current heights; valid until a solve, a reset, or a move that
   // is scaled.
@@ -166,7 +173,7 @@ class ShapeOptimizer {
   void enter(double fraction, const char* stage) const;
   void forget_lines();
   void continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
-                       const std::vector<ReflectionFunction>& families);
+                       const Families& families);
   std::vector<Target> with_border(const std::vector<Target>& targets) const;
   void check(const Target& target) const;
   void check_family(int family) const;
@@ -184,6 +191,7 @@ class ShapeOptimizer {
   double feature_length_ = 0.0;  // see RegionField::feature
   std::shared_ptr<Progress> progress_;
   std::vector<int> free_unknowns_;
+  std::vector<Vector> sight_;   // #F of each family, or none; see Families
   std::vector<Target> border_;  // continue the surroundings' curvature; see continue_curvature
   IndexVector face_of_triangle_;
   bool sampled_ = false;                                      // some triangles have the quadrature weight 0

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reflines/cage_optimizer.h"
+#include "reflines/light_set.h"
 #include "reflines/move_limit.h"
 #include "reflines/progress.h"
 #include "reflines/report.h"
@@ -47,6 +48,7 @@ struct SmoothPanelOptions {
   // are no faces beside it that can be used it is held all the same, and the report says so. Not for cages.
   Mask fair_border;
   Lights lights = Lights::kCrossed;
+  LightSet set;            // or none; where it exists it takes the place of the light lines given and of `lights`
   double length = 0.0;     // size of the flaws, in units of V; 0: kAutomaticLength times the diagonal and flaw_size
   double flaw_size = 1.0;  // see length; above 0
   double strength = 1.0;   // share of the move that is made, 0 to 1
@@ -58,12 +60,24 @@ struct SmoothPanelOptions {
   std::shared_ptr<Progress> progress;  // or none
 };
 
+// The place where lines got worse by most in one of the lights: by at least kWorsened, and off their course by kWorst
+// or more.
+struct WorsePlace {
+  int light = -1;                    // or -1: there is none
+  double before = 0.0, after = 0.0;  // degrees that lines deviate there in that light, see HealedFlaws
+  Vector3 place = Vector3::Zero();   // on the surface at the start
+};
+
+// Degrees by which lines get worse, and are then off their course, before a press tells of it.
+inline constexpr double kWorsened = 0.1, kWorst = 0.3;
+
 // Tells what a press healed. The deviation of lines is how far they are from the course that they would have without
 // flaws: degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most.
 struct HealedFlaws {
   double area = 0.0;  // share of the region's area where lines deviated visibly and most of that went
   double worst_before = 0.0, worst_after = 0.0;  // deviation of the worst place of the region
   double mean_before = 0.0, mean_after = 0.0;    // likewise, root mean square over the healed area
+  WorsePlace worse;
 };
 
 // Counts the work of a press, whose time these are: that of its smoother and of its solves together.
@@ -90,10 +104,11 @@ struct SmoothPanelReport {
   bool longer_waves = false;          // that may be flaws, too, were left; see Restoration::find_longer_waves
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
-  HealedFlaws healed;  // of a press that was not applied nothing: the worst place after it is that before
-  Vector stray;        // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
-                       // result, radians / length
-  Region region;       // of the shape at the start
+  std::vector<double> seen;  // likewise: share of the region's area that its eye sees; 1 along the view
+  HealedFlaws healed;        // of a press that was not applied nothing: the worst place after it is that before
+  Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
+                  // result, radians / length
+  Region region;  // of the shape at the start
   bool applied = true;  // false: some light would have become worse, and nothing was moved
   // Sentences for the user, the most important first: why nothing was moved, or else what the limit holds back.
   std::vector<std::string> messages;
@@ -113,7 +128,7 @@ struct SmoothPanelResult {
 // Each of these is a weight that varies with the surface, so that a small change of the input has a small effect. A
 // result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far lines
 // are from those of the same surface smoothed up to the lengths found for the start, degrees of theta, root mean square
-// over the region. Where it rises in a light by more than 1 %, nothing is applied.
+// over what the light's eye sees of the region. Where it rises in a light by more than 1 %, nothing is applied.
 // Throws InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options = {});

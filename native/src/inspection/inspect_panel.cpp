@@ -10,12 +10,11 @@
 #include "geometry/bounding_box.h"
 #include "geometry/height_field.h"
 #include "geometry/mesh.h"
+#include "geometry/sight.h"
 #include "inspection/flawless_surface.h"
 #include "inspection/line_deviation.h"
 #include "inspection/peaks.h"
-#include "inspection/view_visibility.h"
 #include "reflines/errors.h"
-#include "restoration/smoothstep.h"
 #include "restoration/used_vertices.h"
 #include "threads/abandonable_work.h"
 
@@ -24,11 +23,6 @@ namespace {
 
 // Radius of the mean, relative to the length: a flaw counts as one place, and the facets of a mesh are none.
 constexpr double kRadius = 0.35;
-
-// The cosine of the angle between normal and view from which on a triangle is seen, and seen well.
-constexpr double kGrazing = 0.2, kFacing = 0.35;
-
-constexpr double kClearance = 1e-6;  // relative to the diagonal: what is no further in front of a place hides nothing
 
 constexpr double kLooking = 0.5;  // of the work, for the bar of its progress
 
@@ -99,29 +93,15 @@ HeightField make_field(const Scene& scene, const ImagePlane& frame) {
   return make_height_field(scene.panel_vertices(), scene.panel(), frame, boundary);
 }
 
-// Returns how well a view sees each triangle of the field (#T): 0 where it is hidden, grazing or turned away.
-Vector weigh_view(const Scene& scene, const std::vector<int>& source, const Vector3& view, double clearance) {
-  const ViewVisibility visibility(scene.V, scene.F, view);
-  const int count = static_cast<int>(source.size());
-  Vector weight(count);
-#pragma omp parallel for schedule(dynamic, 256)
-  for (int t = 0; t < count; ++t) {
-    weight(t) = smoothstep(kGrazing, kFacing, visibility.facing(source[t]));
-    if (weight(t) > 0 && visibility.is_hidden(source[t], clearance)) weight(t) = 0;
-  }
-  return weight;
-}
-
 LineDeviation look_around(const Scene& scene, const HeightField& field, const ImagePlane& frame,
                           const PlaneVectors& course, double length, const Positions& views, const Positions& lines,
                           const InspectOptions& options) {
   DeviationSum sum(field, frame, course, kRadius * length, options.keep_maps);
-  const double clearance = kClearance * bounding_box_diagonal(scene.V);
   for (Eigen::Index k = 0; k < views.rows(); ++k) {
     const double done = static_cast<double>(k) / static_cast<double>(views.rows());
     if (options.progress) options.progress->enter(kLooking + (1 - kLooking) * done, "looking from each view");
     const Vector3 view = views.row(k).transpose().stableNormalized();
-    sum.add_view(view, lines, weigh_view(scene, field.source, view, clearance));
+    sum.add_view(view, lines, weigh_sight(scene.V, scene.F, field.source, view));
   }
   return sum.result();
 }

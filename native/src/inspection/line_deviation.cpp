@@ -5,10 +5,10 @@
 #include <numbers>
 #include <utility>
 
+#include "base/smoothstep.h"
 #include "reflection/reflection_function.h"
 #include "reflection/scalar_gradient.h"
 #include "restoration/centroids.h"
-#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/smoothstep.h"
 #include "restoration/bump_removal.h"
 #include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
-#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {

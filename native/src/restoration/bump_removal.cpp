@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "base/smoothstep.h"
 #include "restoration/centroids.h"
-#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "base/parallel_failure.h"
+#include "base/smoothstep.h"
 #include "reflection/weighted_median.h"
 #include "restoration/grid_cell.h"
-#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {

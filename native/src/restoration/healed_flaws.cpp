@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/smoothstep.h"
 #include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/line_evenness.h"
-#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {
@@ -25,11 +25,28 @@ double mean_of(const Vector& degrees, const Vector& weight) {
   return std::sqrt(weight.dot(degrees.cwiseAbs2()) / std::max(weight.sum(), 1e-300));
 }
 
-// Returns the squared deviations of heights z (#V) in each light: #F x lights, degrees^2.
+// Returns the squared deviations of heights z (#V) in each light, where its eye sees them: #F x lights, degrees^2.
 Eigen::MatrixXd measure_squares(ControlledSurface& surface, const Vector& z, const Vector& course) {
   Eigen::MatrixXd result(surface.triangles().rows(), surface.optimizer().family_count());
   for (int k = 0; k < result.cols(); ++k)
-    result.col(k) = (kDegrees * measure_offsets(surface, z, course, k)).cwiseAbs2();
+    result.col(k) =
+        surface.optimizer().sight(k).cwiseProduct((kDegrees * measure_offsets(surface, z, course, k)).cwiseAbs2());
+  return result;
+}
+
+// Finds the place that got worse by most; `before` and `after` (#F x lights) are degrees.
+WorsePlace find_worse(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, const ControlledSurface& surface) {
+  WorsePlace result;
+  double most = kWorsened;
+  for (Eigen::Index k = 0; k < before.cols(); ++k) {
+    for (Eigen::Index t = 0; t < before.rows(); ++t) {
+      if (after(t, k) < kWorst || after(t, k) - before(t, k) < most) continue;
+      most = after(t, k) - before(t, k);
+      const auto corners = surface.triangles().row(t);
+      result = {static_cast<int>(k), before(t, k), after(t, k),
+                surface.positions()(corners, Eigen::all).colwise().mean().transpose()};
+    }
+  }
   return result;
 }
 
@@ -40,8 +57,8 @@ HealedFlaws sum_up(const Vector& before, const Vector& after, const Vector& area
     const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
     weight(t) = area(t) * smoothstep(kLeast, kWhole, before(t)) * smoothstep(kPart, kMost, gone);
   }
-  return {weight.sum() / area.sum(), before.maxCoeff(), after.maxCoeff(), mean_of(before, weight),
-          mean_of(after, weight)};
+  return {weight.sum() / area.sum(), before.maxCoeff(),      after.maxCoeff(),
+          mean_of(before, weight),   mean_of(after, weight), {}};
 }
 
 }  // namespace
@@ -54,9 +71,11 @@ HealedFlaws measure_healed(ControlledSurface& surface, const Vector& before, con
   Eigen::MatrixXd squares(area.size(), 2 * lights);
   squares << measure_squares(surface, before, course), measure_squares(surface, after, course);
   const DiskMean around(find_centroids(optimizer.xy(), surface.triangles()), area, kRadius * length);
-  const Eigen::MatrixXd mean = around.of_columns(squares);
-  return sum_up(mean.leftCols(lights).rowwise().maxCoeff().cwiseSqrt(),
-                mean.rightCols(lights).rowwise().maxCoeff().cwiseSqrt(), area);
+  const Eigen::MatrixXd degrees = around.of_columns(squares).cwiseSqrt();
+  const auto at_start = degrees.leftCols(lights), at_end = degrees.rightCols(lights);
+  HealedFlaws result = sum_up(at_start.rowwise().maxCoeff(), at_end.rowwise().maxCoeff(), area);
+  result.worse = find_worse(at_start, at_end, surface);
+  return result;
 }
 
 }  // namespace reflines

@@ -51,14 +51,17 @@ Vector measure_offsets(ControlledSurface& surface, const Vector& z, const Vector
 Unevenness measure_unevenness(ControlledSurface& surface, const Vector& z, const Vector& smoothed, double length) {
   ShapeOptimizer& optimizer = surface.optimizer();
   const Vector known = Vector::Ones(z.size()), area = optimizer.area();
+  const double whole = area.sum();
   Unevenness result;
   for (int k = 0; k < optimizer.family_count(); ++k) {
     const ShapeOptimizer::Lines lines = optimizer.evaluate_lines(z, known, k);
     const ShapeOptimizer::Lines course = optimizer.evaluate_lines(smoothed, known, k);
-    const Vector off = compare(lines, course, surface);
-    result.degrees.push_back(kDegrees * std::sqrt(area.dot(off.cwiseAbs2()) / area.sum()));
-    LineScore score = compare_lines(lines.target.gradient, course.target.gradient, area, length).score();
-    score.shift = kDegrees * area.dot(off) / area.sum();
+    const Vector off = compare(lines, course, surface), seen = area.cwiseProduct(optimizer.sight(k));
+    const double sum = std::max(seen.sum(), 1e-300);
+    result.seen.push_back(seen.sum() / whole);
+    result.degrees.push_back(kDegrees * std::sqrt(seen.dot(off.cwiseAbs2()) / sum));
+    LineScore score = compare_lines(lines.target.gradient, course.target.gradient, seen, length).score();
+    score.shift = kDegrees * seen.dot(off) / sum;
     result.score.push_back(score);
     if (k == 0) result.stray = surface.gather_faces(off / length);
   }

@@ -11,13 +11,14 @@ namespace reflines {
 
 // Tells how far lines are from those of the smoothed surface.
 struct Unevenness {
-  std::vector<double> degrees;   // of theta, root mean square over the area, one for each light
+  std::vector<double> degrees;   // of theta, root mean square over the area seen, one for each light
   std::vector<LineScore> score;  // likewise
+  std::vector<double> seen;      // share of the area that the light's eye sees, likewise
   Vector stray;                  // #F or of a cage #faces: see SmoothPanelReport::stray
 };
 
 // Returns how far the lines of heights z (#V) are from those of the heights `course` (#V) in the light with index
-// `family`: #F, radians of theta, root mean square over each triangle.
+// `family`: #F, radians of theta, root mean square over each triangle, wherever its eye sees it.
 Vector measure_offsets(ControlledSurface& surface, const Vector& z, const Vector& course, int family);
 
 // Compares the lines of heights z (#V) with those of their smoothed selves (#V); `length` is the size of flaws.

@@ -12,11 +12,12 @@ TriangleFields read_fields(ShapeOptimizer& optimizer, const Vector& z) {
   return result;
 }
 
-std::vector<Target> make_targets(const TriangleFields& fields) {
+std::vector<Target> make_targets(const TriangleFields& fields, const std::vector<double>& weight) {
   std::vector<Target> result(fields.cols() / 2);
   for (size_t k = 0; k < result.size(); ++k) {
     result[k].gradient = fields.middleCols(2 * static_cast<Eigen::Index>(k), 2);
     result[k].family = static_cast<int>(k);
+    if (!weight.empty()) result[k].weight = Vector::Constant(fields.rows(), weight[k]);
   }
   return result;
 }

@@ -12,7 +12,7 @@ namespace reflines {
 // Returns the fields (#F x 2 #families, radians / length) of the optimizer's surface with heights z (#V).
 TriangleFields read_fields(ShapeOptimizer& optimizer, const Vector& z);
 
-// Returns the targets of a solve for these fields, one for each family of lights.
-std::vector<Target> make_targets(const TriangleFields& fields);
+// Returns the targets of a solve for these fields, one for each family of lights; `weight` is that of each, or empty.
+std::vector<Target> make_targets(const TriangleFields& fields, const std::vector<double>& weight);
 
 }  // namespace reflines

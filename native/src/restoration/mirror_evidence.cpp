@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "base/parallel_failure.h"
+#include "base/smoothstep.h"
 #include "geometry/cage_symmetry.h"
 #include "restoration/designed_difference.h"
 #include "restoration/disk_mean.h"
-#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {

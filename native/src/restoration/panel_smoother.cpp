@@ -23,14 +23,17 @@
 namespace reflines {
 namespace {
 
-std::vector<Vector3> make_families(const Vector3& view, const Vector3& lines, Lights lights) {
-  if (lights == Lights::kSingle) return {lines};
+std::vector<Vector3> make_families(const Vector3& view, const Vector3& lines, const SmoothPanelOptions& options) {
+  if (options.set.exist()) return options.set.line_directions;
+  if (options.lights == Lights::kSingle) return {lines};
   return {lines, view.cross(lines)};
 }
 
 // Sets the options that all presses share. Noise makes creases, and held ones would keep it; smoother and weights keep
 // what bends.
-void set_restoration_rules(const PressAmount& amount, double proximity, ShapeOptions& shape) {
+void set_restoration_rules(const SmoothPanelOptions& options, const PressAmount& amount, double proximity,
+                           ShapeOptions& shape) {
+  if (options.set.exist()) shape.eyes = options.set.eyes;
   shape.creases.rule = CreaseRule::kNone;
   shape.proximity = proximity;
   shape.progress = amount.progress;
@@ -64,13 +67,13 @@ class MeshPress : public Press {
             const SmoothPanelOptions& options, const PressAmount& amount)
       : V_(std::move(V)), used_(find_used_vertices(F, static_cast<int>(V_.rows()))) {
     ShapeOptions shape = choose_shape(used_, options, V_.rows());
-    set_restoration_rules(amount, kMeshProximity, shape);
+    set_restoration_rules(options, amount, kMeshProximity, shape);
     partner_ = shape.partner;
     SmoothPanelOptions own = options;
     own.partner = partner_;
     if (own.fair_border.size() > 0) own.fair_border = options.fair_border(used_.index);
     const Positions used = V_(used_.index, Eigen::all);
-    const std::vector<Vector3> families = make_families(view, lines, options.lights);
+    const std::vector<Vector3> families = make_families(view, lines, options);
     const auto prepare = own.fair_border.any()   ? prepare_faired_border
                          : follows(shape.border) ? prepare_followed_border
                                                  : prepare_held_border;
@@ -101,8 +104,8 @@ class CagePress : public Press {
   CagePress(const Cage& cage, const Positions& V, const Vector3& view, const Vector3& lines, CageOptions cage_options,
             const SmoothPanelOptions& options, const PressAmount& amount)
       : partner_(cage_options.partner) {
-    set_restoration_rules(amount, kCageProximity, cage_options.shape);
-    surface_ = std::make_unique<CageControlledSurface>(cage, V, view, make_families(view, lines, options.lights),
+    set_restoration_rules(options, amount, kCageProximity, cage_options.shape);
+    surface_ = std::make_unique<CageControlledSurface>(cage, V, view, make_families(view, lines, options),
                                                        std::move(cage_options));
     press_ = std::make_unique<Restoration>(*surface_, options);
   }

@@ -1,5 +1,6 @@
 #include "restoration/press_checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -29,6 +30,20 @@ void require(bool holds, const char* otherwise) {
   if (!holds) throw InvalidInput(otherwise);
 }
 
+void check_set(const LightSet& set) {
+  const size_t lights = set.line_directions.size();
+  if (!set.weight.empty() && set.weight.size() != lights) {
+    throw InvalidInput("The set of lights has " + std::to_string(set.weight.size()) + " weights for " +
+                       std::to_string(lights) + " lights; give one for each, or none.");
+  }
+  const bool fit = std::all_of(set.weight.begin(), set.weight.end(),
+                               [](double weight) { return weight >= 0 && std::isfinite(weight); });
+  require(fit, "A weight of the set of lights is negative or not a finite number; give 0 or more.");
+  const bool none = !set.weight.empty() &&
+                    std::all_of(set.weight.begin(), set.weight.end(), [](double weight) { return weight == 0; });
+  require(!none, "All lights of the set have weight 0; give one of them more.");
+}
+
 }  // namespace
 
 void check_amount(const PressAmount& amount, Eigen::Index vertex_count) {
@@ -47,6 +62,7 @@ void check_press_options(const SmoothPanelOptions& options, Eigen::Index vertex_
   }
   check_mask(options.held, "held", vertex_count);
   check_mask(options.fair_border, "fair border", vertex_count);
+  check_set(options.set);
 }
 
 }  // namespace reflines

@@ -4,12 +4,12 @@
 #include <string>
 #include <utility>
 
+#include "base/smoothstep.h"
 #include "geometry/bounding_box.h"
 #include "reflines/errors.h"
 #include "restoration/healed_flaws.h"
 #include "restoration/line_fields.h"
 #include "restoration/press_messages.h"
-#include "restoration/smoothstep.h"
 #include "restoration/turned_faces.h"
 
 namespace reflines {
@@ -155,7 +155,7 @@ Vector Restoration::make_move() {
 void Restoration::find_unlimited() {
   ShapeOptimizer& optimizer = surface_.optimizer();
   optimizer.reset();
-  targets_ = make_targets(read_fields(optimizer, shape_));
+  targets_ = make_targets(read_fields(optimizer, shape_), options_.set.weight);
   optimizer.stay_near(shape_);
   if (surface_.controls_every_vertex()) optimizer.set_move(shape_ - start_);
   solve(MoveLimit::none());
@@ -230,6 +230,7 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   report_.score_after = after.score;
   report_.unevenness_before = before.degrees;
   report_.unevenness_after = after.degrees;
+  report_.seen = before.seen;
   report_.stray = before.stray;
   // The course of the lines is that of the shape without flaws, smoothed: what counts as design is in it, and what a
   // limit or the strength leaves of a flaw is not.

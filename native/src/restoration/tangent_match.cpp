@@ -9,10 +9,10 @@
 #include <queue>
 #include <vector>
 
+#include "base/smoothstep.h"
 #include "geometry/height_fit.h"
 #include "geometry/mesh.h"
 #include "geometry/nearest_surface.h"
-#include "restoration/smoothstep.h"
 
 namespace reflines {
 namespace {

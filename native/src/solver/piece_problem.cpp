@@ -45,19 +45,19 @@ double default_proximity(double proximity, bool free_border, SurfaceKind kind) {
 
 }  // namespace
 
-PieceProblem::PieceProblem(Piece piece, AffineMap map, SurfaceKind kind, StencilKind stencil,
-                           std::vector<ReflectionFunction> families, double proximity, LinearSolverKind solver,
-                           const Vector& quadrature_weight)
+PieceProblem::PieceProblem(Piece piece, AffineMap map, SurfaceKind kind, StencilKind stencil, const Families& families,
+                           double proximity, LinearSolverKind solver, const Vector& quadrature_weight)
     : piece_(std::move(piece)),
       stencils_(make_stencils(piece_.field, stencil)),
       quadrature_(make_quadrature(piece_.field, quadrature_weight)),
       sampled_stencils_(select_stencils(stencils_, quadrature_.triangle)),
-      families_(std::move(families)),
+      families_(families.lines),
       free_border_(has_free_border(piece_.field)),
       map_(std::move(map)),
       kind_(kind),
       energy_(piece_.field, quadrature_.is_sampled() ? sampled_stencils_ : stencils_,
               default_proximity(proximity, free_border_, kind)),
+      has_eyes_(!families.sight.empty()),
       terms_(piece_.field, quadrature_, families_, visible_, energy_.stencils().triangle_count()),
       minimizer_(solver),
       solver_(solver),
@@ -66,15 +66,17 @@ PieceProblem::PieceProblem(Piece piece, AffineMap map, SurfaceKind kind, Stencil
       lines_(families_.size()),
       x_(map_.start()),
       z_(piece_.field.z) {
-  find_hidden();
+  find_hidden(families.sight);
 }
 
-void PieceProblem::find_hidden() {
+void PieceProblem::find_hidden(const std::vector<Vector>& sight) {
   TriangleDerivatives u;
   apply_stencils(stencils_, z_, u);
   for (const ReflectionFunction& family : families_) visible_.push_back(visibility_weights(family, u));
   hidden_ = Mask::Constant(stencils_.triangle_count(), false);
   for (size_t k = 0; k + 1 < families_.size(); ++k) hidden_ = hidden_ || visible_[k].array() < 1;
+  for (size_t k = 0; k < sight.size(); ++k)
+    visible_[k] = visible_[k].cwiseProduct(sight[k](piece_.field.source)).eval();
   const Mask held = held_at_border(piece_.field);
   for (Vector& weight : visible_) weight = held.select(0.0, weight.array());
 }
@@ -183,11 +185,20 @@ Mask PieceProblem::changeable() const {
 void PieceProblem::set_targets(const std::vector<Target>& targets) {
   std::vector<EnergyTerm> terms = terms_.build(targets);
   const int crossing = static_cast<int>(families_.size()) - 1;
-  if (free_border_ && !pulled_) {
-    terms.push_back(terms_.build_crossing(evaluate_lines(piece_.field.z, crossing).gradient));
-  }
+  const bool open = free_border_ && !pulled_;
+  const Vector share = open ? Vector::Ones(stencils_.triangle_count()) : find_unseen(targets);
+  if (open || share.maxCoeff() > 0)
+    terms.push_back(terms_.build_crossing(evaluate_lines(piece_.field.z, crossing).gradient, share));
   energy_.set_terms(std::move(terms));
   evaluated_ = false;
+}
+
+// Returns how far each triangle (#T) is unseen by the eyes of all targets, 0 to 1: their lines leave it open.
+Vector PieceProblem::find_unseen(const std::vector<Target>& targets) const {
+  Vector seen = Vector::Zero(stencils_.triangle_count());
+  if (!has_eyes_) return seen;
+  for (const Target& target : targets) seen = seen.cwiseMax(visible_[target.family]);
+  return (visible_.back().array() > 0).select(1.0 - seen.array(), 0.0);  // of held triangles nothing is open
 }
 
 double PieceProblem::energy() {

@@ -16,6 +16,7 @@
 #include "reflines/move_limit.h"
 #include "reflines/region_field.h"
 #include "reflines/target.h"
+#include "solver/families.h"
 #include "solver/piece_smoother.h"
 #include "solver/quadrature.h"
 #include "solver/surface_kind.h"
@@ -28,9 +29,8 @@ class PieceProblem : public Problem {
   // Computes the stencils and the visibility of the lines at the start. The map of a mesh is a selection. A negative
   // proximity selects the default: 10 with a free border, else 0, or 1e-6 for a cage. `quadrature_weight`: see
   // ShapeOptions.
-  PieceProblem(Piece piece, AffineMap map, SurfaceKind kind, StencilKind stencil,
-               std::vector<ReflectionFunction> families, double proximity, LinearSolverKind solver,
-               const Vector& quadrature_weight = {});
+  PieceProblem(Piece piece, AffineMap map, SurfaceKind kind, StencilKind stencil, const Families& families,
+               double proximity, LinearSolverKind solver, const Vector& quadrature_weight = {});
 
   void watch(Progress* progress) { smoother_.watch(progress); }  // null or the watcher of work other than solves
 
@@ -96,10 +96,11 @@ class PieceProblem : public Problem {
   std::unique_ptr<CoarseProblem> coarse(const Vector& x, const Vector& gradient) override;
 
  private:
+  Vector find_unseen(const std::vector<Target>& targets) const;
   Bounds bounds() const;         // of a mesh's unknowns
   RowLimits row_limits() const;  // of a cage's surface
   double touching_distance(int v) const;
-  void find_hidden();
+  void find_hidden(const std::vector<Vector>& sight);
   HessianAssembly& assembly();
   PlanePositions image_places();
   Vector2 slope_at(int t, int v, const TriangleDerivatives& u) const;
@@ -114,7 +115,9 @@ class PieceProblem : public Problem {
   AffineMap map_;
   SurfaceKind kind_;
   Energy energy_;
-  std::vector<Vector> visible_;  // #T for each family: visibility at the start, and 0 where held_at_border
+  // #T for each family: visibility at the start from the view or its own eye, and 0 where held_at_border.
+  std::vector<Vector> visible_;
+  bool has_eyes_;  // of families
   TargetTerms terms_;
   std::unique_ptr<HessianAssembly> assembly_;  // built on first use
   std::unique_ptr<GalerkinProduct> product_;   // likewise; only where unknowns are not heights of vertices

@@ -78,6 +78,16 @@ void add_piece_messages(Region& region) {
   }
 }
 
+void add_eye_message(const std::vector<Vector>& sight, Region& region) {
+  std::string blind;
+  for (size_t k = 0; k < sight.size(); ++k) {
+    if (sight[k].isZero(0)) blind += (blind.empty() ? "" : ", ") + std::to_string(k);
+  }
+  if (blind.empty()) return;
+  region.messages.push_back(
+      "Turned away from these eyes or hidden from them, the region has no weight there: " + blind + ".");
+}
+
 void set_feature_count(int count, Region& region) {
   if (count == region.features) return;
   std::erase(region.messages, format_features(region.features));

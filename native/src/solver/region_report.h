@@ -16,6 +16,9 @@ Region describe_region(const HeightField& field, const IndexVector& face_of_tria
 // Adds the messages on unused pieces and hidden faces, once those are counted.
 void add_piece_messages(Region& region);
 
+// Adds a sentence about the eyes that see nothing of the region; `sight` (#F) is that of each, see Families.
+void add_eye_message(const std::vector<Vector>& sight, Region& region);
+
 // Returns a sentence why no vertex of a region of so many faces is free. `doubled`: vertices that lie on others.
 std::string explain_no_free_vertex(const Region& region, int faces, int doubled);
 

@@ -13,6 +13,7 @@
 #include "solver/border_curvature.h"
 #include "solver/coupling.h"
 #include "solver/face_count.h"
+#include "solver/families.h"
 #include "solver/limited_move.h"
 #include "solver/mirror_coupling.h"
 #include "solver/reachable_target.h"
@@ -24,12 +25,6 @@
 
 namespace reflines {
 namespace {
-
-const Vector3& take_first(const std::vector<Vector3>& line_directions) {
-  if (line_directions.empty())
-    throw InvalidInput("There is no family of light lines; give at least one line direction.");
-  return line_directions.front();
-}
 
 SurfaceKind find_kind(const ShapeOptions& options) {
   return options.B.rows() > 0 ? SurfaceKind::kSubdivided : SurfaceKind::kMesh;
@@ -57,7 +52,7 @@ Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
 
 ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const std::vector<Vector3>& line_directions, const ShapeOptions& options)
-    : pieces_(std::make_unique<RegionPieces>(V, F, ImagePlane(view_direction, take_first(line_directions)))),
+    : pieces_(std::make_unique<RegionPieces>(V, F, choose_frame(view_direction, line_directions, options.eyes))),
       partner_(options.partner),
       kind_(find_kind(options)),
       family_count_(static_cast<int>(line_directions.size())),
@@ -78,9 +73,8 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   sampled_ = options.quadrature_weight.size() > 0;
   hold_partners(partner_, field);
   if (kind_ == SurfaceKind::kSubdivided) free_unknowns_ = couple_vertices(options.B, options.start, field);
-  std::vector<ReflectionFunction> families;
-  for (const Vector3& a : line_directions) families.emplace_back(frame(), frame().z(), a);
-  families.emplace_back(frame(), frame().z(), frame().x());  // across the first family: see PieceProblem
+  const Families families = make_families(V, F, frame(), line_directions, options.eyes);
+  sight_ = families.sight;
   region_ = describe_region(field, face_of_triangle_, boundary.hold_creases);
   feature_length_ = kFeatureLength * field.diagonal();
   for (Piece& piece : split_pieces(field, partner_)) {
@@ -100,10 +94,11 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   region_.hidden = count_faces(pieces_->hidden());
   count_features(feature_length_, 0);
   add_piece_messages(region_);
+  add_eye_message(sight_, region_);
 }
 
 void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
-                                     const std::vector<ReflectionFunction>& families) {
+                                     const Families& families) {
   if (std::none_of(boundary.border.begin(), boundary.border.end(), continues_lines)) return;
   BorderCurvature curvature;
   if (around.exist()) {
@@ -114,7 +109,7 @@ void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& b
       start.push_back({gradient, pieces_->strong_size(gradient)});
     }
     curvature = continue_curvature(pieces_->start(), field, boundary.border, around, frame(), boundary.creases, start,
-                                   families);
+                                   families.lines);
   }
   border_ = std::move(curvature.targets);
   if (border_.empty() && curvature.strong == 0) {
@@ -404,6 +399,11 @@ Vector ShapeOptimizer::theta(int family) const {
 PlaneVectors ShapeOptimizer::field(int family) const {
   check_family(family);
   return pieces_->field(family);
+}
+
+Vector ShapeOptimizer::sight(int family) const {
+  check_family(family);
+  return sight_.empty() ? Vector::Ones(triangle_count()) : sight_[family];
 }
 
 const RegionField& ShapeOptimizer::region_field(int family) {

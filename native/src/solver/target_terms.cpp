@@ -14,7 +14,8 @@ namespace {
 // The weight of the term that crosses the lines. A free border leaves the profile along the lines undetermined (theta ~
 // f_x: any g(y) is free; null space 9 on a free 8 x 8 grid). A second family across the first, whose target is its
 // start, leaves only affine functions, which the proximity term determines. Of the two, the second family is
-// independent of position and bends nothing, so it may be the stronger one.
+// independent of position and bends nothing, so it may be the stronger one. Where no eye of the targets sees a
+// triangle, it alone determines the shape there.
 constexpr double kCrossingWeight = 1e-3;
 
 // The weight of the gradient beside a value fit. Eq. 3 depends on slopes only, and a misfit of theta costs no more than
@@ -79,13 +80,13 @@ EnergyTerm TargetTerms::build_companion(const Target& target) const {
   return result;
 }
 
-EnergyTerm TargetTerms::build_crossing(const PlaneVectors& start) const {
+EnergyTerm TargetTerms::build_crossing(const PlaneVectors& start, const Vector& share) const {
   const int last = static_cast<int>(families_.size()) - 1;
   EnergyTerm term{families_[last], PlaneVectors(row_count_, 2), {}, Vector(row_count_)};
   for (int k = 0; k < row_count_; ++k) {
     const int t = quadrature_.triangle_of(k);
     term.gradient.row(k) = start.row(t);
-    term.weight(k) = kCrossingWeight * quadrature_.weight_of(k) * field_.area(t) * trust_[last](t);
+    term.weight(k) = kCrossingWeight * quadrature_.weight_of(k) * field_.area(t) * trust_[last](t) * share(t);
   }
   return term;
 }

@@ -13,7 +13,8 @@ namespace {
 
 double bowl(double x, double y) { return 0.3 * x * x - 0.2 * x * y + 0.25 * y * y + 0.1 * std::sin(3 * x + 2 * y); }
 
-// A small irregular surface with random wanted gradients in two families and a value fit: every kind of term at once.
+// A small irregular surface with random wanted gradients in two families, the second of which has an eye of its own,
+// and a value fit: every kind of term at once.
 class EnergyTest : public ::testing::Test {
  protected:
   EnergyTest()
@@ -22,9 +23,10 @@ class EnergyTest : public ::testing::Test {
         energy_(field_, stencils_, 1e-2) {
     const ImagePlane frame(Vector3::UnitZ(), Vector3::UnitY());
     std::vector<EnergyTerm> terms;
-    for (const Vector3& a : {Vector3(0, 1, 0.3), Vector3(1, 0.2, 0)}) {
+    const Vector3 lines[] = {{0, 1, 0.3}, {1, 0.2, 0}}, eyes[] = {frame.z(), {-0.4, 0.5, 1}};
+    for (int k = 0; k < 2; ++k) {
       const PlaneVectors wanted = PlaneVectors::Random(field_.triangle_count(), 2);
-      terms.push_back({ReflectionFunction(frame, frame.z(), a), wanted, {}, field_.area});
+      terms.push_back({ReflectionFunction(frame, eyes[k], lines[k]), wanted, {}, field_.area});
     }
     terms.push_back({terms[0].reflection, {}, Vector::Random(field_.triangle_count()), 5 * field_.area});
     energy_.set_terms(terms);

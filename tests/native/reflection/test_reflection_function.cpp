@@ -63,6 +63,19 @@ TEST_F(Reflection, AnotherFamilyInTheSameFrameIsEquationOneToo) {
   }
 }
 
+TEST_F(Reflection, AFamilyWithItsOwnEyeIsEquationOneToo) {
+  for (int k = 0; k < 500; ++k) {
+    const Vector3 v = direction(), a = direction(), eye = direction(), b = direction();
+    if (v.cross(a).norm() < 0.05 || eye.cross(b).norm() < 0.05) continue;
+    const ImagePlane frame(v, a);
+    const double p = slope(), q = slope();
+    const Vector3 n = -p * frame.x() - q * frame.y() + frame.z();
+    const ReflectionFunction reflection(frame, eye, b);
+    if (reflection.visibility(p, q) < 1e-2) continue;
+    EXPECT_LT(turn(reflection.theta(p, q) - equation_one(n, eye, b)), 1e-12);
+  }
+}
+
 TEST_F(Reflection, VisibilityIsTheSineBetweenTheReflectedRayAndTheLines) {
   for (int k = 0; k < 2000; ++k) {
     const Vector3 v = direction(), a = direction();

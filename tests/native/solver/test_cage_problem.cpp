@@ -57,8 +57,13 @@ PieceProblem problem_of(const Crown& crown, Border hold, int level, double proxi
   Piece piece = std::move(split_pieces(field).front());
   AffineMap map = make_affine_map(B, start, free_unknowns, piece);
   const ReflectionFunction lines(frame, frame.z(), frame.y()), crossing(frame, frame.z(), frame.x());
-  return {std::move(piece),  std::move(map), SurfaceKind::kSubdivided,  StencilKind::kConsistent,
-          {lines, crossing}, proximity,      LinearSolverKind::kCholmod};
+  return {std::move(piece),
+          std::move(map),
+          SurfaceKind::kSubdivided,
+          StencilKind::kConsistent,
+          Families{{lines, crossing}, {}},
+          proximity,
+          LinearSolverKind::kCholmod};
 }
 
 void ask_for_denser_lines(PieceProblem& problem) {

@@ -31,8 +31,13 @@ PieceProblem problem_of(const HeightField& field, const IndexVector& partner) {
   const ReflectionFunction lines(frame, frame.z(), frame.y()), crossing(frame, frame.z(), frame.x());
   Piece piece = std::move(split_pieces(field, partner).front());
   AffineMap map = make_affine_map({}, {}, {}, piece);
-  return {std::move(piece),  std::move(map), SurfaceKind::kMesh,        StencilKind::kConsistent,
-          {lines, crossing}, -1.0,           LinearSolverKind::kCholmod};
+  return {std::move(piece),
+          std::move(map),
+          SurfaceKind::kMesh,
+          StencilKind::kConsistent,
+          Families{{lines, crossing}, {}},
+          -1.0,
+          LinearSolverKind::kCholmod};
 }
 
 void ask_for_denser_lines(PieceProblem& problem) {

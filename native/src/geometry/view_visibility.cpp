@@ -1,4 +1,4 @@
-#include "inspection/view_visibility.h"
+#include "geometry/view_visibility.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,0 +1,210 @@
+"""The set of lights: what fills it, the press of Smooth with it, and what of it cannot be used."""
+from collections.abc import Callable
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from reflection_lines import native
+from reflection_lines.bridge import facing
+from reflection_lines.bridge.read_light_set import read_light_set
+from reflection_lines.interactive.solve_job import SolveJob, SolveRequest
+from reflection_lines.model.light_set import Blockers
+from reflection_lines.native_call import run_now
+from reflection_lines.solver import automatic_smooth
+from reflection_lines.solver.automatic_smooth import AutomaticSmooth
+from reflection_lines.state import solve_history
+
+import scenes
+
+CELLS = 40
+
+
+def dented(x: float, y: float) -> float:
+    return scenes.crown(x, y) - 0.003 * float(np.exp(-((x - 0.1)**2 + (y + 0.2)**2) / 0.1**2))
+
+
+def make_panel() -> bpy.types.Object:
+    ob = scenes.panel(height=dented, cells=CELLS)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, CELLS)
+    return ob
+
+
+def settings() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines
+
+
+def press(**given: object) -> None:
+    assert bpy.ops.reflines.smooth('EXEC_DEFAULT', True, lights='SET', **given) == {'FINISHED'}
+
+
+def walk() -> bpy.types.bpy_prop_collection:
+    assert bpy.ops.reflines.walk_around('EXEC_DEFAULT', True) == {'FINISHED'}
+    return settings().light_set.entries
+
+
+def add_light() -> bpy.types.PropertyGroup:
+    assert bpy.ops.reflines.add_set_light('EXEC_DEFAULT', True) == {'FINISHED'}
+    return settings().light_set.find_active()
+
+
+def expected(light_set: object) -> np.ndarray:
+    """What the native press makes of the region that the last press took."""
+    patch = solve_history.find_last_solve(bpy.context.object.name).patch
+    axes = [np.array(ob.matrix_world)[:3, 2] for ob in (settings().camera, settings().light)]
+    view, line = (axis / np.linalg.norm(axis) for axis in axes)
+    positions, told = native.reflines.smooth_panel(patch.V, patch.F, view_direction=view, line_direction=line,
+                                                   light_set=light_set)
+    assert told.applied
+    return positions
+
+
+def test_the_walk_around_has_five_views_and_two_lights() -> None:
+    ob = make_panel()
+    entries = walk()
+    assert len(entries) == 10 and entries[0].name == "The view, light" and entries[3].name == "Its left, crossed"
+    assert len({tuple(entry.eye) for entry in entries}) == 5
+    walk()
+    assert len(entries) == 10
+    press()
+    found = read_light_set(settings(), [ob])
+    assert len(found.lights) == 10 and len(found.blockers[0].F) == 2 * CELLS**2
+    eyes, lines = (np.array([getattr(light, name) for light in found.lights]) for name in ("eye", "line"))
+    patch = solve_history.find_last_solve(ob.name).patch
+    assert np.array_equal(solve_history.find_last_solve(ob.name).positions,
+                          expected(native.reflines.LightSet(lines, eyes)))
+    assert np.abs(solve_history.find_last_solve(ob.name).positions - patch.V).max() > 0.001
+
+
+def test_a_light_of_its_own_stays_beside_a_walk_around_and_follows_its_objects() -> None:
+    ob = make_panel()
+    add_light()
+    walk()
+    assert len(settings().light_set.entries) == 11
+    settings().light.rotation_euler.z += 0.3
+    bpy.context.view_layer.update()
+    own = read_light_set(settings(), [ob]).lights[0]
+    assert np.allclose(own.line, np.array(settings().light.matrix_world)[:3, 2])
+    settings().camera.data.type = 'PERSP'
+    assert read_light_set(settings(), [ob]).lights[0].is_place
+
+
+@pytest.mark.parametrize(("kind", "blocked"), [('MIRROR', True), ('SUBSURF', False)])
+def test_a_mirrored_half_and_a_cage_are_pressed_for_the_set(kind: str, blocked: bool) -> None:
+    """The faces of a cage lie beside its surface, and so hide nothing."""
+    ob = make_panel()
+    walk()
+    ob.modifiers.new("Modifier", kind)
+    press()
+    assert ob.reflection_lines.report.largest_move > 0.001 and not ob.reflection_lines.report.notes
+    assert len(read_light_set(settings(), [ob]).blockers) == blocked
+
+
+def test_the_background_press_takes_the_set() -> None:
+    """A long press runs beside Blender, with what the operator chose before."""
+    ob = make_panel()
+    walk()
+    press()
+    found = solve_history.find_last_solve(ob.name)
+    asked = AutomaticSmooth("crossed", 1.0, True, light_set=read_light_set(settings(), [ob]))
+    job = SolveJob([found.patch], [facing.read_patch_view(bpy.context.scene, found.patch)], "clamped")
+    outcome = run_now(job.run(SolveRequest((), (), final=True, press=asked)))
+    assert np.array_equal(outcome.solutions[0].positions, found.positions)
+
+
+def test_faces_beside_the_region_hide_it_from_a_view() -> None:
+    """A roof over the panel, of the same mesh, leaves nothing to see from above."""
+    ob = make_panel()
+    walk()
+    press()
+    found = solve_history.find_last_solve(ob.name).patch
+    roof = np.array([(-20.0, -20.0, 1.0), (20.0, -20.0, 1.0), (0.0, 30.0, 1.0)])
+    asked = read_light_set(settings(), [ob])
+    above = replace(asked, blockers=(Blockers(ob.name, roof, np.array([[0, 1, 2]]), np.flatnonzero(~found.faces)[:1]),))
+    with pytest.raises(native.InvalidInput, match="No eye direction sees the region"):
+        run_now(automatic_smooth.press_panel(run_now(automatic_smooth.build_press(
+            found, facing.read_patch_view(bpy.context.scene, found), "clamped",
+            AutomaticSmooth("crossed", 1.0, True, light_set=above))), AutomaticSmooth("crossed", 1.0, True)))
+
+
+def test_two_lights_of_one_camera_have_two_names() -> None:
+    make_panel()
+    assert [add_light().name for _ in range(3)] == [settings().camera.name + end for end in ("", " 2", " 3")]
+
+
+def test_an_empty_set_is_pressed_in_crossed_lights_and_says_so() -> None:
+    ob = make_panel()
+    press()
+    assert "crossed lights were taken" in ob.reflection_lines.report.notes
+    assert np.array_equal(solve_history.find_last_solve(ob.name).positions, expected(None))
+
+
+def remove_camera(entry: bpy.types.PropertyGroup) -> None:
+    camera = bpy.data.objects.new("Other Camera", bpy.data.cameras.new("Other Camera"))
+    bpy.context.scene.collection.objects.link(camera)
+    entry.camera = camera
+    bpy.data.objects.remove(camera)
+
+
+def turn_away(entry: bpy.types.PropertyGroup) -> None:
+    entry.keeps_directions, entry.eye, entry.line = True, (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(("spoil", "sentence"), [(remove_camera, "its camera is gone"),
+                                                 (turn_away, "Not seen from Spoilt")])
+def test_a_light_that_cannot_be_used_is_named_and_the_rest_works(
+        spoil: Callable[[bpy.types.PropertyGroup], None], sentence: str) -> None:
+    ob = make_panel()
+    add_light()
+    entry = add_light()
+    entry.name = "Spoilt"
+    spoil(entry)
+    press()
+    assert sentence in ob.reflection_lines.report.notes and ob.reflection_lines.report.largest_move > 0.001
+    entry.muted = True
+    assert bpy.ops.reflines.smooth('EXEC_DEFAULT', True, lights='SET') == {'FINISHED'}
+    assert sentence not in ob.reflection_lines.report.notes
+
+
+def test_a_light_that_is_parallel_to_its_view_is_refused_by_name() -> None:
+    ob = make_panel()
+    entry = add_light()
+    entry.name, entry.keeps_directions, entry.eye, entry.line = "Along", True, (0, 0, 1), (0, 0, 2)
+    before = scenes.fingerprint(ob)
+    with pytest.raises(RuntimeError, match="The light Along of the set is parallel to its view"):
+        bpy.ops.reflines.smooth('EXEC_DEFAULT', True, lights='SET')
+    assert scenes.fingerprint(ob) == before
+
+
+def test_the_place_that_became_worse_is_told_and_shown() -> None:
+    ob = scenes.panel(height=lambda x, y: scenes.crown(x, y) + 3.0 * (dented(x, y) - scenes.crown(x, y)), cells=60)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, 60)
+    add_light()
+    settings().light_set.find_active().name = "Its light"
+    press(limit=0.0008)
+    report = ob.reflection_lines.report
+    assert "; one place worse in Its light: " in report.headline()
+    before = settings().light.matrix_world.copy()
+    settings().light.rotation_euler.z += 1.0
+    assert bpy.ops.reflines.show_worse('EXEC_DEFAULT', True) == {'FINISHED'}
+    bpy.context.view_layer.update()
+    assert np.allclose(np.array(settings().light.matrix_world)[:3, 2], np.array(before)[:3, 2], atol=1e-5)
+    place = np.array(report.worse_spot.find_place())
+    assert 0.02 < np.linalg.norm(place[:2] - (0.1, -0.2)) < 0.4
+    ob.update_from_editmode()
+    assert 0 < sum(face.select for face in ob.data.polygons) < 200
+    press(strength=0.0)
+    assert not report.worse and not bpy.ops.reflines.show_worse.poll()
+
+
+def test_the_choice_is_that_of_the_sidebar_and_the_set_is_emptied() -> None:
+    make_panel()
+    walk()
+    settings().lights = 'SET'
+    assert bpy.ops.reflines.smooth('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2) == {'FINISHED'}  # as with crossed lights
+    for _ in range(10):
+        assert bpy.ops.reflines.remove_set_light('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert not bpy.ops.reflines.remove_set_light.poll()

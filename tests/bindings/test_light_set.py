@@ -1,0 +1,123 @@
+"""Presses with a set of lights, each with the eye that sees it: none becomes worse, and bad sets get a sentence."""
+import numpy as np
+import pytest
+import reflines
+import sample_cages
+from dented_dome import LIGHT, VIEW, clean, dented, grid
+from test_eyes import theta_of
+
+Array = np.ndarray
+EYES, LINES = reflines.walk_around(VIEW, LIGHT, (0, 1, 0))
+CELLS = 40
+PAIRS = [(eye, line) for eye in EYES for line in LINES[[0, 4]]]
+
+
+def walk(**options: object) -> reflines.LightSet:
+    eyes, lines = (np.array(each) for each in zip(*PAIRS, strict=True))
+    return reflines.LightSet(lines, eyes, **options)
+
+
+def press(V: Array, F: Array, light_set: reflines.LightSet | None = None,
+          **options: object) -> tuple[Array, reflines.SmoothPanelReport]:
+    return reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LIGHT, light_set=light_set, **options)
+
+
+def measure(V: Array, F: Array, eye: Array, line: Array) -> float:
+    """Degrees of theta from the lines of the clean dome, root mean square over the triangles."""
+    a, b, c = V[F].transpose(1, 0, 2)
+    x, y = V[:, :2].T
+    wanted = np.stack([x, y, clean(x, y)], 1)[F].transpose(1, 0, 2)
+    values = [theta_of(np.cross(two - one, three - one), eye, line) for one, two, three in ((a, b, c), wanted)]
+    return float(np.degrees(np.sqrt(np.mean(np.angle(np.exp(1j * (values[0] - values[1]))) ** 2))))
+
+
+@pytest.mark.parametrize("limit", [None, 0.001])
+def test_no_light_from_no_side_is_worse_after_a_press_with_the_walk_around(limit: float | None):
+    V, F = grid(dented(count=3), CELLS)
+    positions, report = press(V, F, walk(), limit=limit)
+    assert report.applied and len(report.seen) == len(PAIRS)
+    assert all(after < before for before, after in
+               zip(report.unevenness_before, report.unevenness_after, strict=True))
+    for eye in EYES:
+        for line in LINES:
+            assert measure(positions, F, eye, line) < 0.8 * measure(V, F, eye, line)
+
+
+def test_the_set_serves_each_light_nearly_as_well_as_a_press_for_it_alone():
+    """That holds with a limit, too, where the lights compete; and the press moves no further."""
+    V, F = grid(dented(count=3), CELLS)
+    positions, report = press(V, F, walk(), limit=0.001)
+    assert report.limited
+    for eye, line in PAIRS:
+        alone, own = press(V, F, reflines.LightSet([line], [eye]), limit=0.001)
+        assert measure(positions, F, eye, line) < 1.35 * measure(alone, F, eye, line)
+        assert report.largest_move <= 1.1 * own.largest_move
+
+
+def test_a_cage_is_pressed_for_the_set():
+    cage = sample_cages.dented(sample_cages.hood(), sample_cages.VIEW, sample_cages.LINE)
+    eyes, lines = reflines.walk_around(sample_cages.VIEW, sample_cages.LINE)
+    light_set = reflines.LightSet(np.tile(lines[[0, 4]], (5, 1)), np.repeat(eyes, 2, axis=0))
+    _, report = reflines.smooth_cage_panel(*cage, view_direction=sample_cages.VIEW, line_direction=sample_cages.LINE,
+                                           light_set=light_set)
+    assert report.applied and len(report.unevenness_after) == 10
+    assert max(np.divide(report.unevenness_after, report.unevenness_before)) < 0.9
+
+
+def test_a_heavier_light_ends_more_even_where_a_limit_holds_the_press_back():
+    V, F = grid(dented(), CELLS)
+    straight = [reflines.LightSet(LINES[[0, 4]], weight=weight) for weight in ([1.0, 0.0], [0.0, 1.0])]
+    off = [[measure(press(V, F, light_set, limit=4e-4)[0], F, VIEW, line) for line in LINES[[0, 4]]]
+           for light_set in straight]
+    assert off[0][0] < off[1][0] and off[1][1] < off[0][1]
+
+
+def test_the_place_that_became_worse_is_told_with_its_light():
+    """A limit leaves most of a dent, and an edge round it, where the lines were even."""
+    V, F = grid(dented(depth=0.004), 60)
+    positions, report = press(V, F, limit=6e-4)
+    worse = report.healed.worse
+    away = np.linalg.norm(V[F].mean(1) - worse.place, axis=1)
+    there = F[away < 0.35 * report.length]
+    line = (LIGHT, np.cross(VIEW, LIGHT))[worse.light]
+    assert measure(positions, there, VIEW, line) > 0.1 + measure(V, there, VIEW, line)
+    assert worse.after > 0.1 + worse.before and worse.after > 0.3
+    assert press(V, F, limit=0.1)[1].healed.worse.light == -1
+
+
+def test_an_eye_that_sees_nothing_is_told_of_and_judges_nothing():
+    V, F = grid(dented(), CELLS)
+    positions, report = press(V, F, reflines.LightSet([LIGHT, LIGHT], [VIEW, -VIEW]))
+    assert report.seen == [1.0, 0.0] and report.unevenness_before[1] == report.unevenness_after[1] == 0
+    assert any(message.endswith("no weight there: 1.") for message in report.region.messages)
+    assert np.array_equal(positions, press(V, F, lights="single")[0])
+
+
+def test_the_border_that_is_faired_and_the_one_that_follows_take_the_set():
+    V, F = grid(dented(count=3), CELLS)
+    inner = (np.abs(V[:, :2]) < 0.7).all(1)
+    region = inner[F].all(1)
+    numbers = np.full(len(V), -1)
+    own = np.unique(F[region])
+    numbers[own] = np.arange(len(own))
+    others = np.setdiff1d(np.arange(len(V)), own)
+    numbers[others] = len(own) + np.arange(len(others))
+    around = V[others], numbers[F[~region]]
+    for options in ({"fair_border": np.ones(len(own), bool)}, {"border": "follow"}, {"border": "curvature"}):
+        _, report = press(V[own], numbers[F[region]], walk(), around=around, **options)
+        assert report.applied and report.healed.worst_after < 0.5 * report.healed.worst_before
+        assert len(report.seen) == len(PAIRS)
+
+
+@pytest.mark.parametrize(("light_set", "sentence"), [
+    (lambda: reflines.LightSet([LIGHT, VIEW], [VIEW, VIEW]), "Light lines 1 are parallel to eye direction 1"),
+    (lambda: walk(weight=[1.0]), "has 1 weights for 10 lights"),
+    (lambda: walk(weight=[-1.0] * 10), "negative or not a finite number"),
+    (lambda: walk(weight=[0.0] * 10), "All lights of the set have weight 0"),
+    (lambda: walk(blockers=(np.zeros((3, 3)), [[0, 1, 7]])), "7"),
+    (lambda: reflines.LightSet([LIGHT], [-VIEW]), "No eye direction sees the region"),
+    (lambda: reflines.LightSet([LIGHT[:2]]), "three numbers"),
+])
+def test_bad_sets_get_a_sentence(light_set: object, sentence: str):
+    with pytest.raises(reflines.InvalidInput, match=sentence):
+        press(*grid(dented(), 20), light_set())
