@@ -32,9 +32,10 @@ class JointPress;
 //     moves along its view, so that a dent across a gap is one dent;
 //  3. both sides of a gap move alike: the mean of what each found for it, so that the gap keeps its width and step;
 //  4. what that turns at the gap is turned back, half by each side.
-// All sides take each step before any takes the next, so the order of the panels does not matter. Where a panel would
-// have a worse place than before, or a light would become worse, all are pressed with a clamped border towards each
-// other, and their reports say so. A panel that faces no other is pressed as smooth_panel does.
+// Flaws are as long as those of a panel of the size of all that face each other, within 1.5 times their length on each
+// alone. All sides take each step before any takes the next, so the order of the panels does not matter. Where a panel
+// would have a worse place than before, or a light would become worse, all are pressed with a clamped border towards
+// each other, and their reports say so. A panel that faces no other is pressed as smooth_panel does.
 class JointSmoother {
  public:
   // Throws InvalidInput as smooth_panel does. Keeps no reference to its arguments.

@@ -12,6 +12,7 @@
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
 #include "restoration/joined_options.h"
+#include "restoration/press_messages.h"
 #include "restoration/press_setup.h"
 #include "restoration/region_result.h"
 #include "restoration/rim_spread.h"
@@ -19,6 +20,11 @@
 
 namespace reflines {
 namespace {
+
+// The factor by which flaws of a panel may be longer than when it is pressed alone. A dent across a gap is as wide for
+// the panel that cuts it as for the uncut one: of dents across the gaps of three panels 0.6 are left with 1, 0.1 with
+// 1.5 and 2; and the longer flaws are the more of the design is taken for them.
+constexpr double kMostWidened = 1.5;
 
 constexpr double kWhole = std::numeric_limits<double>::infinity();
 
@@ -77,8 +83,19 @@ JointSide::JointSide(const JointPanel& panel, const PressAmount& amount)
   rim_tree_ = std::make_unique<NearestSurface>(V_, rim_, std::move(all));
 }
 
-JointSide::Rings JointSide::continue_region(const Positions& V, const Surroundings& around, const Skin& beside) const {
-  const GapOptions options{gap_, panel_.gap.reach};
+Eigen::AlignedBox3d JointSide::box() const {
+  return {V_.colwise().minCoeff().transpose(), V_.colwise().maxCoeff().transpose()};
+}
+
+void JointSide::widen_flaws(double diagonal) {
+  joint_options_ = options_;
+  widened_ = std::clamp(diagonal / bounding_box_diagonal(V_), 1.0, kMostWidened);
+  joint_options_.flaw_size *= widened_;
+}
+
+JointSide::Rings JointSide::continue_region(const Positions& V, const Surroundings& around, const Skin& beside,
+                                            double reach) const {
+  const GapOptions options{gap_, reach};
   GapContinuation found = continue_over_gap(V, F_, around, beside.V, beside.F, options);
   return {std::move(found.around), std::move(found.followed)};
 }
@@ -87,10 +104,10 @@ void JointSide::face(const Skin& others) {
   if (!follows(shape_.border)) return;
   Mask wanted(V_.rows());
   for (Eigen::Index v = 0; v < wanted.size(); ++v) wanted(v) = shape_.border[v] == Border::kFollow;
-  const Rings joint = continue_region(V_, shape_.around, others);
+  const Rings joint = continue_region(V_, shape_.around, others, panel_.gap.reach);
   joint_ = joint.followed && wanted;
-  rings_still_ =
-      continue_region(V_, combine(shape_.around, joint.around, V_.rows()), {panel_.V_beside, panel_.F_beside});
+  rings_still_ = continue_region(V_, combine(shape_.around, joint.around, V_.rows()),
+                                 {panel_.V_beside, panel_.F_beside}, panel_.gap.reach);
   still_ = rings_still_.followed && wanted && !joint_;
   own_ = leave_surroundings(shape_);
   turned_border_ = own_.border;
@@ -127,7 +144,7 @@ SmoothPanelResult JointSide::press_clamped(const PressAmount& amount) {
 void JointSide::begin(const PressAmount& amount) {
   if (!region_) {
     region_ = std::make_unique<MeshSurface>(V_, F_, panel_.view_direction, families_, own_);
-    alone_ = std::make_unique<Restoration>(*region_, options_);
+    alone_ = std::make_unique<Restoration>(*region_, joint_options_);
     free_ = region_->optimizer().free();
     joint_ = joint_ && free_;
   }
@@ -144,7 +161,7 @@ Positions JointSide::present() const {
 Skin JointSide::skin() const { return {present(), F_}; }
 
 JoinedMesh JointSide::join(const Positions& V, const Skin& others) const {
-  const Rings rings = continue_region(V, shape_.around, others);
+  const Rings rings = continue_region(V, shape_.around, others, widened_ * panel_.gap.reach);
   return join_surroundings(V, F_, combine(rings.around, rings_still_.around, V.rows()), kWhole);
 }
 
@@ -154,7 +171,7 @@ Turn JointSide::find_turn(const Skin& others, double lengths) const {
   Vector share = Vector::Ones(V.rows());
   share = joint_.select(0.5 * share.array(), share.array());
   const TangentMatch match{joined, V.rows(), F_.rows(), turned_border_, region_->optimizer().frame(), share};
-  const double reach = lengths * alone_->report().length;
+  const double reach = lengths * alone_->report().length / widened_;
   const Vector change = match_tangents(match, Vector::Zero(V.rows()), reach, alone_->report().limit);
   return {change, reflines::find_turn(match, change)};
 }
@@ -195,14 +212,13 @@ void JointSide::press(const Skin& others, const PressAmount& amount) {
     joined_ = std::move(joined);
     const ShapeOptions shape = choose_joined_shape(joined_);
     surface_ = std::make_unique<MeshSurface>(joined_.V, joined_.F, panel_.view_direction, families_, shape);
-    press_ = std::make_unique<Restoration>(*surface_, join_options(options_, alone_->report().length, shape.partner));
+    press_ =
+        std::make_unique<Restoration>(*surface_, join_options(joint_options_, alone_->report().length, shape.partner));
   }
-  const Eigen::Index beside = joined_.V.rows() - V_.rows();
-  Vector turned = Vector::Zero(joined_.V.rows());
-  turned.head(V_.rows()) = turned_;
-  const Vector found = press_->find_move(begin_after(join_amount(amount, alone_->report().limit, beside), turned));
-  move_ = range_->cut(turned_ + found.head(V_.rows()));
-  beside_ = found.tail(beside);
+  PressAmount unlimited = {.strength = 1, .limit = kNoLimit, .limit_share = {}, .progress = amount.progress};
+  const Vector found = press_->find_move(unlimited);
+  move_ = turned_ + found.head(V_.rows());
+  beside_ = found.tail(joined_.V.rows() - V_.rows());
 }
 
 void JointSide::even(const Vector& change) {
@@ -211,15 +227,23 @@ void JointSide::even(const Vector& change) {
   const double reach = kReachAfter * alone_->report().length;
   const Vector spread = spread_from_rim(region_->optimizer().frame().project(joined_.V), rim_, values, reach,
                                         [&](double distance) { return fade(distance / reach); });
-  add(spread.head(V_.rows()));
+  move_ += free_.select(spread.head(V_.rows()).array(), 0.0).matrix();
+  limited_ = static_cast<int>(range_->find_beyond(move_).count());
   beside_ += surface_->optimizer().free().select(spread.array(), 0.0).matrix().tail(beside_.size());
+}
+
+void JointSide::saturate() {
+  move_ = range_->saturate(move_);
+  beside_ = ControlRange(alone_->report().limit, {}, beside_.size()).saturate(beside_);
 }
 
 SmoothPanelResult JointSide::judge(const PressAmount& amount) {
   Vector move(joined_.V.rows());
   move << move_ - turned_, beside_;
-  const SmoothPanelResult judged = press_->judge(amount.strength * move);
+  SmoothPanelResult judged = press_->judge(amount.strength * move);
   if (!judged.report.applied) return judged;
+  judged.report.limited = limited_;
+  if (limited_ > 0) judged.report.messages = describe_result(judged.report);
   const TangentMatch match{joined_, V_.rows(), F_.rows(), turned_border_, region_->optimizer().frame()};
   return take_region({judged, V_, *range_, region_->optimizer().region(), alone_->report().limit}, match,
                      amount.strength * move_, amount.strength * turned_);

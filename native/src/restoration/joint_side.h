@@ -1,6 +1,7 @@
 // One panel of several that are pressed together, which takes the steps of JointSmoother one by one.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <vector>
 
@@ -44,6 +45,9 @@ class JointSide {
   void face(const Skin& others);
   bool is_joint() const { return joint_.any(); }  // whether it faces others somewhere
 
+  Eigen::AlignedBox3d box() const;    // at the start
+  void widen_flaws(double diagonal);  // looks for flaws as long as those of a joint panel of this diagonal
+
   SmoothPanelResult press_alone(const PressAmount& amount);    // as smooth_panel does
   SmoothPanelResult press_clamped(const PressAmount& amount);  // towards the others
 
@@ -53,14 +57,18 @@ class JointSide {
   // Returns the change that turns the border's tangents towards the others as all are at present: half of the way to
   // those, and the whole way to what stays. `lengths` is how far from the border it reaches.
   Turn find_turn(const Skin& others, double lengths) const;
-  void begin_turned(const Vector& change);  // from the start, instead of begin()
+  void begin_turned(const Vector& change);                    // from the start, instead of begin()
   void press(const Skin& others, const PressAmount& amount);  // finds the move together with the others' continuation
   void even(const Vector& change);  // moves the joint rim by this (#V) more, and what is near it by less and less
+  // Makes all moves saturate at their limit, see ControlRange: a solve within it takes minutes beside a dent that goes
+  // on in the others.
+  void saturate();
   void turn_after(const Vector& change);
   SmoothPanelResult judge(const PressAmount& amount);
 
-  const Mask& joint() const { return joint_; }  // #V: border vertices that face others and move with them
-  const Vector& move() const { return move_; }  // #V, along axis(), so far
+  const Mask& joint() const { return joint_; }           // #V: border vertices that face others and move with them
+  const Vector& move() const { return move_; }           // #V, along axis(), so far
+  bool is_beyond_limit() const { return limited_ > 0; }  // after even()
   Vector3 axis() const { return region_->optimizer().frame().z(); }
   Vector3 place(int v) const { return V_.row(v); }  // at the start
   const IndexVector& partner() const { return shape_.partner; }
@@ -75,7 +83,7 @@ class JointSide {
     Surroundings around;
     Mask followed;  // #V
   };
-  Rings continue_region(const Positions& V, const Surroundings& around, const Skin& beside) const;
+  Rings continue_region(const Positions& V, const Surroundings& around, const Skin& beside, double reach) const;
   JoinedMesh join(const Positions& V, const Skin& others) const;
   ShapeOptions choose_joined_shape(const JoinedMesh& joined) const;
   ShapeOptions clamp_joint() const;
@@ -88,11 +96,11 @@ class JointSide {
   Triangles F_;
   std::vector<Vector3> families_;
   ShapeOptions shape_, own_;  // own_: the region alone, its joint rim free
-  SmoothPanelOptions options_;
-  double gap_ = 0;
-  Mask joint_, still_;  // #V: border vertices that follow the others, and what stays
-  Rings rings_still_;   // of what stays, at the start
-  Triangles rim_;       // edges of the border: first, second, second
+  SmoothPanelOptions options_, joint_options_;
+  double gap_ = 0, widened_ = 1;  // see widen_flaws
+  Mask joint_, still_;            // #V: border vertices that follow the others, and what stays
+  Rings rings_still_;             // of what stays, at the start
+  Triangles rim_;                 // edges of the border: first, second, second
   std::unique_ptr<NearestSurface> rim_tree_;
   std::vector<Border> turned_border_;  // #V: kFollow where it is turned
   std::unique_ptr<MeshSurface> region_;
@@ -100,6 +108,7 @@ class JointSide {
   Mask free_;                           // #V
   std::unique_ptr<ControlRange> range_;
   Vector move_, turned_, beside_;  // #V, #V, #vertices beside: moves of the region, of it before press(), and beside it
+  int limited_ = 0;                // vertices whose move is beyond the limit
   JoinedMesh joined_;              // at press()
   std::unique_ptr<MeshSurface> surface_;
   std::unique_ptr<Restoration> press_;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/union_find.h"
 #include "geometry/mesh.h"
 #include "reflines/errors.h"
 #include "restoration/joint_side.h"
@@ -43,6 +44,7 @@ class JointPress {
   JointPress(std::vector<JointPanel> panels, const std::vector<PressAmount>& amounts) : panels_(std::move(panels)) {
     for (size_t k = 0; k < panels_.size(); ++k) sides_.push_back(std::make_unique<JointSide>(panels_[k], amounts[k]));
     for (size_t k = 0; k < sides_.size(); ++k) sides_[k]->face(others_of(k));
+    widen_flaws();
   }
 
   std::vector<SmoothPanelResult> run(std::vector<PressAmount> amounts) {
@@ -89,6 +91,21 @@ class JointPress {
     return all;
   }
 
+  // Gives the panels that face each other, directly or by others, the size of all of them.
+  void widen_flaws() {
+    UnionFind joined(static_cast<int>(sides_.size()));
+    for (size_t k = 0; k < sides_.size(); ++k) {
+      for (int v = 0; v < sides_[k]->joint().size(); ++v) {
+        const Across across = sides_[k]->joint()(v) ? find_across(k, v) : Across{};
+        if (across.side >= 0) joined.unite(static_cast<int>(k), across.side);
+      }
+    }
+    std::vector<Eigen::AlignedBox3d> boxes(sides_.size());
+    for (size_t k = 0; k < sides_.size(); ++k) boxes[joined.find(static_cast<int>(k))].extend(sides_[k]->box());
+    for (size_t k = 0; k < sides_.size(); ++k)
+      sides_[k]->widen_flaws(boxes[joined.find(static_cast<int>(k))].diagonal().norm());
+  }
+
   bool is_joint(size_t k) const { return sides_[k]->is_joint(); }
 
   // Returns the turns of the joint sides as all are at present.
@@ -107,8 +124,10 @@ class JointPress {
     }
   }
 
-  // Begins again with the sides turned by the kinks that a press has left; returns whether there are any.
+  // Begins again with the sides turned by the kinks that a press has left; returns whether there are any. What a limit
+  // has left of a dent is none.
   bool begin_turned() {
+    if (is_limited()) return false;
     const std::vector<Turn> turns = find_turns(kReachBefore);
     const auto is_kink = [](const Turn& turn) { return turn.degrees > kKink; };
     if (std::none_of(turns.begin(), turns.end(), is_kink)) return false;
@@ -118,24 +137,34 @@ class JointPress {
     return true;
   }
 
+  struct Across {
+    int side = -1;
+    RimPlace place{};
+  };
+
+  // Finds the nearest rim across from a vertex of a rim, by the shapes at the start.
+  Across find_across(size_t own, int v) const {
+    Across best;
+    for (size_t k = 0; k < sides_.size(); ++k) {
+      if (k == own) continue;
+      const RimPlace found = sides_[k]->find_rim(sides_[own]->place(v), kAcross * sides_[own]->gap());
+      if (found.first < 0 || (best.side >= 0 && found.distance >= best.place.distance)) continue;
+      best = {static_cast<int>(k), found};
+    }
+    return best;
+  }
+
   // Returns by how much more a vertex of a joint rim is to move, so that both sides of the gap move by the mean of what
   // they found; where the other side is held, by what that does.
   double find_difference(size_t own, int v) const {
     const JointSide& side = *sides_[own];
-    const JointSide* other = nullptr;
-    RimPlace best{};
-    for (size_t k = 0; k < sides_.size(); ++k) {
-      if (k == own) continue;
-      const RimPlace found = sides_[k]->find_rim(side.place(v), kAcross * side.gap());
-      if (found.first < 0 || (other && found.distance >= best.distance)) continue;
-      best = found;
-      other = sides_[k].get();
-    }
-    if (!other || other->move().size() == 0) return -side.move()(v);
-    const auto between = [&](double a, double b) { return (1 - best.share) * a + best.share * b; };
-    const double movable = between(other->joint()(best.first), other->joint()(best.second));
-    const double across = between(other->move()(best.first), other->move()(best.second));
-    return (1 - 0.5 * movable) * (across * other->axis().dot(side.axis()) - side.move()(v));
+    const auto [number, place] = find_across(own, v);
+    if (number < 0 || !is_joint(number)) return -side.move()(v);
+    const JointSide& other = *sides_[number];
+    const auto between = [share = place.share](double a, double b) { return (1 - share) * a + share * b; };
+    const double movable = between(other.joint()(place.first), other.joint()(place.second));
+    const double across = between(other.move()(place.first), other.move()(place.second));
+    return (1 - 0.5 * movable) * (across * other.axis().dot(side.axis()) - side.move()(v));
   }
 
   void even_rims() {
@@ -149,6 +178,15 @@ class JointPress {
     for (size_t k = 0; k < sides_.size(); ++k) {
       if (is_joint(k)) sides_[k]->even(changes[k]);
     }
+    if (!is_limited()) return;
+    for (size_t k = 0; k < sides_.size(); ++k) {  // all of them, so that rims still move alike
+      if (is_joint(k)) sides_[k]->saturate();
+    }
+  }
+
+  bool is_limited() const {
+    return std::any_of(sides_.begin(), sides_.end(),
+                       [](const auto& side) { return side->is_joint() && side->is_beyond_limit(); });
   }
 
   void find_moves(const std::vector<PressAmount>& amounts) {
