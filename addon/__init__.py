@@ -41,7 +41,7 @@ NAMES = (
     "bridge.unjoined_border",
     "solver.formulation", "solver.live_optimizer", "solver.limited_solve", "solver.turned_faces",
     "solver.rim", "solver.remarks", "solver.solve",
-    "solver.automatic_smooth", "solver.brush", "solver.brushed_cage", "solver.panel_check",
+    "solver.automatic_smooth", "solver.joint_smooth", "solver.brush", "solver.brushed_cage", "solver.panel_check",
     "solver.panel_inspection",
     "ui.rows", "ui.automatic_values", "ui.tool_properties", "ui.stripe_properties",
     "ui.handle_properties", "ui.check_properties", "ui.inspection_properties", "ui.light_set_properties",

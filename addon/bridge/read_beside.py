@@ -55,18 +55,19 @@ def is_near(other: bpy.types.Object, matrix: np.ndarray, box: Box) -> bool:
 
 
 def read_near(other: bpy.types.Object, matrix: np.ndarray, box: Box, crossing: Crossing) -> Soup:
-    """Reads the faces of an evaluated object, or of one in Edit Mode, that have a vertex in a box."""
+    """Reads the faces of an evaluated object, or of one in Edit Mode, that have a vertex in a box; of one that is
+    solved, too, those beside its region.
+    """
     if other.mode == 'EDIT':
         other.update_from_editmode()
     mesh = other.data
     local = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", local)
     local = local.reshape(-1, 3)
-    if other.mode == 'EDIT' and other.name in crossing.solved:
-        index, moved = crossing.solved[other.name]
-        local[index] = moved
     V = local.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-    return cut_near(mesh, V, np.ones(len(mesh.polygons), dtype=bool), box, turned=np.linalg.det(matrix[:3, :3]) < 0.0)
+    joint = other.mode == 'EDIT' and other.name in crossing.joint
+    faces = ~region_faces.read_selected_faces(mesh) if joint else np.ones(len(mesh.polygons), dtype=bool)
+    return cut_near(mesh, V, faces, box, turned=np.linalg.det(matrix[:3, :3]) < 0.0)
 
 
 def cut_near(mesh: bpy.types.Mesh, V: np.ndarray, faces: np.ndarray, box: Box, *, turned: bool) -> Soup:

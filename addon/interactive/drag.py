@@ -3,6 +3,7 @@
 Events are handled by operators/dragged_tool.py, solves by solve_job.py in the background.
 """
 import time
+from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import replace
 from typing import Protocol
@@ -10,12 +11,13 @@ from typing import Protocol
 import bpy
 import numpy as np
 
-from ..bridge import facing, read_mesh, region_faces, units, view_and_light, view_region, write_mesh
+from ..bridge import read_mesh, region_faces, units, view_and_light, view_region, write_mesh
 from ..bridge.write_mesh import EditVertices
 from ..model.gain import Gain
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
+from ..model.view import View
 from ..overlay import falloff_circle
 from ..solver import live_optimizer
 from ..solver.automatic_smooth import AutomaticSmooth
@@ -39,7 +41,7 @@ class DraggedOperator(Protocol):
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]: ...
     def build_handles(self) -> tuple[Handle, ...]: ...
     def choose_automatic(self, name: str, patch: Patch) -> float: ...
-    def gather_patch(self, ob: bpy.types.Object) -> Patch: ...
+    def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]: ...
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings: ...
     def read_falloff(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Falloff | None: ...
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget: ...
@@ -53,10 +55,10 @@ class Drag:
         """Begins with the solve that is kept where that is asked for at once: a press of the tool."""
         scene = context.scene
         self.tool, self.area, self.is_press = tool, context.area, final
-        subjects = tool.find_subjects(context)
-        self.patches = [tool.gather_patch(ob) for ob in subjects]
+        gathered = tool.gather_all(context, tool.find_subjects(context))
+        self.patches, views = [patch for patch, _ in gathered], [seen for _, seen in gathered]
+        subjects = [bpy.data.objects[patch.name] for patch in self.patches]
         self.counts = [read_mesh.count_elements(ob) for ob in subjects]
-        views = [facing.read_patch_view(scene, patch) for patch in self.patches]
         self.before = [self.read_shown(ob, patch) for ob, patch in zip(subjects, self.patches, strict=True)]
         self.shown = self.before
         self.vertices = [EditVertices(patch.index) for patch in self.patches]
@@ -180,6 +182,12 @@ class Drag:
         for ob, solution in zip(self.find_objects(), solutions, strict=True):
             write_mesh.write_solution(ob, solution.patch, solution.positions)
         self.shown = [solution.patch.to_object_space(solution.positions) for solution in solutions]
+
+    def leave_out(self, names: Collection[str]) -> None:
+        """Leaves patches alone that cannot be solved; nothing of them has been shown."""
+        kept = [which for which, patch in enumerate(self.patches) if patch.name not in names]
+        for each in ("patches", "counts", "before", "shown", "vertices"):
+            setattr(self, each, [getattr(self, each)[which] for which in kept])
 
     def restore(self) -> None:
         self.write_positions(self.before)

@@ -5,8 +5,8 @@ follows the mouse, warm-started from its last solution, which takes a few back s
 The final result is solved by the first from the start, so it does not depend on the path of the mouse.
 """
 import time
-from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -54,6 +54,7 @@ class SolveOutcome:
     refusal: str = ""                       # why there are none, as a sentence
     gain: Gain | None = None                # of all panels together, where it was measured
     lines: tuple[LineState, ...] = ()       # of each panel, where they are wanted
+    refused: Mapping[str, Refusal] = field(default_factory=dict)  # by name: why some of several have no result
 
 
 class SolveJob:
@@ -117,9 +118,13 @@ class SolveJob:
     async def press(self, request: SolveRequest) -> SolveOutcome:
         """Presses Smooth on every patch, which needs no optimizer of the job's own."""
         self.stage = "Smoothing"
-        solutions = [await press_cache.smooth_with_cache(patch, seen, self.border, request.press, self.progress)
-                     for patch, seen in zip(self.patches, self.views, strict=True)]
-        return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
+        outcomes = await press_cache.smooth_all(self.patches, self.views, self.border, request.press, self.progress)
+        refused = {patch.name: each for patch, each in zip(self.patches, outcomes, strict=True)
+                   if isinstance(each, Refusal)}
+        solutions = tuple(each for each in outcomes if not isinstance(each, Refusal))
+        if not solutions:
+            raise next(iter(refused.values()))
+        return SolveOutcome(request, tuple(solution.positions for solution in solutions), solutions, refused=refused)
 
     async def follow(self, request: SolveRequest) -> SolveOutcome:
         """Solves warm-started from the last solution, to the targets' tolerance."""

@@ -1,6 +1,6 @@
 """The surfaces beside a region that are not joined with it: other objects, and faces of its mesh across a gap."""
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,8 +10,7 @@ class Crossing:
     """The choice of what a border follows."""
     gap: float        # widest gap that is crossed, world units; 0: automatic
     everywhere: bool  # whether the whole border does, or only the segments that are set so
-    # Of objects that the same run has solved already, by name: vertices, and where they will be (#V x 3, object space).
-    solved: Mapping[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    joint: frozenset[str] = frozenset()  # names of objects that are solved with this one
 
 
 @dataclass(frozen=True)
@@ -24,6 +23,11 @@ class Beside:
 
     def same(self, other: "Beside") -> bool:
         return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
+
+    def add_soups(self, soups: Iterable[tuple[np.ndarray, np.ndarray]]) -> "Beside":
+        """Returns these and more triangles (vertices, triangles)."""
+        V, F = join_soups([(self.V, self.F), *soups])
+        return replace(self, V=V, F=F)
 
     def add_image(self, mirrored: np.ndarray) -> "Beside":
         """Returns these and their mirror images, whose vertices are given (#S x 3)."""

@@ -53,6 +53,11 @@ class Patch:
         low, high = compute_bounds(self.V)
         return float(np.linalg.norm(high - low))
 
+    def measure_area(self) -> float:
+        """Measures the area of the triangles, square world units."""
+        a, b, c = (self.V[self.F[:, k]] for k in range(3))
+        return 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+
     def count_faces(self, triangles: np.ndarray) -> int:
         """Counts the faces of the mesh that have a triangle in the mask (#F, bool)."""
         return len(np.unique(self.face_of_triangle[triangles]))

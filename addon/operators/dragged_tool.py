@@ -2,6 +2,8 @@
 
 In a drag Enter keeps the result and its values, Esc takes all back.
 """
+from collections.abc import Iterable
+
 import bpy
 from bpy.props import BoolProperty
 
@@ -107,6 +109,9 @@ class DraggedTool(SolveTool):
         """Returns the settings of the automatic press that takes the place of a solve; None for most tools."""
         return None
 
+    def hear_refused(self, refusals: Iterable[Refusal]) -> None:
+        """Keeps why some of several objects have no result, until all is told."""
+
     def refuse_hidden(self, context: bpy.types.Context) -> None:
         """Refuses a drag of which nothing would be seen."""
         for ob in self.find_subjects(context):
@@ -149,6 +154,9 @@ class DraggedTool(SolveTool):
         if outcome.refusal and (drag.keeping or not drag.job.ready):
             return self.cancel_drag(context, outcome.refusal)
         drag.take_gain(outcome)
+        if outcome.refused:
+            drag.leave_out(outcome.refused)
+            self.hear_refused(outcome.refused.values())
         if outcome.positions:
             drag.show_positions(outcome.positions)
         if outcome.solutions:
@@ -190,6 +198,7 @@ class DraggedTool(SolveTool):
         self.drag.write_solutions(outcome.solutions)
         for ob, solution in zip(self.drag.find_objects(), outcome.solutions, strict=True):
             self.record_solution(ob, solution)
+        self.tell_of_all(outcome.solutions)
         self.drag.keep_values(self.find_scene_settings(context.scene))
         self.end_drag(context)
         return {'FINISHED'}

@@ -1,15 +1,20 @@
 """The operator Smooth Lines."""
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 
 import bpy
+import numpy as np
 
-from ..bridge import facing, read_light_set
+from ..bridge import facing, read_light_set, units
 from ..interactive.drag_handles import Handle
 from ..model.beside import Crossing
+from ..model.gain import Healed
 from ..model.light_set import LightSet
 from ..model.patch import Patch
+from ..model.refusal import Refusal
 from ..model.solution import BuildCrossed, Solution, SolveSettings
+from ..model.view import View
 from ..native_call import run_now
 from ..solver import solve
 from ..solver.automatic_smooth import AutomaticSmooth
@@ -22,6 +27,15 @@ from ..ui.tool_properties import SmoothSettings
 from .dragged_tool import DraggedTool
 
 BESIDE_STRAIGHT = 0.01  # weight of crossed lines; see native/include/reflines/kept_target.h
+
+
+def join_healed(solutions: Sequence[Solution]) -> Healed:
+    """Returns what was healed on several objects as on one."""
+    areas = np.array([solution.patch.measure_area() for solution in solutions])
+    shares = np.array([solution.healed.area for solution in solutions])
+    return Healed(float(areas @ shares / max(areas.sum(), 1e-300)),
+                  max(solution.healed.worst_before for solution in solutions),
+                  max(solution.healed.worst_after for solution in solutions))
 
 
 class REFLINES_OT_smooth(DraggedTool, SmoothSettings, bpy.types.Operator):
@@ -102,19 +116,61 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         return self.choose_settings().choose_reach() if self.is_automatic() else 0.0
 
     def choose_crossing(self) -> Crossing | None:
-        """Returns what the border follows. Of several objects each follows those before it as they will be, in the
-        order of their names.
-        """
-        solved = getattr(self, "solved", {})  # a drag solves none before the others
-        return Crossing(self.gap, self.border == 'follow', solved) if self.is_automatic() else None
+        if not self.is_automatic():
+            return None
+        joint = [ob.name for ob in self.find_subjects(bpy.context) if ob.mode == 'EDIT']
+        return Crossing(self.gap, self.border == 'follow', frozenset(joint))
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Returns the objects in the order of their names, so that no result depends on the order of their selection.
+        """
         return sorted(super().find_subjects(context), key=lambda ob: ob.name)
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
         """Records a solution. What the length 0 stands for is known after an automatic press only."""
         given = self.length and not self.directional
         super().record_solution(ob, replace(solution, automatic_length=0.0) if given else solution)
+
+    def solve_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[Solution]:
+        """Presses all objects as one problem; those that cannot be solved are left, and told of."""
+        press = self.choose_press()
+        if press is None:
+            return super().solve_all(context, subjects)
+        patches, views = zip(*self.gather_all(context, subjects), strict=True)
+        outcomes = run_now(press_cache.smooth_all(patches, views, self.border, press))
+        refusals = [each for each in outcomes if isinstance(each, Refusal)]
+        if len(refusals) == len(outcomes):
+            raise refusals[0]
+        self.hear_refused(refusals)
+        return [each for each in outcomes if not isinstance(each, Refusal)]
+
+    def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
+        """Gathers the patches; of several in an automatic press those that cannot be are left, and told of."""
+        self.refusals = []
+        if not self.is_automatic() or len(subjects) == 1:
+            return super().gather_all(context, subjects)
+        gathered = []
+        for ob in subjects:
+            try:
+                gathered += super().gather_all(context, [ob])
+            except Refusal as refusal:
+                self.refusals.append(refusal)
+        if not gathered:
+            raise self.refusals[0]
+        return gathered
+
+    def hear_refused(self, refusals: Iterable[Refusal]) -> None:
+        self.refusals += refusals
+
+    def tell_of_all(self, solutions: Sequence[Solution]) -> None:
+        """Reports the objects that were left, and of several that were solved one line for all."""
+        for refusal in self.refusals if self.is_automatic() else ():
+            self.report({'WARNING'}, f"Left as it is: {refusal}")
+        if len(solutions) > 1 and all(solution.healed is not None for solution in solutions):
+            largest = max(solution.report.largest_move for solution in solutions)
+            moved = units.format_length(largest, bpy.context.scene, 2)
+            names = ", ".join(solution.patch.name for solution in solutions)
+            self.report({'INFO'}, f"{join_healed(solutions).describe()}, moved at most {moved} ({names})")
 
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         if not self.is_automatic():

@@ -1,4 +1,6 @@
 """The base of operators that solve: when they can run, gathering, applying, and reporting to the artist."""
+from collections.abc import Sequence
+
 import bpy
 import numpy as np
 from bpy.props import BoolProperty
@@ -10,6 +12,7 @@ from ..model.beside import Crossing
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
+from ..model.view import View
 from ..solver.live_optimizer import BuildTarget
 from ..state import optimizer_cache, press_cache, solve_history
 from ..ui.properties import result_property, solve_for_property
@@ -74,14 +77,10 @@ class SolveTool:
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()  # scripts may have set transforms that are not evaluated yet
         self.copy_settings(context.scene)
-        subjects, solutions = [], []
-        self.solved = {}
+        subjects = []
         try:
             subjects = self.find_subjects(context)
-            for ob in subjects:  # all or none are written
-                solutions.append(self.solve(context, ob))
-                patch = solutions[-1].patch
-                self.solved[ob.name] = patch.index, patch.to_object_space(solutions[-1].positions)
+            solutions = self.solve_all(context, subjects)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
@@ -94,7 +93,20 @@ class SolveTool:
             ob = bpy.data.objects[solution.patch.name]
             write_mesh.write_solution(ob, solution.patch, solution.positions, edited=self.edited)
             self.record_solution(ob, solution)
+        self.tell_of_all(solutions)
         return {'FINISHED'}
+
+    def solve_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[Solution]:
+        """Solves the objects before any is written; refuses all of them where one cannot be solved."""
+        return [self.solve(context, ob) for ob in subjects]
+
+    def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
+        """Gathers the patches of the objects, each with its view."""
+        patches = [self.gather_patch(ob) for ob in subjects]
+        return [(patch, facing.read_patch_view(context.scene, patch)) for patch in patches]
+
+    def tell_of_all(self, solutions: Sequence[Solution]) -> None:
+        """Reports what concerns all objects of a run together, after what concerns each."""
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         return scene_objects.find_subjects(context)

@@ -75,13 +75,19 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
     strays from its smoothed self. After a refusal both are those of the start.
     """
     begin = time.perf_counter()
-    patch = kept.patch
-    formulation = choose_formulation(patch, kept.view)
+    formulation = choose_formulation(kept.patch, kept.view)
     positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
                                  limit_share=formulation.choose_share(), progress=progress)
+    return build_solution(formulation, positions, told, settings, time.perf_counter() - begin)
+
+
+def build_solution(formulation: Formulation, positions: np.ndarray, told: "native.SmoothPanelReport",
+                   settings: AutomaticSmooth, seconds: float) -> Solution:
+    """Builds the solution from what the native press returns for the patch of a formulation."""
+    patch = formulation.patch
     press = formulation.read_press(positions, told)
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
-    report = build_report(told, time.perf_counter() - begin)
+    report = build_report(told, seconds)
     unevenness = told.unevenness_before, told.unevenness_after if told.applied else told.unevenness_before
     lacks = (np.radians(each[0]) / told.length for each in unevenness)
     scores = told.score_before, told.score_after if told.applied else told.score_before

@@ -122,14 +122,13 @@ class Formulation:
         edges, beside = self.choose_edges(border, fair=fair), self.read_beside()
         if beside is None or fair:
             return edges
-        joined, codes = self.read_around(), edges["border"]
+        joined = self.read_around()
         found = await call(native.reflines.continue_over_gap, V, F, beside.V, beside.F, around=(joined.V, joined.F),
                            gap=beside.gap, reach=beside.reach)
         follows = self.find_following(border) & found.followed
         if not follows.any():
             return edges
-        held = np.full(len(V), CODES[codes]) if isinstance(codes, str) else codes
-        return {"border": np.where(follows, CODES["follow"], held), "around": (found.V, found.F)}
+        return {"border": np.where(follows, CODES["follow"], self.fill_codes(border)), "around": (found.V, found.F)}
 
     async def build(self, border: str, progress: "native.Progress | None", *,
                     sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
@@ -182,13 +181,33 @@ class Formulation:
             held[self.patch.creases.marked.ravel()] = True
         return held
 
+    def choose_press_mesh(self) -> dict[str, np.ndarray | None]:
+        """Returns the mesh that the native press takes, with what of it stays and is alike, as its arguments."""
+        return {"V": self.patch.V, "F": self.patch.F, "fixed": self.hold_marked_creases(), "partner": self.partner,
+                "face_of_triangle": self.patch.face_of_triangle}
+
     async def build_smoother(self, border: str, settings: PressSettings, *, fair: bool) -> "native.PanelSmoother":
         """Builds the native smoother, where `fair` with a border that moves, too; raises the module's errors."""
+        mesh = self.choose_press_mesh()
         return await call(
-            native.reflines.PanelSmoother.create, self.patch.V, self.patch.F, **self.choose_press_directions(),
-            fixed=self.hold_marked_creases(), partner=self.partner,
-            **await self.choose_press_edges(self.patch.V, self.patch.F, border, fair=fair),
-            face_of_triangle=self.patch.face_of_triangle, **settings)
+            native.reflines.PanelSmoother.create, **mesh, **self.choose_press_directions(),
+            **await self.choose_press_edges(mesh["V"], mesh["F"], border, fair=fair), **settings)
+
+    def build_joint_panel(self, border: str, settings: PressSettings) -> "native.JointPanel":
+        """Builds the panel of a press of several from a patch that follows what lies beside it; raises the module's
+        errors.
+        """
+        beside, around = self.read_beside(), self.read_around()
+        codes = np.where(self.find_following(border), CODES["follow"], self.fill_codes(border))
+        mesh = self.choose_press_mesh()
+        return native.reflines.JointPanel(
+            **mesh, **self.choose_press_directions(), border=codes, around=(around.V, around.F),
+            beside=(beside.V, beside.F), gap=beside.gap, reach=beside.reach, **settings)
+
+    def fill_codes(self, border: str) -> np.ndarray:
+        """Returns the codes of choose_border for each vertex of all that is solved."""
+        codes = self.choose_border(border)
+        return np.full(len(self.choose_own_border()), CODES[codes]) if isinstance(codes, str) else codes
 
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
         """Converts what the native smoother returns to arrays of the patch."""
@@ -244,12 +263,9 @@ class JoinedFormulation(Formulation):
         return self.join()[2]
 
     def read_around(self) -> Surroundings:
-        around, matrix, partner = self.patch.around, self.patch.matrix, self.partner
-        local = (around.V - matrix[:3, 3]) @ np.linalg.inv(matrix[:3, :3]).T
-        mirrored = self.patch.to_world(local * self.patch.mirror.sign)
-        own = len(self.patch.V)
-        seam = mirror.find_seam(self.patch.mirror, local)
-        return join_images(around, mirrored, seam, own, partner[:own], len(partner))
+        around, partner, own = self.patch.around, self.partner, len(self.patch.V)
+        seam = mirror.find_seam(self.patch.mirror, self.to_local(around.V))
+        return join_images(around, self.mirror_places(around.V), seam, own, partner[:own], len(partner))
 
     def read_beside(self) -> Beside | None:
         beside = self.patch.beside
@@ -257,9 +273,12 @@ class JoinedFormulation(Formulation):
 
     def mirror_places(self, places: np.ndarray) -> np.ndarray:
         """Returns the mirror images of places in world space: #places x 3."""
+        return self.patch.to_world(self.to_local(places) * self.patch.mirror.sign)
+
+    def to_local(self, places: np.ndarray) -> np.ndarray:
+        """Transforms places in world space to object space: #places x 3."""
         matrix = self.patch.matrix
-        local = (places - matrix[:3, 3]) @ np.linalg.inv(matrix[:3, :3]).T
-        return self.patch.to_world(local * self.patch.mirror.sign)
+        return (places - matrix[:3, 3]) @ np.linalg.inv(matrix[:3, :3]).T
 
     async def build(self, border: str, progress: "native.Progress | None", *,
                     sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
@@ -281,15 +300,11 @@ class JoinedFormulation(Formulation):
         own = len(self.patch.V)
         return self.patch.V + (positions - self.join()[0])[:own]
 
-    async def build_smoother(self, border: str, settings: PressSettings, *, fair: bool) -> "native.PanelSmoother":
+    def choose_press_mesh(self) -> dict[str, np.ndarray | None]:
         V, F, partner = self.join()
         own = self.hold_marked_creases()
-        held = np.append(own, own[partner[len(own):]])
-        return await call(
-            native.reflines.PanelSmoother.create, V, F, **self.choose_press_directions(), fixed=held, partner=partner,
-            **await self.choose_press_edges(V, F, border, fair=fair),
-            face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
-            **settings)
+        return {"V": V, "F": F, "fixed": np.append(own, own[partner[len(own):]]), "partner": partner,
+                "face_of_triangle": np.tile(self.patch.face_of_triangle, 2)}
 
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
         return Press(self.read_own_half(positions), told.stray[:len(self.patch.F)], told)

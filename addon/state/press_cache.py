@@ -1,19 +1,22 @@
 """The cache of the last operation's presses of Smooth, for the redo panel: another strength or limit begins with what
 the first press found. It can be rebuilt at any time from the mesh and the properties.
 """
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import bpy
 
 from .. import native
 from ..model.patch import Patch
+from ..model.refusal import Refusal
 from ..model.solution import Solution
 from ..model.view import View
-from ..solver import automatic_smooth, live_optimizer
+from ..solver import automatic_smooth, joint_smooth, live_optimizer
 from ..solver.automatic_smooth import AutomaticSmooth, KeptPress
+from ..solver.joint_smooth import KeptJoint
 
 _presses: dict[str, KeptPress] = {}  # by the name of the object
+_joint: list[KeptJoint] = []  # the last press of several objects, or none
 
 
 async def smooth_with_cache(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
@@ -30,10 +33,56 @@ async def smooth_with_cache(patch: Patch, seen: View, border: str, settings: Aut
         return solution
 
 
+async def smooth_all(patches: Sequence[Patch], views: Sequence[View], border: str, settings: AutomaticSmooth,
+                     progress: "native.Progress | None" = None) -> list[Solution | Refusal]:
+    """Presses Smooth once on each patch, and on those that follow their neighbours as one problem. Returns for each its
+    solution, or why there is none.
+    """
+    patches = joint_smooth.show_to_others(patches, settings)
+    together = [k for k, patch in enumerate(patches) if joint_smooth.can_join(patch, settings)]
+    solved = await smooth_jointly(patches, views, together, border, settings, progress)
+    alone = [k for k in range(len(patches)) if k not in solved]
+    outcomes = solved | {k: await smooth_or_refuse(patches[k], views[k], border, settings, progress) for k in alone}
+    left = [k for k in together if not isinstance(outcomes[k], Refusal)]
+    if not solved and len(left) < len(together):  # one that cannot be solved has kept the others from it
+        outcomes |= await smooth_jointly(patches, views, left, border, settings, progress)
+    return [outcomes[k] for k in range(len(patches))]
+
+
+async def smooth_or_refuse(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
+                           progress: "native.Progress | None") -> Solution | Refusal:
+    try:
+        return await smooth_with_cache(patch, seen, border, settings, progress)
+    except Refusal as refusal:
+        return refusal
+
+
+async def smooth_jointly(all_patches: Sequence[Patch], all_views: Sequence[View], chosen: Sequence[int], border: str,
+                         settings: AutomaticSmooth, progress: "native.Progress | None") -> dict[int, Solution]:
+    """Presses the chosen ones of the patches as one problem, with the kept smoother where nothing but strength and
+    limit has changed; empty where they are not several, or one of them cannot be solved.
+    """
+    if len(chosen) < 2:
+        return {}
+    patches, views = [all_patches[k] for k in chosen], [all_views[k] for k in chosen]
+    kept = _joint.pop() if _joint else None
+    try:
+        if kept is None or not kept.suits(patches, views, border, settings):
+            kept = await joint_smooth.build_joint(patches, views, border, settings)
+        kept = replace(kept, patches=tuple(patches))
+        solutions = await joint_smooth.press_joint(kept, settings, progress)
+    except (native.InvalidInput, native.SolverFailure, Refusal):
+        return {}
+    _joint[:] = [kept]
+    return dict(zip(chosen, solutions, strict=True))
+
+
 def keep_only(names: Collection[str]) -> None:
     """Drops the presses of all other objects at the end of an operation: each holds the factor of a matrix."""
     for gone in [name for name in _presses if name not in names]:
         del _presses[gone]
+    if _joint and {patch.name for patch in _joint[0].patches} != set(names):
+        _joint.clear()
 
 
 def list_kept() -> tuple[KeptPress, ...]:
@@ -44,6 +93,7 @@ def list_kept() -> tuple[KeptPress, ...]:
 @bpy.app.handlers.persistent
 def clear_cache(*_: object) -> None:
     _presses.clear()
+    _joint.clear()
 
 
 def register() -> None:

@@ -19,6 +19,7 @@ void bind_smooth_panel(pybind11::module_& module);
 void bind_check_panel(pybind11::module_& module);
 void bind_inspect_panel(pybind11::module_& module);
 void bind_gap_continuation(pybind11::module_& module);
+void bind_joint_smoother(pybind11::module_& module);
 void bind_optimizer(pybind11::module_& module);
 void bind_cage_optimizer(pybind11::module_& module);
 

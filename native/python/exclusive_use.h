@@ -11,6 +11,7 @@
 #include "python/native_call.h"
 #include "reflines/cage_optimizer.h"
 #include "reflines/handle_follower.h"
+#include "reflines/joint_smoother.h"
 #include "reflines/line_handles.h"
 #include "reflines/panel_smoother.h"
 #include "reflines/shape_optimizer.h"
@@ -28,6 +29,7 @@ class ExclusiveUse {
   ExclusiveUse(const LineHandles& handles, Use use) : ExclusiveUse(&handles, use, "set of handles") {}
   ExclusiveUse(const HandleFollower& follower, Use use) : ExclusiveUse(&follower, use, "follower") {}
   ExclusiveUse(const PanelSmoother& smoother, Use use) : ExclusiveUse(&smoother, use, "panel smoother") {}
+  ExclusiveUse(const JointSmoother& smoother, Use use) : ExclusiveUse(&smoother, use, "smoother of panels") {}
   ~ExclusiveUse();
   ExclusiveUse(const ExclusiveUse&) = delete;
   ExclusiveUse& operator=(const ExclusiveUse&) = delete;

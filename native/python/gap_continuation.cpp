@@ -3,26 +3,19 @@
 #include <pybind11/stl.h>
 
 #include <optional>
-#include <string>
 
 #include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/index_arrays.h"
 #include "python/native_call.h"
+#include "python/press_arguments.h"
 #include "python/surroundings.h"
-#include "reflines/errors.h"
 #include "solver/solve_checks.h"
 
 namespace py = pybind11;
 
 namespace reflines {
 namespace {
-
-double given(const std::optional<double>& length, const char* name) {
-  if (length && !(*length > 0))
-    throw InvalidInput(std::string(name) + " must be a positive length, or None for automatic.");
-  return length.value_or(0.0);
-}
 
 py::object continue_gap(const Positions& V, const Indices& F, const Positions& V_beside, const Indices& F_beside,
                         const Around& around, const std::optional<double>& gap, const std::optional<double>& reach) {

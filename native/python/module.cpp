@@ -48,6 +48,7 @@ PYBIND11_MODULE(reflines, module) {
   reflines::bind_check_panel(module);
   reflines::bind_inspect_panel(module);
   reflines::bind_gap_continuation(module);
+  reflines::bind_joint_smoother(module);
   reflines::bind_optimizer(module);
   reflines::bind_cage_optimizer(module);
   reflines::bind_builders(module);

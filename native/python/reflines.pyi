@@ -278,6 +278,32 @@ class PanelSmoother:
               progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
         """Presses the panel as it was given: returns what smooth_panel returns, bit for bit, whatever was pressed before."""
 
+class JointPanel:
+    """One panel of several that are pressed as one problem: the arguments of smooth_panel, and of continue_over_gap what stays
+    beside it. Border vertices with the code 5, "follow", follow the other panels and what stays; `around` tells where the border
+    is open."""
+    def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
+                 border: Border | np.ndarray = "follow", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
+                 around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
+                 lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None,
+                 length: float | None = None, flaw_size: float = 1.0,
+                 symmetric: bool = True, beside: tuple[np.ndarray, np.ndarray] | None = None, gap: float | None = None,
+                 reach: float | None = None) -> None: ...
+
+class JointSmoother:
+    """Presses of Smooth on several panels that face each other over gaps: lines are smoothed across as inside, and both sides of a
+    gap move alike, so that it keeps its width and its step. The order of the panels does not matter. A panel that faces no other
+    is pressed as smooth_panel does. Where a panel would have a worse place than before, all are pressed with a border that is
+    clamped towards the others, and the reports' messages say so."""
+    def __init__(self, panels: Sequence[JointPanel]) -> None: ...
+    @staticmethod
+    def create(panels: Sequence[JointPanel]) -> JointSmoother:
+        """Builds one as the constructor does; `start` runs it in the background."""
+    def press(self, *, strengths: Sequence[float], limits: Sequence[float | None],
+              limit_shares: Sequence[np.ndarray | None],
+              progress: Progress | None = None) -> list[tuple[np.ndarray, SmoothPanelReport]]:
+        """Presses the panels as they were given, each by an amount of its own: returns what smooth_panel returns for each."""
+
 def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                  border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature,
                                                                     # 4 flow, 5 follow

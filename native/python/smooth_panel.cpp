@@ -2,7 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -13,7 +12,7 @@
 #include "python/exclusive_use.h"
 #include "python/index_arrays.h"
 #include "python/native_call.h"
-#include "python/option_names.h"
+#include "python/press_arguments.h"
 #include "python/surroundings.h"
 #include "reflines/panel_smoother.h"
 
@@ -21,35 +20,6 @@ namespace py = pybind11;
 
 namespace reflines {
 namespace {
-
-const std::map<std::string, Lights> kLights = {{"crossed", Lights::kCrossed}, {"single", Lights::kSingle}};
-
-using Shares = std::optional<PlanePositions>;  // #V x 2, lowest and highest
-
-// Refuses a given length that is not positive: in the C++ options 0 means automatic.
-double given(const std::optional<double>& length, const char* name) {
-  if (length && !(*length > 0))
-    throw InvalidInput(std::string(name) + " must be a positive length, or None for automatic.");
-  return length.value_or(0.0);
-}
-
-PressAmount amount_of(double strength, const std::optional<double>& limit, const Shares& limit_share,
-                      std::shared_ptr<Progress> progress) {
-  PressAmount amount{strength, given(limit, "The limit"), {}, std::move(progress)};
-  if (limit_share) amount.limit_share = {limit_share->col(0), limit_share->col(1)};
-  return amount;
-}
-
-SmoothPanelOptions options_of(const std::string& lights, const std::optional<LightSet>& set,
-                              const std::optional<double>& length, double flaw_size, bool symmetric) {
-  SmoothPanelOptions options;
-  options.lights = find_named(kLights, lights, "choice of lights");
-  if (set) options.set = *set;
-  options.length = given(length, "The length");
-  options.flaw_size = flaw_size;
-  options.symmetric = symmetric;
-  return options;
-}
 
 using BuildSmoother = std::function<std::unique_ptr<PanelSmoother>()>;
 

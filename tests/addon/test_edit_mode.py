@@ -35,14 +35,19 @@ def test_objects_without_selected_faces_are_left_alone() -> None:
     assert not right.reflection_lines.report.termination
 
 
-def test_all_or_nothing() -> None:
+@pytest.mark.parametrize("length", [0.3, 0.0], ids=["a solve", "a press"])
+def test_a_solve_is_all_or_nothing_and_a_press_leaves_what_it_cannot_solve(length: float) -> None:
     left, right = two_panels()
     scenes.select_faces(left, scenes.inner())
     scenes.select_faces(right, lambda face: face == 40)
     before = [scenes.fingerprint(ob) for ob in (left, right)]
-    with pytest.raises(RuntimeError, match="Right: No vertex of the region is free"):
-        scenes.smooth()
-    assert [scenes.fingerprint(ob) for ob in (left, right)] == before
+    if length:
+        with pytest.raises(RuntimeError, match="Right: No vertex of the region is free"):
+            scenes.smooth(length=length)
+    else:
+        assert scenes.smooth() == {'FINISHED'}
+    stayed = [scenes.fingerprint(ob) == was for ob, was in zip((left, right), before, strict=True)]
+    assert stayed == [length > 0.0, True]
 
 
 def test_one_undo_step_for_all() -> None:

@@ -17,7 +17,7 @@ PUBLIC = {
     "line_handles": "targets",
     "minimizer_options": "optimization", "report": "optimization",
     "shape_optimizer": "solver", "cage_optimizer": "solver",
-    "smooth_panel": "restoration", "panel_smoother": "restoration",
+    "smooth_panel": "restoration", "panel_smoother": "restoration", "joint_smoother": "restoration",
     "check_panel": "inspection", "inspect_panel": "inspection",
     "handle_follower": "following",
 }

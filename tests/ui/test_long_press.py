@@ -11,6 +11,7 @@ from mathutils import Matrix
 import scenes
 import window
 from dragging import at_rest, panel, shown, undone_and_redone
+from test_across_gap import bent, half, places, start_several
 
 Steps = Generator[float, None, None]
 CELLS = 80  # 6,084 selected faces
@@ -79,6 +80,31 @@ def test_escape_takes_a_long_press_back(driver: window.Window) -> Steps:
     assert bpy.data.objects["Panel"].reflection_lines.report.termination == ""
 
 
+def test_a_long_press_of_several_objects_gives_the_result_of_the_operator(driver: window.Window) -> Steps:
+    """An object that looks away from the view is left by both."""
+    results = []
+    for long in (False, True):
+        with driver.override():
+            sys.modules["reflection_lines"].state.press_cache.clear_cache()
+            bpy.ops.object.mode_set(mode='OBJECT')
+            bpy.data.batch_remove(list(bpy.data.objects))
+            left = half("Left", -1.0, -0.002, bent, 30)
+            right = half("Right", 0.002, 1.0, lambda x, y: bent(-x, y), 30)
+            away = half("Away", 3.0, 4.0, bent, 6)
+            away.data.flip_normals()
+            start_several(left, right, away)
+            before = np.concatenate([places(ob) for ob in (left, right)])
+        if long:
+            yield from press(driver, border='follow')
+            yield from wait()
+        else:
+            with driver.override():
+                assert scenes.smooth(border='follow') == {'FINISHED'}
+        results.append(np.concatenate([places(ob) for ob in (left, right)]))
+        assert np.abs(results[-1] - before).max() > 1e-3
+    assert np.array_equal(*results)
+
+
 def test_other_tools_press_beside_blender_too(driver: window.Window) -> Steps:
     results = []
     for long in (False, True):
@@ -115,5 +141,7 @@ def test_panels_of_different_size_keep_their_own_lengths(driver: window.Window) 
 
 if __name__ == "__main__":
     window.run(test_a_long_press_lets_blender_go_on_and_gives_the_result_of_the_operator,
-               test_escape_takes_a_long_press_back, test_other_tools_press_beside_blender_too,
+               test_escape_takes_a_long_press_back,
+               test_a_long_press_of_several_objects_gives_the_result_of_the_operator,
+               test_other_tools_press_beside_blender_too,
                test_panels_of_different_size_keep_their_own_lengths)

@@ -1,7 +1,6 @@
 #include "restoration/followed_border.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -10,37 +9,12 @@
 #include "restoration/held_border.h"
 #include "restoration/joined_mesh.h"
 #include "restoration/joined_options.h"
-#include "restoration/press_messages.h"
+#include "restoration/region_result.h"
 #include "restoration/restoration.h"
 #include "restoration/tangent_match.h"
 
 namespace reflines {
 namespace {
-
-// Lengths over which the border's tangents are turned: before a press far enough that it finds nothing to heal in that,
-// and after it over less, since what a neighbour's flaws turn is not to be spread. Of a dent across the gap 0.24
-// degrees are left so, and 0.32 with two lengths.
-constexpr double kReachBefore = 2.0, kReachAfter = 1.0;
-
-// The factor of the worst deviation of lines before, and the degrees of it, from which on a result has a worse place.
-constexpr double kWorsePlace = 1.05, kLeastWorst = 0.3;
-
-constexpr double kToldTurn = 0.3;  // degrees of the border's tangents that are worth a word
-
-// Returns the options of the region alone: nothing but the neighbours that are joined with it tells what lies beside.
-ShapeOptions leave_surroundings(const ShapeOptions& shape) {
-  ShapeOptions result = shape;
-  for (Border& border : result.border) {
-    if (continues_lines(border)) border = Border::kClamped;
-  }
-  result.around = {};
-  return result;
-}
-
-ShapeOptions clamp_instead(ShapeOptions shape) {
-  std::replace(shape.border.begin(), shape.border.end(), Border::kFollow, Border::kClamped);
-  return shape;
-}
 
 // Returns the options of the joined mesh: the region's border is as it was, but where it is followed no border.
 ShapeOptions join_followed(const ShapeOptions& own, const Mask& region_free, const JoinedMesh& joined,
@@ -49,25 +23,6 @@ ShapeOptions join_followed(const ShapeOptions& own, const Mask& region_free, con
   result.border = own.border;
   result.border.resize(joined.V.rows(), Border::kClamped);
   return result;
-}
-
-// Returns the amount of a press, with the whole strength, that begins where vertices (of the joined mesh) have moved
-// already, so that both moves together stay within the limit.
-PressAmount begin_after(const PressAmount& amount, const Vector& move) {
-  PressAmount result = amount;
-  result.strength = 1;
-  if (move.isZero(0)) return result;
-  const Vector share = move / amount.limit;
-  if (!result.limit_share.exists()) result.limit_share = MoveLimit::within(1, static_cast<int>(move.size()));
-  result.limit_share.lowest = (result.limit_share.lowest - share).cwiseMax(-1).cwiseMin(0);
-  result.limit_share.highest = (result.limit_share.highest - share).cwiseMin(1).cwiseMax(0);
-  return result;
-}
-
-// Returns whether some place of the result is worse than the worst one before. Where a bent border meets one that is
-// held, the turned tangents of the one and those of the other make a curl in the corner.
-bool has_worse_place(const HealedFlaws& healed) {
-  return healed.worst_after > kWorsePlace * std::max(healed.worst_before, kLeastWorst);
 }
 
 class FollowedBorderPress : public Press {
@@ -100,7 +55,8 @@ class FollowedBorderPress : public Press {
     move += pad(turn(range, limit, move.head(V_.rows()), kReachAfter));
     const SmoothPanelResult judged = press_->judge(amount.strength * (move - turned));
     if (!judged.report.applied || has_worse_place(judged.report.healed)) return press_clamped(amount);
-    return take_region(judged, range, amount.strength * move.head(V_.rows()), amount.strength * turned.head(V_.rows()));
+    return take_region({judged, V_, range, region_.optimizer().region(), alone_.report().limit}, match_,
+                       amount.strength * move.head(V_.rows()), amount.strength * turned.head(V_.rows()));
   }
 
  private:
@@ -131,26 +87,8 @@ class FollowedBorderPress : public Press {
     turned_ = turned;
   }
 
-  // Returns the result for the region alone after a move of its vertices (#V), of which `turned` turned the border.
-  SmoothPanelResult take_region(const SmoothPanelResult& joined, const ControlRange& range, const Vector& move,
-                                const Vector& turned) {
-    SmoothPanelResult result{range.apply(V_, match_.frame.z(), move), joined.report};
-    SmoothPanelReport& report = result.report;
-    report.stray = joined.report.stray.head(F_.rows()).eval();
-    report.region = region_.optimizer().region();
-    report.limit = alone_.report().limit;
-    report.largest_move = report.largest_control_move = move.cwiseAbs().maxCoeff();
-    if (!turned.isZero(0)) report.messages = describe_result(report);
-    const double angle = find_turn(match_, turned);
-    if (angle < kToldTurn) return result;
-    char text[96];
-    std::snprintf(text, sizeof text, "The border was turned by up to %.2g degrees to follow its neighbours.", angle);
-    report.messages.emplace_back(text);
-    return result;
-  }
-
   SmoothPanelResult press_clamped(const PressAmount& amount) {
-    if (!clamped_) clamped_ = prepare_held_border(V_, F_, view_, families_, clamp_instead(own_), options_);
+    if (!clamped_) clamped_ = prepare_held_border(V_, F_, view_, families_, clamp_followed(own_), options_);
     SmoothPanelResult result = clamped_->run(amount);
     result.report.messages.emplace_back(
         "The border is only clamped: following its neighbours, lines would have become less even.");
@@ -187,7 +125,7 @@ std::unique_ptr<Press> prepare_followed_border(const Positions& V, const Triangl
                                                const SmoothPanelOptions& options) {
   const ShapeOptions own = leave_surroundings(shape);
   JoinedMesh joined = join_surroundings(V, F, shape.around, std::numeric_limits<double>::infinity());
-  if (joined.V.rows() == V.rows()) return prepare_held_border(V, F, view, families, clamp_instead(own), options);
+  if (joined.V.rows() == V.rows()) return prepare_held_border(V, F, view, families, clamp_followed(own), options);
   return std::make_unique<FollowedBorderPress>(V, F, view, families, own, std::move(joined), options);
 }
 

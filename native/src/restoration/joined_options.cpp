@@ -1,5 +1,7 @@
 #include "restoration/joined_options.h"
 
+#include <algorithm>
+
 namespace reflines {
 namespace {
 
@@ -11,6 +13,20 @@ Values append(const Values& values, Eigen::Index count, typename Values::Scalar 
 }
 
 }  // namespace
+
+ShapeOptions leave_surroundings(const ShapeOptions& shape) {
+  ShapeOptions result = shape;
+  for (Border& border : result.border) {
+    if (continues_lines(border)) border = Border::kClamped;
+  }
+  result.around = {};
+  return result;
+}
+
+ShapeOptions clamp_followed(ShapeOptions shape) {
+  std::replace(shape.border.begin(), shape.border.end(), Border::kFollow, Border::kClamped);
+  return shape;
+}
 
 ShapeOptions join_shape(const ShapeOptions& shape, const Mask& region_free, const JoinedMesh& joined,
                         Eigen::Index region_triangles, BesideRegion how) {
@@ -43,6 +59,17 @@ PressAmount join_amount(const PressAmount& amount, double limit, Eigen::Index be
     result.limit_share = {append(amount.limit_share.lowest, beside, -1.0),
                           append(amount.limit_share.highest, beside, 1.0)};
   }
+  return result;
+}
+
+PressAmount begin_after(const PressAmount& amount, const Vector& move) {
+  PressAmount result = amount;
+  result.strength = 1;
+  if (move.isZero(0)) return result;
+  const Vector share = move / amount.limit;
+  if (!result.limit_share.exists()) result.limit_share = MoveLimit::within(1, static_cast<int>(move.size()));
+  result.limit_share.lowest = (result.limit_share.lowest - share).cwiseMax(-1).cwiseMin(0);
+  result.limit_share.highest = (result.limit_share.highest - share).cwiseMin(1).cwiseMax(0);
   return result;
 }
 

@@ -1,11 +1,9 @@
 #include "reflines/panel_smoother.h"
 
-#include <Eigen/Geometry>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "geometry/mesh.h"
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/faired_border.h"
@@ -13,6 +11,7 @@
 #include "restoration/held_border.h"
 #include "restoration/press.h"
 #include "restoration/press_checks.h"
+#include "restoration/press_setup.h"
 #include "restoration/restoration.h"
 #include "restoration/used_vertices.h"
 #include "solver/limited_move.h"
@@ -22,43 +21,6 @@
 
 namespace reflines {
 namespace {
-
-std::vector<Vector3> make_families(const Vector3& view, const Vector3& lines, const SmoothPanelOptions& options) {
-  if (options.set.exist()) return options.set.line_directions;
-  if (options.lights == Lights::kSingle) return {lines};
-  return {lines, view.cross(lines)};
-}
-
-// Sets the options that all presses share. Noise makes creases, and held ones would keep it; smoother and weights keep
-// what bends.
-void set_restoration_rules(const SmoothPanelOptions& options, const PressAmount& amount, double proximity,
-                           ShapeOptions& shape) {
-  if (options.set.exist()) shape.eyes = options.set.eyes;
-  shape.creases.rule = CreaseRule::kNone;
-  shape.proximity = proximity;
-  shape.progress = amount.progress;
-}
-
-std::vector<Border> gather(const std::vector<Border>& border, const std::vector<int>& index) {
-  std::vector<Border> result;
-  for (const int v : index) result.push_back(border[v]);
-  return result;
-}
-
-ShapeOptions choose_shape(const UsedVertices& used, const SmoothPanelOptions& options, Eigen::Index vertex_count) {
-  ShapeOptions shape;
-  if (!options.border.empty()) shape.border = gather(options.border, used.index);
-  if (options.held.size() > 0) shape.held = options.held(used.index);
-  if (options.partner.size() > 0) {
-    shape.partner = renumber_partners(options.partner, used);
-    const Mask alone = shape.partner.array() < 0 && options.partner(used.index).array() >= 0;
-    shape.held = shape.held.size() > 0 ? Mask(shape.held || alone) : alone;
-  }
-  if (options.around.exist())
-    shape.around = renumber_surroundings(options.around, used, static_cast<int>(vertex_count));
-  shape.face_of_triangle = options.face_of_triangle;
-  return shape;
-}
 
 // Presses the vertices that are in faces; the others keep their bits.
 class MeshPress : public Press {

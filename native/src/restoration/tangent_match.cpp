@@ -5,14 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <queue>
 #include <vector>
 
 #include "base/smoothstep.h"
 #include "geometry/height_fit.h"
 #include "geometry/mesh.h"
-#include "geometry/nearest_surface.h"
+#include "restoration/rim_spread.h"
 
 namespace reflines {
 namespace {
@@ -25,8 +24,6 @@ constexpr int kAverages = 2;  // passes along the border, which take the noise o
 
 // The largest of r (1 - r^2)^3, the course of the change over the distance.
 constexpr double kHighest = 0.238;
-
-double fade(double r) { return r < 1 ? std::pow(1 - r * r, 3) : 0.0; }
 
 // The joined mesh over the image plane.
 struct Plane {
@@ -133,7 +130,7 @@ void measure_slopes(const TangentMatch& match, const Plane& plane, Rim& rim) {
     const HeightFit in = fit_side(match, plane, v, true), out = fit_side(match, plane, v, false);
     if (in.degree == 0 || out.degree == 0) continue;
     const Vector2 across = rim.outward.row(v).head<2>().transpose().normalized();
-    rim.slope(v) = (out.slope - in.slope).dot(across);
+    rim.slope(v) = (out.slope - in.slope).dot(across) * (match.share.size() > 0 ? match.share(v) : 1);
   }
 }
 
@@ -150,28 +147,6 @@ void average_slopes(const TangentMatch& match, Rim& rim) {
     }
     rim.slope = sum.cwiseQuotient(weight);
   }
-}
-
-Vector spread(const TangentMatch& match, const Plane& plane, const Rim& rim, double reach) {
-  Positions flat = Positions::Zero(match.vertices, 3);
-  flat.leftCols<2>() = plane.xy.topRows(match.vertices);
-  std::vector<int> all(rim.edges.rows());
-  std::iota(all.begin(), all.end(), 0);
-  const NearestSurface border(flat, rim.edges, std::move(all));
-  Vector change = Vector::Zero(match.vertices);
-#pragma omp parallel for schedule(static) if (change.size() > kWorthThreads)
-  for (Eigen::Index v = 0; v < change.size(); ++v) {
-    const Vector3 p = flat.row(v);
-    const NearestPoint nearest = border.find(p, reach);
-    if (nearest.triangle < 0) continue;
-    const int a = rim.edges(nearest.triangle, 0), b = rim.edges(nearest.triangle, 1);
-    const Vector3 first = flat.row(a), second = flat.row(b);
-    const double share = (nearest.point - first).norm() / std::max((second - first).norm(), 1e-300);
-    const double slope = (1 - share) * rim.slope(a) + share * rim.slope(b);
-    const double distance = (nearest.point - p).norm();
-    change(v) = -slope * distance * fade(distance / reach);
-  }
-  return change;
 }
 
 Vector3 find_normal(const PlanePositions& xy, const Vector& z, const Triangles& F, Eigen::Index t) {
@@ -210,7 +185,8 @@ Vector match_tangents(const TangentMatch& match, const Vector& move, double reac
   }
   const double steepest = rim.slope.cwiseAbs().maxCoeff();
   const double within = steepest > 0 ? std::min(reach, limit / (kHighest * steepest)) : reach;
-  return spread(match, plane, rim, within);
+  return spread_from_rim(plane.xy.topRows(match.vertices), rim.edges, rim.slope, within,
+                         [&](double distance) { return -distance * fade(distance / within); });
 }
 
 }  // namespace reflines

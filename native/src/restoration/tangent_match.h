@@ -16,6 +16,7 @@ struct TangentMatch {
   Eigen::Index vertices, triangles;
   const std::vector<Border>& border;  // #vertices
   ImagePlane frame;
+  Vector share = {};  // #vertices, or empty for 1: of the turn that is made; a side that moves makes the rest
 };
 
 // Returns what is to be added to the heights of the region's vertices, so that its slopes across the border become

@@ -1,0 +1,72 @@
+"""The automatic press of Smooth for several patches that face each other across gaps: one problem."""
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import native
+from ..model.cage import CagePatch
+from ..model.patch import Patch
+from ..model.solution import Solution
+from ..model.view import View
+from ..native_call import call
+from .automatic_smooth import AutomaticSmooth, build_solution
+from .formulation import choose_formulation
+
+
+def can_join(patch: Patch, settings: AutomaticSmooth) -> bool:
+    """Returns whether a patch takes part in a joint press: it follows its neighbours."""
+    return patch.beside is not None and not isinstance(patch, CagePatch) and not settings.fair_border
+
+
+def show_to_others(patches: Sequence[Patch], settings: AutomaticSmooth) -> list[Patch]:
+    """Returns the patches; those of a joint press have what takes no part in it beside them: they were read without the
+    regions of all that are solved.
+    """
+    others = [(patch.V, patch.F) for patch in patches if not can_join(patch, settings)]
+    return [replace(patch, beside=patch.beside.add_soups(others)) if others and can_join(patch, settings) else patch
+            for patch in patches]
+
+
+@dataclass(frozen=True)
+class KeptJoint:
+    """A native smoother of several patches with what it was built from."""
+    patches: tuple[Patch, ...]
+    views: tuple[View, ...]
+    border: str
+    settings: AutomaticSmooth  # of the first press
+    smoother: "native.JointSmoother"
+
+    def suits(self, patches: Sequence[Patch], views: Sequence[View], border: str, settings: AutomaticSmooth) -> bool:
+        """Returns whether the smoother serves these patches, views, border and settings."""
+        amount = {"strength": self.settings.strength, "limit": self.settings.limit}
+        return (self.border == border and self.settings == replace(settings, **amount)
+                and len(self.patches) == len(patches)
+                and all(own.same(other) and own.name == other.name
+                        for own, other in zip(self.patches, patches, strict=True))
+                and all(np.array_equal(own.view_direction, other.view_direction)
+                        and np.array_equal(own.line_direction, other.line_direction)
+                        for own, other in zip(self.views, views, strict=True)))
+
+
+async def build_joint(patches: Sequence[Patch], views: Sequence[View], border: str,
+                      settings: AutomaticSmooth) -> KeptJoint:
+    """Builds the native smoother of patches; raises the native module's errors."""
+    panels = [choose_formulation(patch, seen).build_joint_panel(border, settings.choose_flaws(patch))
+              for patch, seen in zip(patches, views, strict=True)]
+    smoother = await call(native.reflines.JointSmoother.create, panels)
+    return KeptJoint(tuple(patches), tuple(views), border, settings, smoother)
+
+
+async def press_joint(kept: KeptJoint, settings: AutomaticSmooth,
+                      progress: "native.Progress | None" = None) -> list[Solution]:
+    """Presses all patches once; raises the native module's errors. The time told is that of all."""
+    begin = time.perf_counter()
+    formulations = [choose_formulation(patch, seen) for patch, seen in zip(kept.patches, kept.views, strict=True)]
+    count = len(formulations)
+    results = await call(kept.smoother.press, strengths=[settings.strength] * count, limits=[settings.limit] * count,
+                         limit_shares=[formulation.choose_share() for formulation in formulations], progress=progress)
+    seconds = time.perf_counter() - begin
+    return [build_solution(formulation, positions, told, settings, seconds)
+            for formulation, (positions, told) in zip(formulations, results, strict=True)]

@@ -1,0 +1,261 @@
+#include "restoration/joint_side.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "geometry/bounding_box.h"
+#include "geometry/mesh.h"
+#include "restoration/followed_border.h"
+#include "restoration/held_border.h"
+#include "restoration/joined_options.h"
+#include "restoration/press_messages.h"
+#include "restoration/press_setup.h"
+#include "restoration/region_result.h"
+#include "restoration/rim_spread.h"
+#include "solver/mirror_coupling.h"
+
+namespace reflines {
+namespace {
+
+// The factor by which flaws of a panel may be longer than when it is pressed alone. A dent across a gap is as wide for
+// the panel that cuts it as for the uncut one: of dents across the gaps of three panels 0.6 are left with 1, 0.1 with
+// 1.5 and 2; and the longer flaws are the more of the design is taken for them.
+constexpr double kMostWidened = 1.5;
+
+constexpr double kWhole = std::numeric_limits<double>::infinity();
+
+// Returns the edges of the border as triangles without area: first, second, second.
+Triangles find_rim_edges(const Triangles& F) {
+  const Triangles neighbors = edge_neighbors(F);
+  std::vector<Eigen::RowVector3i> edges;
+  for (Eigen::Index t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (neighbors(t, i) < 0) edges.emplace_back(F(t, (i + 1) % 3), F(t, (i + 2) % 3), F(t, (i + 2) % 3));
+    }
+  }
+  Triangles result(static_cast<Eigen::Index>(edges.size()), 3);
+  for (size_t k = 0; k < edges.size(); ++k) result.row(static_cast<Eigen::Index>(k)) = edges[k];
+  return result;
+}
+
+// Puts two kinds of surroundings of one region with `own` vertices together.
+Surroundings combine(const Surroundings& one, const Surroundings& other, Eigen::Index own) {
+  Surroundings result;
+  result.V.resize(one.V.rows() + other.V.rows(), 3);
+  result.V << one.V, other.V;
+  const auto shift = static_cast<int>(one.V.rows());
+  result.F.resize(one.F.rows() + other.F.rows(), 3);
+  result.F << one.F, other.F.unaryExpr([&](int v) { return v < own ? v : v + shift; });
+  return result;
+}
+
+// Returns a change with the mean of both mirror images for each.
+Vector mirror_alike(const IndexVector& partner, Vector change) {
+  for (int v = 0; v < partner.size(); ++v) {
+    const int other = partner(v);
+    if (other > v) change(v) = change(other) = 0.5 * (change(v) + change(other));
+  }
+  return change;
+}
+
+}  // namespace
+
+JointSide::JointSide(const JointPanel& panel, const PressAmount& amount)
+    : panel_(panel),
+      used_(find_used_vertices(panel.F, static_cast<int>(panel.V.rows()))),
+      V_(panel.V(used_.index, Eigen::all)),
+      F_(used_.F),
+      families_(make_families(panel.view_direction, panel.line_direction, panel.options)),
+      shape_(choose_shape(used_, panel.options, panel.V.rows())),
+      options_(panel.options),
+      gap_(panel.gap.gap > 0 ? panel.gap.gap : kAutomaticGap * bounding_box_diagonal(V_)),
+      joint_(Mask::Constant(V_.rows(), false)),
+      still_(joint_),
+      rim_(find_rim_edges(F_)) {
+  set_restoration_rules(options_, amount, kMeshProximity, shape_);
+  options_.partner = shape_.partner;
+  std::vector<int> all(rim_.rows());
+  std::iota(all.begin(), all.end(), 0);
+  rim_tree_ = std::make_unique<NearestSurface>(V_, rim_, std::move(all));
+}
+
+Eigen::AlignedBox3d JointSide::box() const {
+  return {V_.colwise().minCoeff().transpose(), V_.colwise().maxCoeff().transpose()};
+}
+
+void JointSide::widen_flaws(double diagonal) {
+  joint_options_ = options_;
+  widened_ = std::clamp(diagonal / bounding_box_diagonal(V_), 1.0, kMostWidened);
+  joint_options_.flaw_size *= widened_;
+}
+
+JointSide::Rings JointSide::continue_region(const Positions& V, const Surroundings& around, const Skin& beside,
+                                            double reach) const {
+  const GapOptions options{gap_, reach};
+  GapContinuation found = continue_over_gap(V, F_, around, beside.V, beside.F, options);
+  return {std::move(found.around), std::move(found.followed)};
+}
+
+void JointSide::face(const Skin& others) {
+  if (!follows(shape_.border)) return;
+  Mask wanted(V_.rows());
+  for (Eigen::Index v = 0; v < wanted.size(); ++v) wanted(v) = shape_.border[v] == Border::kFollow;
+  const Rings joint = continue_region(V_, shape_.around, others, panel_.gap.reach);
+  joint_ = joint.followed && wanted;
+  rings_still_ = continue_region(V_, combine(shape_.around, joint.around, V_.rows()),
+                                 {panel_.V_beside, panel_.F_beside}, panel_.gap.reach);
+  still_ = rings_still_.followed && wanted && !joint_;
+  own_ = leave_surroundings(shape_);
+  turned_border_ = own_.border;
+  for (Eigen::Index v = 0; v < wanted.size(); ++v) {
+    if (wanted(v) && !joint_(v) && !still_(v)) own_.border[v] = turned_border_[v] = Border::kClamped;
+    if (joint_(v)) own_.border[v] = Border::kFree;
+  }
+}
+
+ShapeOptions JointSide::clamp_joint() const {
+  ShapeOptions result = shape_;
+  for (Eigen::Index v = 0; v < still_.size(); ++v) {
+    if (!still_(v) && result.border.size() > 0 && result.border[v] == Border::kFollow)
+      result.border[v] = Border::kClamped;
+  }
+  if (still_.any()) result.around = rings_still_.around;
+  return result;
+}
+
+SmoothPanelResult JointSide::press_alone(const PressAmount& amount) {
+  const ShapeOptions shape = clamp_joint();
+  const auto prepare = follows(shape.border) ? prepare_followed_border : prepare_held_border;
+  if (!other_) other_ = prepare(V_, F_, panel_.view_direction, families_, shape, options_);
+  return other_->run(amount);
+}
+
+SmoothPanelResult JointSide::press_clamped(const PressAmount& amount) {
+  SmoothPanelResult result = press_alone(amount);
+  result.report.messages.emplace_back(
+      "The border is only clamped: smoothed across the gap, lines would have become less even.");
+  return result;
+}
+
+void JointSide::begin(const PressAmount& amount) {
+  if (!region_) {
+    region_ = std::make_unique<MeshSurface>(V_, F_, panel_.view_direction, families_, own_);
+    alone_ = std::make_unique<Restoration>(*region_, joint_options_);
+    free_ = region_->optimizer().free();
+    joint_ = joint_ && free_;
+  }
+  alone_->choose(amount);
+  range_ = std::make_unique<ControlRange>(alone_->report().limit, amount.limit_share, V_.rows());
+  move_ = turned_ = Vector::Zero(V_.rows());
+}
+
+Positions JointSide::present() const {
+  if (move_.size() == 0) return V_;
+  return V_ + move_ * axis().transpose();
+}
+
+Skin JointSide::skin() const { return {present(), F_}; }
+
+JoinedMesh JointSide::join(const Positions& V, const Skin& others) const {
+  const Rings rings = continue_region(V, shape_.around, others, widened_ * panel_.gap.reach);
+  return join_surroundings(V, F_, combine(rings.around, rings_still_.around, V.rows()), kWhole);
+}
+
+Turn JointSide::find_turn(const Skin& others, double lengths) const {
+  const Positions V = present();
+  const JoinedMesh joined = join(V, others);
+  Vector share = Vector::Ones(V.rows());
+  share = joint_.select(0.5 * share.array(), share.array());
+  const TangentMatch match{joined, V.rows(), F_.rows(), turned_border_, region_->optimizer().frame(), share};
+  const double reach = lengths * alone_->report().length / widened_;
+  const Vector change = match_tangents(match, Vector::Zero(V.rows()), reach, alone_->report().limit);
+  return {change, reflines::find_turn(match, change)};
+}
+
+void JointSide::add(const Vector& change) {
+  const Vector moved = free_.select(mirror_alike(shape_.partner, change).array(), 0.0);
+  move_ = range_->cut(move_ + moved);
+}
+
+void JointSide::begin_turned(const Vector& change) {
+  move_.setZero();
+  add(change);
+  turned_ = move_;
+}
+
+void JointSide::turn_after(const Vector& change) { add(change); }
+
+// Returns the options of the joined mesh: the others' continuation moves, what stays does.
+ShapeOptions JointSide::choose_joined_shape(const JoinedMesh& joined) const {
+  ShapeOptions result = join_shape(own_, free_, joined, F_.rows(), BesideRegion::kMoves);
+  result.border = own_.border;
+  for (Eigen::Index v = 0; v < joint_.size(); ++v) {
+    if (joint_(v)) result.border[v] = Border::kClamped;  // where a ring of its own is of no use
+  }
+  result.border.resize(joined.V.rows(), Border::kClamped);
+  std::set<std::array<double, 3>> still;
+  for (const auto& p : rings_still_.around.V.rowwise()) still.insert({p.x(), p.y(), p.z()});
+  for (Eigen::Index v = V_.rows(); v < joined.V.rows(); ++v)
+    result.held(v) = still.contains({joined.V(v, 0), joined.V(v, 1), joined.V(v, 2)});
+  return result;
+}
+
+void JointSide::press(const Skin& others, const PressAmount& amount) {
+  JoinedMesh joined = join(present(), others);
+  const bool same = press_ && joined.V.rows() == joined_.V.rows() && joined.V == joined_.V && joined.F == joined_.F;
+  if (!same) {
+    press_.reset();  // it refers to the surface
+    joined_ = std::move(joined);
+    const ShapeOptions shape = choose_joined_shape(joined_);
+    surface_ = std::make_unique<MeshSurface>(joined_.V, joined_.F, panel_.view_direction, families_, shape);
+    press_ =
+        std::make_unique<Restoration>(*surface_, join_options(joint_options_, alone_->report().length, shape.partner));
+  }
+  PressAmount unlimited = {.strength = 1, .limit = kNoLimit, .limit_share = {}, .progress = amount.progress};
+  const Vector found = press_->find_move(unlimited);
+  move_ = turned_ + found.head(V_.rows());
+  beside_ = found.tail(joined_.V.rows() - V_.rows());
+}
+
+void JointSide::even(const Vector& change) {
+  Vector values = Vector::Zero(joined_.V.rows());
+  values.head(V_.rows()) = mirror_alike(shape_.partner, change);
+  const double reach = kReachAfter * alone_->report().length;
+  const Vector spread = spread_from_rim(region_->optimizer().frame().project(joined_.V), rim_, values, reach,
+                                        [&](double distance) { return fade(distance / reach); });
+  move_ += free_.select(spread.head(V_.rows()).array(), 0.0).matrix();
+  limited_ = static_cast<int>(range_->find_beyond(move_).count());
+  beside_ += surface_->optimizer().free().select(spread.array(), 0.0).matrix().tail(beside_.size());
+}
+
+void JointSide::saturate() {
+  move_ = range_->saturate(move_);
+  beside_ = ControlRange(alone_->report().limit, {}, beside_.size()).saturate(beside_);
+}
+
+SmoothPanelResult JointSide::judge(const PressAmount& amount) {
+  Vector move(joined_.V.rows());
+  move << move_ - turned_, beside_;
+  SmoothPanelResult judged = press_->judge(amount.strength * move);
+  if (!judged.report.applied) return judged;
+  judged.report.limited = limited_;
+  if (limited_ > 0) judged.report.messages = describe_result(judged.report);
+  const TangentMatch match{joined_, V_.rows(), F_.rows(), turned_border_, region_->optimizer().frame()};
+  return take_region({judged, V_, *range_, region_->optimizer().region(), alone_->report().limit}, match,
+                     amount.strength * move_, amount.strength * turned_);
+}
+
+RimPlace JointSide::find_rim(const Vector3& point, double within) const {
+  const NearestPoint nearest = rim_tree_->find(point, within);
+  if (nearest.triangle < 0) return {kWhole, -1, -1, 0};
+  const int a = rim_(nearest.triangle, 0), b = rim_(nearest.triangle, 1);
+  const Vector3 first = V_.row(a), second = V_.row(b);
+  const double share = (nearest.point - first).norm() / std::max((second - first).norm(), 1e-300);
+  return {nearest.distance, a, b, share};
+}
+
+}  // namespace reflines

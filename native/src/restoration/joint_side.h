@@ -1,0 +1,118 @@
+// One panel of several that are pressed together, which takes the steps of JointSmoother one by one.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "geometry/nearest_surface.h"
+#include "reflines/joint_smoother.h"
+#include "restoration/control_range.h"
+#include "restoration/controlled_surface.h"
+#include "restoration/joined_mesh.h"
+#include "restoration/press.h"
+#include "restoration/restoration.h"
+#include "restoration/tangent_match.h"
+#include "restoration/used_vertices.h"
+
+namespace reflines {
+
+// Surfaces in space.
+struct Skin {
+  Positions V;
+  Triangles F;
+};
+
+// The place of another side's rim across from a vertex: between the ends of an edge.
+struct RimPlace {
+  double distance;
+  int first, second;
+  double share;  // of the second end
+};
+
+// A change of heights (#V), and by how many degrees, at most, it turns a border.
+struct Turn {
+  Vector change;
+  double degrees = 0;
+};
+
+class JointSide {
+ public:
+  JointSide(const JointPanel& panel, const PressAmount& amount);
+  JointSide(const JointSide&) = delete;  // parts refer to others
+
+  // Finds by the shape at the start where the border faces the others, and where what stays.
+  void face(const Skin& others);
+  bool is_joint() const { return joint_.any(); }  // whether it faces others somewhere
+
+  Eigen::AlignedBox3d box() const;    // at the start
+  void widen_flaws(double diagonal);  // looks for flaws as long as those of a joint panel of this diagonal
+
+  SmoothPanelResult press_alone(const PressAmount& amount);    // as smooth_panel does
+  SmoothPanelResult press_clamped(const PressAmount& amount);  // towards the others
+
+  void begin(const PressAmount& amount);  // the steps: nothing has moved yet
+  Skin skin() const;                      // at present
+
+  // Returns the change that turns the border's tangents towards the others as all are at present: half of the way to
+  // those, and the whole way to what stays. `lengths` is how far from the border it reaches.
+  Turn find_turn(const Skin& others, double lengths) const;
+  void begin_turned(const Vector& change);                    // from the start, instead of begin()
+  void press(const Skin& others, const PressAmount& amount);  // finds the move together with the others' continuation
+  void even(const Vector& change);  // moves the joint rim by this (#V) more, and what is near it by less and less
+  // Makes all moves saturate at their limit, see ControlRange: a solve within it takes minutes beside a dent that goes
+  // on in the others.
+  void saturate();
+  void turn_after(const Vector& change);
+  SmoothPanelResult judge(const PressAmount& amount);
+
+  const Mask& joint() const { return joint_; }           // #V: border vertices that face others and move with them
+  const Vector& move() const { return move_; }           // #V, along axis(), so far
+  bool is_beyond_limit() const { return limited_ > 0; }  // after even()
+  Vector3 axis() const { return region_->optimizer().frame().z(); }
+  Vector3 place(int v) const { return V_.row(v); }  // at the start
+  const IndexVector& partner() const { return shape_.partner; }
+  double gap() const { return gap_; }  // the widest
+
+  // Finds the nearest place of the rim at the start, no further than `within`; the distance is infinite where there is
+  // none.
+  RimPlace find_rim(const Vector3& point, double within) const;
+
+ private:
+  struct Rings {
+    Surroundings around;
+    Mask followed;  // #V
+  };
+  Rings continue_region(const Positions& V, const Surroundings& around, const Skin& beside, double reach) const;
+  JoinedMesh join(const Positions& V, const Skin& others) const;
+  ShapeOptions choose_joined_shape(const JoinedMesh& joined) const;
+  ShapeOptions clamp_joint() const;
+  Positions present() const;  // #V x 3
+  void add(const Vector& change);
+
+  const JointPanel& panel_;
+  UsedVertices used_;  // in the panel; the other numbers are of these
+  Positions V_;
+  Triangles F_;
+  std::vector<Vector3> families_;
+  ShapeOptions shape_, own_;  // own_: the region alone, its joint rim free
+  SmoothPanelOptions options_, joint_options_;
+  double gap_ = 0, widened_ = 1;  // see widen_flaws
+  Mask joint_, still_;            // #V: border vertices that follow the others, and what stays
+  Rings rings_still_;             // of what stays, at the start
+  Triangles rim_;                 // edges of the border: first, second, second
+  std::unique_ptr<NearestSurface> rim_tree_;
+  std::vector<Border> turned_border_;  // #V: kFollow where it is turned
+  std::unique_ptr<MeshSurface> region_;
+  std::unique_ptr<Restoration> alone_;  // tells length and limit
+  Mask free_;                           // #V
+  std::unique_ptr<ControlRange> range_;
+  Vector move_, turned_, beside_;  // #V, #V, #vertices beside: moves of the region, of it before press(), and beside it
+  int limited_ = 0;                // vertices whose move is beyond the limit
+  JoinedMesh joined_;              // at press()
+  std::unique_ptr<MeshSurface> surface_;
+  std::unique_ptr<Restoration> press_;
+  std::unique_ptr<Press> other_;  // alone or clamped
+};
+
+}  // namespace reflines
