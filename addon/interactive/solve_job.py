@@ -1,5 +1,7 @@
 """The solves of a drag or a live warp in the background: numpy and the native module only.
 
+The automatic press of Smooth is dragged by its kept smoother, which needs neither of the optimizers below.
+
 Every patch has two optimizers. The first keeps the heights of the start: targets are built from its lines. The second
 follows the mouse, warm-started from its last solution, which takes a few back substitutions instead of a factorization.
 The final result is solved by the first from the start, so it does not depend on the path of the mouse.
@@ -11,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
-from ..model.gain import Gain
+from ..model.gain import Gain, Healed, join_healed
 from ..model.line_surface import LineState
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -25,7 +27,7 @@ from ..solver.limited_solve import choose_limit, clip_to_shares, scale_to_limit
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
 from ..state import optimizer_cache, press_cache
 
-# Seconds. The gain that takes longer to measure is measured when the mouse rests, so that the panel follows at once.
+# Seconds. A gain that takes longer to measure is measured when the mouse rests, so that the panel follows at once.
 MEASURE_BUDGET = 0.03
 
 
@@ -40,7 +42,7 @@ class SolveRequest:
     settings: tuple[SolveSettings, ...]
     final: bool = False    # whether the result is kept, so solved from the start
     measure: bool = False  # only the gain of the last solution is wanted
-    press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds
+    press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds, also while it is dragged
     lines: bool = False    # whether the outcome has the lines, instead of the gain
     follows: tuple[Follow, ...] = ()  # ways to follow each patch's target; empty: by solves alone
 
@@ -52,7 +54,7 @@ class SolveOutcome:
     positions: tuple[np.ndarray, ...] = ()  # #V x 3 of each panel, world space
     solutions: tuple[Solution, ...] = ()    # results of a final request
     refusal: str = ""                       # why there are none, as a sentence
-    gain: Gain | None = None                # of all panels together, where it was measured
+    gain: "Gain | Healed | None" = None     # of all panels together, where it was measured
     lines: tuple[LineState, ...] = ()       # of each panel, where they are wanted
 
 
@@ -67,13 +69,14 @@ class SolveJob:
         self.progress = native.reflines.Progress()
         self.stage = "Preparing"
         self.cancelled = False
+        self.pressed = False  # whether a press has found the flaws
         self.measure_seconds = 0.0  # of the last measurement
         self.start_lines: tuple[LineState, ...] = ()  # once a request has wanted lines
 
     @property
     def ready(self) -> bool:
-        """True once all optimizers are built."""
-        return len(self.followers) == len(self.patches)
+        """True once all is built that the values can be changed with."""
+        return self.pressed or len(self.followers) == len(self.patches)
 
     def describe_stage(self) -> str:
         """Describes the present stage and its progress for the status bar."""
@@ -115,11 +118,28 @@ class SolveJob:
                     self.followers.append(follower.optimizer)
 
     async def press(self, request: SolveRequest) -> SolveOutcome:
-        """Presses Smooth on every patch, which needs no optimizer of the job's own."""
+        """Presses Smooth on every patch. A drag shows the positions before they are measured."""
         self.stage = "Smoothing"
-        solutions = [await press_cache.smooth_with_cache(patch, seen, self.border, request.press, self.progress)
-                     for patch, seen in zip(self.patches, self.views, strict=True)]
-        return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
+        if request.final:
+            solutions = await self.press_and_measure(request)
+            return SolveOutcome(request, tuple(solution.positions for solution in solutions), solutions)
+        previews = [await press_cache.preview_with_cache(patch, seen, self.border, request.press, self.progress)
+                    for patch, seen in zip(self.patches, self.views, strict=True)]
+        self.pressed = True
+        shown = SolveOutcome(request, tuple(preview.positions for preview in previews),
+                             refusal=" ".join(filter(None, (preview.refusal for preview in previews))))
+        if shown.refusal or self.measure_seconds >= MEASURE_BUDGET and not request.measure:
+            return shown
+        begin = time.perf_counter()
+        solutions = await self.press_and_measure(request)
+        self.measure_seconds = time.perf_counter() - begin
+        refused = [solution.report.message for solution in solutions if solution.report.termination == "not_applied"]
+        return SolveOutcome(request, tuple(solution.positions for solution in solutions), refusal=" ".join(refused),
+                            gain=join_healed([solution.healed for solution in solutions]))
+
+    async def press_and_measure(self, request: SolveRequest) -> tuple[Solution, ...]:
+        return tuple([await press_cache.smooth_with_cache(patch, seen, self.border, request.press, self.progress)
+                      for patch, seen in zip(self.patches, self.views, strict=True)])
 
     async def follow(self, request: SolveRequest) -> SolveOutcome:
         """Solves warm-started from the last solution, to the targets' tolerance."""

@@ -45,6 +45,10 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         layout.prop(self, "lights")
         automatic_values.draw_plain_value(layout, self, "limit")
 
+    def choose_automatic(self, name: str, patch: Patch) -> float:
+        """Returns the value that 0 stands for; of the length in the automatic press a multiple."""
+        return super().choose_automatic(name, patch) * (self.flaw_size if name == "length" else 1.0)
+
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines
 
@@ -53,7 +57,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
 
     def build_target(self, _context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         length = self.filter_length = solve.choose_length(patch, self.length)
-        if self.follow_mouse and not self.length:
+        if self.follow_mouse and not self.length and self.directional:
             self.length = length  # a drag smooths by the length that it shows; the redo panel and Re-solve repeat that
         return partial(smooth.build_smooth_target, settings=Smooth(length, self.strength, self.directional))
 

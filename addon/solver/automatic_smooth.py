@@ -63,6 +63,23 @@ async def build_press(patch: Patch, seen: View, border: str, settings: Automatic
     return KeptPress(patch, seen, border, settings, smoother)
 
 
+@dataclass(frozen=True)
+class Preview:
+    """What a press will do, as a drag shows it: nothing is measured yet."""
+    positions: np.ndarray  # #V x 3, world space
+    refusal: str = ""      # why nothing was moved
+
+
+async def preview_press(kept: KeptPress, settings: AutomaticSmooth,
+                        progress: "native.Progress | None" = None) -> Preview:
+    """Presses without measuring the result; raises the native module's errors."""
+    formulation = choose_formulation(kept.patch, kept.view)
+    positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
+                                 limit_share=formulation.choose_share(), progress=progress, judged=False)
+    live_optimizer.refuse_closed(kept.patch.name, int(kept.patch.faces.sum()), told.region.closed)
+    return Preview(formulation.read_pressed(positions), "" if told.applied else told.messages[0])
+
+
 async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
                       progress: "native.Progress | None" = None) -> Solution:
     """Presses once; raises the native module's errors. `progress` lets the caller watch and cancel.

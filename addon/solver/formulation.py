@@ -190,9 +190,13 @@ class Formulation:
             **await self.choose_press_edges(self.patch.V, self.patch.F, border, fair=fair),
             face_of_triangle=self.patch.face_of_triangle, **settings)
 
+    def read_pressed(self, positions: np.ndarray) -> np.ndarray:
+        """Returns the patch's positions (#V x 3) from those that the native smoother returns."""
+        return positions
+
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
         """Converts what the native smoother returns to arrays of the patch."""
-        return Press(positions, told.stray, told)
+        return Press(self.read_pressed(positions), told.stray, told)
 
 
 class SymmetricFormulation(Formulation):
@@ -291,8 +295,11 @@ class JoinedFormulation(Formulation):
             face_of_triangle=np.tile(self.patch.face_of_triangle, 2),
             **settings)
 
+    def read_pressed(self, positions: np.ndarray) -> np.ndarray:
+        return self.read_own_half(positions)
+
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
-        return Press(self.read_own_half(positions), told.stray[:len(self.patch.F)], told)
+        return Press(self.read_pressed(positions), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         sign = mirror.compute_theta_sign(self.patch.mirror, self.patch.matrix, self.view.line_direction)
@@ -400,9 +407,12 @@ class CageFormulation(Formulation):
             native.reflines.PanelSmoother.create_for_cage, **arguments, **self.choose_press_directions(),
             border=self.choose_border(border), **settings)
 
+    def read_pressed(self, positions: np.ndarray) -> np.ndarray:
+        return self.patch.V + (positions - self.patch.cage.V)[self.patch.index]
+
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
-        return Press(self.patch.V + (positions - self.patch.cage.V)[self.patch.index],
-                     self.spread_to_triangles(told.stray), told, told.largest_control_move)
+        return Press(self.read_pressed(positions), self.spread_to_triangles(told.stray), told,
+                     told.largest_control_move)
 
 
 def choose_formulation(patch: Patch, view: View) -> Formulation:

@@ -13,16 +13,15 @@ from .formulation import choose_formulation
 from .limited_solve import choose_limit, solve_within_limit
 from .live_optimizer import BuildTarget, LiveOptimizer
 
-AUTOMATIC_LENGTH = 1.0 / 6.0  # relative to the patch's diagonal
 SMALL_SHARE = 0.2  # reached fraction of a target below which a solve explains why
 SMALL_CHANGE = 0.01  # wanted change, relative to the lines' gradient, below which nothing is explained
 MOST_HOLDS = 3  # times that faces are held and the rest is solved again
 
 
 def choose_length(patch: Patch, length: float) -> float:
-    """Returns the length below which detail counts as a deviation: the given one, or for 0 a fraction of the diagonal.
+    """Returns the length below which detail counts as a deviation: the given one, or for 0 that of the automatic press.
     """
-    return length or AUTOMATIC_LENGTH * patch.diagonal
+    return length or native.reflines.AUTOMATIC_LENGTH * patch.diagonal
 
 
 def compute_vertex_values(solution: LastSolve) -> dict[str, np.ndarray]:

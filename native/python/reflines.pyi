@@ -252,8 +252,11 @@ class PanelSmoother:
                         lights: Literal["crossed", "single"] = "crossed", length: float | None = None,
                         flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother: ...
     def press(self, *, strength: float = 1.0, limit: float | None = None, limit_share: np.ndarray | None = None,
-              progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
-        """Presses the panel as it was given: returns what smooth_panel returns, bit for bit, whatever was pressed before."""
+              progress: Progress | None = None, judged: bool = True) -> tuple[np.ndarray, SmoothPanelReport]:
+        """Presses the panel as it was given: returns what smooth_panel returns, bit for bit, whatever was pressed before.
+
+        Not `judged`, the report has no measures of the result, and a light that became worse refuses nothing: for what a
+        drag shows, at a tenth of the work where the strength alone has changed."""
 
 def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                  border: Border | np.ndarray = "clamped",           # or #V codes: 0 free, 1 fixed, 2 clamped, 3 curvature,

@@ -94,8 +94,9 @@ py::object convert_result(SmoothPanelResult result) {
 }
 
 py::object press(PanelSmoother& smoother, double strength, const std::optional<double>& limit,
-                 const Shares& limit_share, std::shared_ptr<Progress> progress) {
-  const PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
+                 const Shares& limit_share, std::shared_ptr<Progress> progress, bool judged) {
+  PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
+  amount.judged = judged;
   check_single_call();
   const auto exclusive_use = std::make_shared<const ExclusiveUse>(smoother, ExclusiveUse::Use::kChanges);
   return run_native([exclusive_use, &smoother, amount] { return smoother.press(amount); }, convert_result);
@@ -191,7 +192,9 @@ void bind_smooth_panel(py::module_& module) {
         [&](const auto&... all) { module.def("smooth_cage_panel", press_once(&prepare_cage_smoother), all...); },
         own...);
   });
-  define_press([&](const auto&... all) { smoother.def("press", &press, py::kw_only(), all...); });
+  define_press([&](const auto&... all) {
+    smoother.def("press", &press, py::kw_only(), all..., py::arg("judged") = whole.judged);
+  });
 }
 
 }  // namespace reflines

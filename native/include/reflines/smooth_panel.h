@@ -16,7 +16,9 @@ namespace reflines {
 
 // Length of flaws relative to the diagonal. Of 1/8, 1/10, 1/12, 1/14 and 1/16 the shorter ones harm clean panels less
 // (0.26 to 0.17 degrees in the median) and ripples and noise go as well; dents are wider, and are looked for by
-// themselves.
+// themselves. All that is finer than a given length goes, design too: with two families of the lines of eleven real
+// panels smoothed by 1/6 and by 1/14 of the diagonal, their design is harmed by 4.1 and 2.8 degrees in the median, and
+// 3.1 and 2.4 of the error of dents are left, 4.2 and 3.0 of ripples, 1.5 and 1.2 of noise. So that is this length, too.
 inline constexpr double kAutomaticLength = 1.0 / 14.0;
 
 // Limit relative to the length: dents of 6 per mille of the length are taken out whole, and no design is moved by more

@@ -89,7 +89,9 @@ class FollowedBorderPress : public Press {
         joined_shape_(join_followed(own, free_, joined_, F.rows())),
         joined_options_(join_options(options, alone_.report().length, joined_shape_.partner)) {}
 
-  SmoothPanelResult run(const PressAmount& amount) override {
+  SmoothPanelResult run(const PressAmount& wanted) override {
+    PressAmount amount = wanted;
+    amount.judged = true;  // the measures choose between the borders
     alone_.choose(amount);
     const double limit = alone_.report().limit;
     const ControlRange range(limit, amount.limit_share, V_.rows());

@@ -106,7 +106,10 @@ class HeldBorderPress : public Press {
   }
 
   SmoothPanelResult run(const PressAmount& amount) override {
-    return clamped_press_ ? press_both(press_, *clamped_press_, amount) : press_.run(amount);
+    if (!clamped_press_) return press_.run(amount);
+    PressAmount judged = amount;  // the measures choose between both
+    judged.judged = true;
+    return press_both(press_, *clamped_press_, judged);
   }
 
  private:

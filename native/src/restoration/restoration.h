@@ -73,6 +73,8 @@ class Restoration {
   const Unevenness& measure_start();
   bool has_longer_waves();
   double weigh_gain();
+  void measure_result(const Vector& end);
+  SmoothPanelResult apply(const Vector& move);
   SmoothPanelResult refuse(const std::string& reason);
 
   ControlledSurface& surface_;
