@@ -213,7 +213,9 @@ class Drag:
     def describe_gain(self, context: bpy.types.Context) -> str:
         """Says what the drag has gained so far; the move alone while the gain is not measured."""
         moved = f"oved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
-        return f"{self.gain.describe_shortly(smoothed=self.tool.smooths)}, m{moved}" if self.gain is not None else f"M{moved}"
+        if self.gain is None:
+            return f"M{moved}"
+        return f"{self.gain.describe_shortly(smoothed=self.tool.smooths)}, m{moved}"
 
     def end(self, context: bpy.types.Context) -> None:
         """Restores header, status bar and timer; the work ends after its native call."""

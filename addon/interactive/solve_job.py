@@ -23,7 +23,7 @@ from ..native_call import call
 from ..solver import live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.formulation import choose_formulation
-from ..solver.limited_solve import choose_limit, clip_to_shares, scale_to_limit
+from ..solver.limited_solve import choose_limit, clip_to_shares
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
 from ..state import optimizer_cache, press_cache
 
@@ -42,7 +42,7 @@ class SolveRequest:
     settings: tuple[SolveSettings, ...]
     final: bool = False    # whether the result is kept, so solved from the start
     measure: bool = False  # only the gain of the last solution is wanted
-    press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds, also while it is dragged
+    press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds, also in a drag
     lines: bool = False    # whether the outcome has the lines, instead of the gain
     follows: tuple[Follow, ...] = ()  # ways to follow each patch's target; empty: by solves alone
 
@@ -168,10 +168,7 @@ class SolveJob:
         follow = request.follows[which]
         if not await follow(start.optimizer, follower, keep_crossed=settings.build_crossed is not None):
             return False
-        limit = choose_limit(start.patch, settings)
-        largest = float(np.abs(follower.heights - start.optimizer.heights).max())
-        if largest > limit:
-            scale_to_limit(follower, largest, limit)
+        follower.keep_within(choose_limit(start.patch, settings))
         return True
 
     async def read_lines(self) -> tuple[LineState, ...]:
@@ -188,10 +185,8 @@ class SolveJob:
     async def follow_targets(self, start: LiveOptimizer, follower: "native.ShapeOptimizer", wanted: JointTargets,
                              limit: float) -> None:
         """Solves warm-started. Beyond the limit all moves are scaled at once; the final solve takes its time."""
-        report = await call(follower.solve, wanted.targets, gradient_tolerance=wanted.follow_tolerance,
-                            progress=self.progress)
-        if report.largest_move > limit:
-            scale_to_limit(follower, report.largest_move, limit)
+        await call(follower.solve, wanted.targets, gradient_tolerance=wanted.follow_tolerance, progress=self.progress)
+        follower.keep_within(limit)
 
     async def measure(self, request: SolveRequest) -> Gain:
         """Measures the present heights against those of the start, by the numbers that the result will be told by."""

@@ -12,6 +12,7 @@ from ..model.view import View
 from ..native_call import call
 from . import live_optimizer, remarks
 from .formulation import Formulation, choose_formulation
+from .native_notes import word_note, word_notes
 
 MOST_NOTES = 2
 REACH_MARGIN = 1.05  # of what the native press takes in: its diagonal is that of the faces that it can use
@@ -65,7 +66,7 @@ async def build_press(patch: Patch, seen: View, border: str, settings: Automatic
 
 @dataclass(frozen=True)
 class Preview:
-    """What a press will do, as a drag shows it: nothing is measured yet."""
+    """The result of a press as a drag shows it: nothing is measured yet."""
     positions: np.ndarray  # #V x 3, world space
     refusal: str = ""      # why nothing was moved
 
@@ -77,7 +78,7 @@ async def preview_press(kept: KeptPress, settings: AutomaticSmooth,
     positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
                                  limit_share=formulation.choose_share(), progress=progress, judged=False)
     live_optimizer.refuse_closed(kept.patch.name, int(kept.patch.faces.sum()), told.region.closed)
-    return Preview(formulation.read_pressed(positions), "" if told.applied else told.messages[0])
+    return Preview(formulation.read_pressed(positions), "" if told.applied else word_note(told.notes[0]))
 
 
 async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
@@ -102,20 +103,20 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
     return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *shifts,
                     choose_notes(formulation, told), told.length, automatic_limit=0.0 if settings.limit else told.limit,
                     cage_move=press.cage_move, turn_before=turns[0], turn_after=turns[1],
-                    kept=(*remarks.describe_marked_creases(patch), *told.region.messages),
+                    kept=(*remarks.describe_marked_creases(patch), *word_notes(told.region.notes)),
                     healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after),
                     longer_waves=told.longer_waves)
 
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:
     termination = told.solve.termination if told.applied else "not_applied"
-    message = told.solve.message if told.applied else told.messages[0]
+    message = told.solve.message if told.applied else word_note(told.notes[0])
     move, limited = (told.largest_move, told.limited) if told.applied else (0.0, 0)
     return SolveReport(termination, message, told.solve.iterations, seconds, told.solve.unknowns, move, limited)
 
 
 def choose_notes(formulation: Formulation, told: "native.SmoothPanelReport") -> tuple[str, ...]:
-    """Returns the most important sentences."""
-    told_of_limit = told.applied and told.limited > 0  # by the first sentence; the headline of the result has it too
+    """Returns the most important sentences. That the limit holds vertices back stands in the headline of the result."""
+    notes = [note for note in told.notes if note.kind != "limited"]
     lopsided = () if told.mirrored else remarks.describe_mirror(formulation)
-    return (*told.messages[told_of_limit:], *lopsided)[:MOST_NOTES]
+    return (*word_notes(notes), *lopsided)[:MOST_NOTES]

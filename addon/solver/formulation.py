@@ -131,14 +131,11 @@ class Formulation:
         held = np.full(len(V), CODES[codes]) if isinstance(codes, str) else codes
         return {"border": np.where(follows, CODES["follow"], held), "around": (found.V, found.F)}
 
-    async def build(self, border: str, progress: "native.Progress | None", *,
-                    sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
-        """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely, and `held` (#V, bool) are
-        vertices that stay whatever the border says.
-        """
+    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.ShapeOptimizer":
+        """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely."""
         return await call(
             native.reflines.ShapeOptimizer.create, self.patch.V, self.patch.F, **self.choose_directions(),
-            progress=progress, **self.choose_edges(border), fixed=held, partner=self.partner,
+            progress=progress, **self.choose_edges(border), partner=self.partner,
             face_of_triangle=self.patch.face_of_triangle, **self.patch.creases.build_arguments())
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -169,9 +166,9 @@ class Formulation:
         """Returns the target for all that is solved, from one that was built for it."""
         return wanted
 
-    def read_residual(self, optimizer: "native.ShapeOptimizer", target: "native.Target") -> np.ndarray:
-        """Reads the residual of the patch's triangles: #F."""
-        return optimizer.residual(target)[:len(self.patch.F)]
+    def read_residual(self, _optimizer: "native.ShapeOptimizer", residual: np.ndarray) -> np.ndarray:
+        """Returns the residual of the patch's triangles (#F) from that of all that is solved."""
+        return residual[:len(self.patch.F)]
 
     def hold_marked_creases(self) -> np.ndarray:
         """Returns which vertices the automatic press of Smooth holds: #V, bool. The automatic rule would take noise for
@@ -265,13 +262,11 @@ class JoinedFormulation(Formulation):
         local = (places - matrix[:3, 3]) @ np.linalg.inv(matrix[:3, :3]).T
         return self.patch.to_world(local * self.patch.mirror.sign)
 
-    async def build(self, border: str, progress: "native.Progress | None", *,
-                    sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
+    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.ShapeOptimizer":
         V, F, partner = self.join()
-        fixed = None if held is None else np.append(held, held[partner[len(held):]])
         return await call(
             native.reflines.ShapeOptimizer.create, V, F, **self.choose_directions(), progress=progress,
-            **self.choose_edges(border), fixed=fixed, partner=partner,
+            **self.choose_edges(border), partner=partner,
             face_of_triangle=np.tile(self.patch.face_of_triangle, 2), **self.patch.creases.build_arguments(partner))
 
     async def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
@@ -351,16 +346,11 @@ class CageFormulation(Formulation):
                                  vertices=len(values))
         return subdivision.positions(values)[optimizer.refined]
 
-    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool,
-                    held: np.ndarray | None = None) -> "native.CageOptimizer":
-        fixed = None
-        if held is not None:
-            fixed = np.zeros(len(self.patch.cage.V), dtype=bool)
-            fixed[self.patch.index] = held
+    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.CageOptimizer":
         return await call(
             native.reflines.CageOptimizer.create, **self.patch.cage.build_arguments(self.is_symmetric),
-            **self.choose_directions(), progress=progress, border=self.choose_border(border), fixed=fixed,
-            sparse=sparse, **self.patch.creases.build_cage_arguments())
+            **self.choose_directions(), progress=progress, border=self.choose_border(border), sparse=sparse,
+            **self.patch.creases.build_cage_arguments())
 
     def read_triangles(self, optimizer: "native.CageOptimizer") -> np.ndarray:
         return optimizer.triangles
@@ -385,9 +375,9 @@ class CageFormulation(Formulation):
     def measure_cage_move(self, optimizer: "native.CageOptimizer") -> float:
         return float(np.linalg.norm(optimizer.cage_positions - self.patch.cage.V, axis=1).max())
 
-    def read_residual(self, optimizer: "native.ShapeOptimizer", target: "native.Target") -> np.ndarray:
-        """Reads the root mean square over the surface of each face, for all triangles of that face: #F."""
-        residual, faces = optimizer.residual(target), len(self.patch.cage.sizes)
+    def read_residual(self, optimizer: "native.ShapeOptimizer", residual: np.ndarray) -> np.ndarray:
+        """Returns the root mean square over the surface of each face, for all triangles of that face: #F."""
+        faces = len(self.patch.cage.sizes)
         squared, area = (np.bincount(optimizer.parent, values, faces)
                          for values in (optimizer.area * residual**2, optimizer.area))
         return self.spread_to_triangles(np.sqrt(squared / np.maximum(area, 1e-300)))

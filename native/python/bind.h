@@ -15,6 +15,7 @@ void bind_builders(pybind11::module_& module);
 void bind_line_handles(pybind11::module_& module);
 void bind_report(pybind11::module_& module);
 void bind_smooth_panel(pybind11::module_& module);
+void bind_solve_panel(pybind11::module_& module);
 void bind_check_panel(pybind11::module_& module);
 void bind_inspect_panel(pybind11::module_& module);
 void bind_gap_continuation(pybind11::module_& module);

@@ -144,7 +144,7 @@ void bind_press_report(py::module_& module) {
       .def_readonly("stray", &Told::stray)
       .def_readonly("region", &Told::region)
       .def_readonly("applied", &Told::applied)
-      .def_readonly("messages", &Told::messages);
+      .def_readonly("notes", &Told::notes);
 }
 
 }  // namespace
@@ -154,7 +154,6 @@ void bind_smooth_panel(py::module_& module) {
   module.attr("AUTOMATIC_LENGTH") = kAutomaticLength;
   module.attr("AUTOMATIC_LIMIT") = kAutomaticLimit;
   module.attr("FAIR_REACH") = kFairReach;
-  module.attr("MOST_BOUNDED") = kMostBounded;
   py::class_<PanelSmoother> smoother(module, "PanelSmoother", py::module_local());
   const SmoothPanelOptions defaults;
   const PressAmount whole;

@@ -1,7 +1,6 @@
 #include "restoration/followed_border.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -10,7 +9,7 @@
 #include "restoration/held_border.h"
 #include "restoration/joined_mesh.h"
 #include "restoration/joined_options.h"
-#include "restoration/press_messages.h"
+#include "restoration/press_notes.h"
 #include "restoration/restoration.h"
 #include "restoration/tangent_match.h"
 
@@ -142,20 +141,16 @@ class FollowedBorderPress : public Press {
     report.region = region_.optimizer().region();
     report.limit = alone_.report().limit;
     report.largest_move = report.largest_control_move = move.cwiseAbs().maxCoeff();
-    if (!turned.isZero(0)) report.messages = describe_result(report);
+    if (!turned.isZero(0)) report.notes = tell_result(report);
     const double angle = find_turn(match_, turned);
-    if (angle < kToldTurn) return result;
-    char text[96];
-    std::snprintf(text, sizeof text, "The border was turned by up to %.2g degrees to follow its neighbours.", angle);
-    report.messages.emplace_back(text);
+    if (angle >= kToldTurn) report.notes.push_back({.kind = NoteKind::kBorderTurned, .after = angle});
     return result;
   }
 
   SmoothPanelResult press_clamped(const PressAmount& amount) {
     if (!clamped_) clamped_ = prepare_held_border(V_, F_, view_, families_, clamp_instead(own_), options_);
     SmoothPanelResult result = clamped_->run(amount);
-    result.report.messages.emplace_back(
-        "The border is only clamped: following its neighbours, lines would have become less even.");
+    result.report.notes.push_back({NoteKind::kFollowingWorsens});
     return result;
   }
 

@@ -1,16 +1,15 @@
 #include "restoration/restoration.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "geometry/bounding_box.h"
 #include "reflines/errors.h"
 #include "restoration/healed_flaws.h"
 #include "restoration/line_fields.h"
-#include "restoration/press_messages.h"
+#include "restoration/press_notes.h"
 #include "restoration/smoothstep.h"
-#include "restoration/turned_faces.h"
+#include "solver/turned_faces.h"
 
 namespace reflines {
 namespace {
@@ -239,10 +238,10 @@ void Restoration::measure_result(const Vector& end) {
 
 SmoothPanelResult Restoration::judge(const Vector& move) {
   if (amount_.judged) measure_result(start_ + surface_.surface_move(move));
-  if (turns_faces(move)) return refuse(explain_turned_faces());
+  if (turns_faces(move)) return refuse({NoteKind::kFacesWouldTurn});
   for (size_t k = 0; k < report_.unevenness_after.size(); ++k) {
     const double before = report_.unevenness_before[k], after = report_.unevenness_after[k];
-    if (after > kWorse * before) return refuse(explain_worse_light(before, after));
+    if (after > kWorse * before) return refuse({NoteKind::kLightWouldWorsen, 0, before, after});
   }
   return apply(move);
 }
@@ -251,18 +250,17 @@ SmoothPanelResult Restoration::apply(const Vector& move) {
   report_.largest_move = surface_.surface_move(move).cwiseAbs().maxCoeff();
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
   if (amount_.judged && options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = has_longer_waves();
-  report_.messages = amount_.strength > 0 || report_.limited > 0
-                         ? describe_result(report_)
-                         : std::vector<std::string>{"The strength is 0: nothing was changed."};
+  report_.notes =
+      amount_.strength > 0 || report_.limited > 0 ? tell_result(report_) : std::vector<Note>{{NoteKind::kNoStrength}};
   report_.work = take_work();
   return {range_.apply(surface_.control_positions(), axis_, move), report_};
 }
 
-SmoothPanelResult Restoration::refuse(const std::string& reason) {
+SmoothPanelResult Restoration::refuse(const Note& reason) {
   report_.applied = false;
   if (amount_.judged) report_.stray = measure_start().stray;
   report_.healed = {.worst_before = report_.healed.worst_before, .worst_after = report_.healed.worst_before};
-  report_.messages.push_back(reason);
+  report_.notes.push_back(reason);
   report_.work = take_work();
   return {surface_.control_positions(), report_};
 }

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "geometry/height_field.h"
@@ -75,7 +74,7 @@ class Restoration {
   double weigh_gain();
   void measure_result(const Vector& end);
   SmoothPanelResult apply(const Vector& move);
-  SmoothPanelResult refuse(const std::string& reason);
+  SmoothPanelResult refuse(const Note& reason);
 
   ControlledSurface& surface_;
   const SmoothPanelOptions options_;
