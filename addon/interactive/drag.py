@@ -27,7 +27,7 @@ from .drag_handles import DragValues, Handle
 from .solve_job import SolveJob, SolveOutcome, SolveRequest
 
 TICK_INTERVAL = 0.01  # seconds between two checks for the work's results
-REST = 0.4  # seconds without a change of the values after which a gain is measured that takes long
+REST = 0.4  # seconds without a change of values or mesh after which a gain is measured that takes long
 SAYS_BUSY = 0.3  # seconds of solving after which the status bar shows the stage
 
 
@@ -70,7 +70,7 @@ class Drag:
         self.work.submit(self.request)
         self.keeping, self.busy_since, self.problem, self.texts = final, time.monotonic(), "", ("", "")
         self.moved = False  # whether values changed since the last request
-        self.moved_at = 0.0  # when they did last, in the seconds of time.monotonic
+        self.changed_at = 0.0  # when values or mesh changed last, in the seconds of time.monotonic
         self.largest_move = 0.0  # of the shown positions from the start, world units
         self.gain: Gain | Healed | None = None  # of the shown positions, where it was measured
         self.unmeasured = False  # whether the gain of the shown positions is still to be measured
@@ -153,11 +153,11 @@ class Drag:
 
     def note_move(self) -> None:
         """Notes that values have changed, which the next tick solves for."""
-        self.moved, self.moved_at = True, time.monotonic()
+        self.moved, self.changed_at = True, time.monotonic()
 
     def is_to_measure(self) -> bool:
         """Returns whether what is shown is to be measured now: the panel would not follow meanwhile."""
-        return self.unmeasured and self.work.is_idle() and time.monotonic() - self.moved_at >= REST
+        return self.unmeasured and self.work.is_idle() and time.monotonic() - self.changed_at >= REST
 
     def submit_measurement(self) -> None:
         """Submits the request for the gain of what is shown."""
@@ -172,6 +172,7 @@ class Drag:
                                 for patch, wanted in zip(self.patches, positions, strict=True))
         new = [patch.to_object_space(wanted) for patch, wanted in zip(self.patches, positions, strict=True)]
         self.write_positions(new)
+        self.changed_at = time.monotonic()
 
     def write_positions(self, new: list[np.ndarray]) -> None:
         every = zip(self.find_objects(), self.patches, new, self.shown, self.vertices, strict=True)
