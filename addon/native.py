@@ -20,12 +20,15 @@ if TYPE_CHECKING:
     from .reflines import HandleReach as HandleReach
     from .reflines import LineHandles as LineHandles
     from .reflines import NormalFit as NormalFit
+    from .reflines import Note as Note
     from .reflines import PanelCheck as PanelCheck
     from .reflines import PanelInspection as PanelInspection
+    from .reflines import PanelSmoother as PanelSmoother
     from .reflines import Progress as Progress
     from .reflines import Report as Report
     from .reflines import ShapeOptimizer as ShapeOptimizer
     from .reflines import SmoothPanelReport as SmoothPanelReport
+    from .reflines import SolvePanelReport as SolvePanelReport
     from .reflines import Subdivision as Subdivision
     from .reflines import Target as Target
     from .reflines import Task as Task

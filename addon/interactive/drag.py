@@ -13,7 +13,7 @@ import numpy as np
 
 from ..bridge import read_mesh, region_faces, units, view_and_light, view_region, write_mesh
 from ..bridge.write_mesh import EditVertices
-from ..model.gain import Gain
+from ..model.gain import Gain, Healed
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -29,6 +29,7 @@ from .drag_handles import DragValues, Handle
 from .solve_job import SolveJob, SolveOutcome, SolveRequest
 
 TICK_INTERVAL = 0.01  # seconds between two checks for the work's results
+REST = 0.4  # seconds without a change of values or mesh after which a gain is measured that takes long
 SAYS_BUSY = 0.3  # seconds of solving after which the status bar shows the stage
 
 
@@ -71,8 +72,9 @@ class Drag:
         self.work.submit(self.request)
         self.keeping, self.busy_since, self.problem, self.texts = final, time.monotonic(), "", ("", "")
         self.moved = False  # whether values changed since the last request
+        self.changed_at = 0.0  # when values or mesh changed last, in the seconds of time.monotonic
         self.largest_move = 0.0  # of the shown positions from the start, world units
-        self.gain: Gain | None = None  # of the shown positions, where it was measured
+        self.gain: Gain | Healed | None = None  # of the shown positions, where it was measured
         self.unmeasured = False  # whether the gain of the shown positions is still to be measured
         self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
         _running.append(self)
@@ -129,8 +131,7 @@ class Drag:
         wanted = [(self.tool.build_target(context, ob, patch), self.tool.read_solve_settings(context.scene))
                   for ob, patch in zip(objects, self.patches, strict=True)]
         builds, settings = zip(*wanted, strict=True)
-        press = self.tool.choose_press() if final else None
-        self.request = SolveRequest(builds, settings, final, press=press)
+        self.request = SolveRequest(builds, settings, final, press=self.tool.choose_press())
         falloff = self.tool.read_falloff(context, objects[0], self.patches[0])
         self.circle_points = (falloff_circle.sample_circle(falloff.centre, falloff.radius, self.frame)
                               if falloff is not None else None)
@@ -152,6 +153,14 @@ class Drag:
             self.busy_since = time.monotonic()
         self.work.submit(self.request)
 
+    def note_move(self) -> None:
+        """Notes that values have changed, which the next tick solves for."""
+        self.moved, self.changed_at = True, time.monotonic()
+
+    def is_to_measure(self) -> bool:
+        """Returns whether what is shown is to be measured now: the panel would not follow meanwhile."""
+        return self.unmeasured and self.work.is_idle() and time.monotonic() - self.changed_at >= REST
+
     def submit_measurement(self) -> None:
         """Submits the request for the gain of what is shown."""
         self.work.submit(replace(self.request, measure=True))
@@ -165,6 +174,7 @@ class Drag:
                                 for patch, wanted in zip(self.patches, positions, strict=True))
         new = [patch.to_object_space(wanted) for patch, wanted in zip(self.patches, positions, strict=True)]
         self.write_positions(new)
+        self.changed_at = time.monotonic()
 
     def write_positions(self, new: list[np.ndarray]) -> None:
         every = zip(self.find_objects(), self.patches, new, self.shown, self.vertices, strict=True)
@@ -212,7 +222,9 @@ class Drag:
     def describe_gain(self, context: bpy.types.Context) -> str:
         """Says what the drag has gained so far; the move alone while the gain is not measured."""
         moved = f"oved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
-        return f"{self.gain.describe(smoothed=self.tool.smooths)}, m{moved}" if self.gain is not None else f"M{moved}"
+        if self.gain is None:
+            return f"M{moved}"
+        return f"{self.gain.describe_shortly(smoothed=self.tool.smooths)}, m{moved}"
 
     def end(self, context: bpy.types.Context) -> None:
         """Restores header, status bar and timer; the work ends after its native call."""

@@ -1,5 +1,7 @@
 """The solves of a drag or a live warp in the background: numpy and the native module only.
 
+The automatic press of Smooth is dragged by its kept smoother, which needs neither of the optimizers below.
+
 Every patch has two optimizers. The first keeps the heights of the start: targets are built from its lines. The second
 follows the mouse, warm-started from its last solution, which takes a few back substitutions instead of a factorization.
 The final result is solved by the first from the start, so it does not depend on the path of the mouse.
@@ -11,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import native
-from ..model.gain import Gain
+from ..model.gain import Gain, Healed, join_healed
 from ..model.line_surface import LineState
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -21,11 +23,11 @@ from ..native_call import call
 from ..solver import live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.formulation import choose_formulation
-from ..solver.limited_solve import choose_limit, clip_to_shares, scale_to_limit
+from ..solver.limited_solve import choose_limit, clip_to_shares
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
 from ..state import optimizer_cache, press_cache
 
-# Seconds. The gain that takes longer to measure is measured when the mouse rests, so that the panel follows at once.
+# Seconds. A gain that takes longer to measure is measured when the mouse rests, so that the panel follows at once.
 MEASURE_BUDGET = 0.03
 
 
@@ -40,7 +42,7 @@ class SolveRequest:
     settings: tuple[SolveSettings, ...]
     final: bool = False    # whether the result is kept, so solved from the start
     measure: bool = False  # only the gain of the last solution is wanted
-    press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds
+    press: AutomaticSmooth | None = None  # the automatic press of Smooth instead of the builds, also in a drag
     lines: bool = False    # whether the outcome has the lines, instead of the gain
     follows: tuple[Follow, ...] = ()  # ways to follow each patch's target; empty: by solves alone
 
@@ -52,7 +54,7 @@ class SolveOutcome:
     positions: tuple[np.ndarray, ...] = ()  # #V x 3 of each panel, world space
     solutions: tuple[Solution, ...] = ()    # results of a final request
     refusal: str = ""                       # why there are none, as a sentence
-    gain: Gain | None = None                # of all panels together, where it was measured
+    gain: "Gain | Healed | None" = None     # of all panels together, where it was measured
     lines: tuple[LineState, ...] = ()       # of each panel, where they are wanted
     refused: Mapping[str, Refusal] = field(default_factory=dict)  # by name: why some of several have no result
 
@@ -68,13 +70,14 @@ class SolveJob:
         self.progress = native.reflines.Progress()
         self.stage = "Preparing"
         self.cancelled = False
+        self.pressed = False  # whether a press has found the flaws
         self.measure_seconds = 0.0  # of the last measurement
         self.start_lines: tuple[LineState, ...] = ()  # once a request has wanted lines
 
     @property
     def ready(self) -> bool:
-        """True once all optimizers are built."""
-        return len(self.followers) == len(self.patches)
+        """True once all is built that the values can be changed with."""
+        return self.pressed or len(self.followers) == len(self.patches)
 
     def describe_stage(self) -> str:
         """Describes the present stage and its progress for the status bar."""
@@ -116,15 +119,40 @@ class SolveJob:
                     self.followers.append(follower.optimizer)
 
     async def press(self, request: SolveRequest) -> SolveOutcome:
-        """Presses Smooth on every patch, which needs no optimizer of the job's own."""
+        """Presses Smooth on every patch. A drag shows the positions before they are measured."""
         self.stage = "Smoothing"
+        if request.final or len(self.patches) > 1:  # several may be one problem, which has no preview
+            return await self.press_and_measure(request)
+        previews = [await press_cache.preview_with_cache(patch, seen, self.border, request.press, self.progress)
+                    for patch, seen in zip(self.patches, self.views, strict=True)]
+        self.pressed = True
+        shown = SolveOutcome(request, tuple(preview.positions for preview in previews),
+                             refusal=" ".join(filter(None, (preview.refusal for preview in previews))))
+        if shown.refusal or self.measure_seconds >= MEASURE_BUDGET and not request.measure:
+            return shown
+        begin = time.perf_counter()
+        measured = await self.press_and_measure(request)
+        self.measure_seconds = time.perf_counter() - begin
+        return measured
+
+    async def press_and_measure(self, request: SolveRequest) -> SolveOutcome:
+        """Presses Smooth on every patch, on those that face each other as one problem."""
         outcomes = await press_cache.smooth_all(self.patches, self.views, self.border, request.press, self.progress)
         refused = {patch.name: each for patch, each in zip(self.patches, outcomes, strict=True)
                    if isinstance(each, Refusal)}
         solutions = tuple(each for each in outcomes if not isinstance(each, Refusal))
         if not solutions:
             raise next(iter(refused.values()))
-        return SolveOutcome(request, tuple(solution.positions for solution in solutions), solutions, refused=refused)
+        positions = tuple(solution.positions for solution in solutions)
+        if request.final:
+            return SolveOutcome(request, positions, solutions, refused=refused)
+        if refused:  # a drag moves all of its panels
+            raise next(iter(refused.values()))
+        self.pressed = True
+        left = [solution.report.message for solution in solutions if solution.report.termination == "not_applied"]
+        return SolveOutcome(request, positions, refusal=" ".join(left),
+                            gain=join_healed([solution.healed for solution in solutions],
+                                             [solution.patch.measure_area() for solution in solutions]))
 
     async def follow(self, request: SolveRequest) -> SolveOutcome:
         """Solves warm-started from the last solution, to the targets' tolerance."""
@@ -153,10 +181,7 @@ class SolveJob:
         follow = request.follows[which]
         if not await follow(start.optimizer, follower, keep_crossed=settings.build_crossed is not None):
             return False
-        limit = choose_limit(start.patch, settings)
-        largest = float(np.abs(follower.heights - start.optimizer.heights).max())
-        if largest > limit:
-            scale_to_limit(follower, largest, limit)
+        follower.keep_within(choose_limit(start.patch, settings))
         return True
 
     async def read_lines(self) -> tuple[LineState, ...]:
@@ -173,10 +198,8 @@ class SolveJob:
     async def follow_targets(self, start: LiveOptimizer, follower: "native.ShapeOptimizer", wanted: JointTargets,
                              limit: float) -> None:
         """Solves warm-started. Beyond the limit all moves are scaled at once; the final solve takes its time."""
-        report = await call(follower.solve, wanted.targets, gradient_tolerance=wanted.follow_tolerance,
-                            progress=self.progress)
-        if report.largest_move > limit:
-            scale_to_limit(follower, report.largest_move, limit)
+        await call(follower.solve, wanted.targets, gradient_tolerance=wanted.follow_tolerance, progress=self.progress)
+        follower.keep_within(limit)
 
     async def measure(self, request: SolveRequest) -> Gain:
         """Measures the present heights against those of the start, by the numbers that the result will be told by."""

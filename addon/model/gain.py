@@ -1,4 +1,5 @@
 """The gain of a solve, in an artist's words."""
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 SEEN = 0.005  # share of a panel below which nothing is said of its area
@@ -44,6 +45,18 @@ class Healed:
         where = f"Flaws healed on {self.area:.0%} of the panel" if self.area >= SEEN else "Lines evened out a little"
         return f"{where}: worst {format_change(self.worst_before, self.worst_after)}"
 
+    def describe_shortly(self, **_: bool) -> str:
+        """Says the latter alone, for the header of a drag."""
+        return f"Lines off by {format_change(self.worst_before, self.worst_after)} at worst"
+
+
+def join_healed(every: Sequence[Healed], areas: Sequence[float]) -> Healed:
+    """Joins the accounts of panels with these areas as if they were one: its healed share, and the worst place of all.
+    """
+    healed = sum(each.area * area for each, area in zip(every, areas, strict=True))
+    return Healed(healed / max(sum(areas), 1e-300), max(each.worst_before for each in every),
+                  max(each.worst_after for each in every))
+
 
 @dataclass(frozen=True)
 class Gain:
@@ -61,3 +74,5 @@ class Gain:
             return f"Lines off by {format_change(self.score_before, self.score_after)}"
         share = 1.0 - self.residual_after / self.residual_before if self.residual_before else 1.0
         return f"{max(share, 0.0):.0%} of the target reached"
+
+    describe_shortly = describe

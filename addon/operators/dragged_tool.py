@@ -139,7 +139,7 @@ class DraggedTool(SolveTool):
         if drag.moved and drag.work.is_idle():
             drag.submit_request(context)  # not at each move: Blender redraws all windows when a property is set
         outcome = drag.work.take()
-        if drag.unmeasured and drag.work.is_idle() and outcome is None:
+        if outcome is None and drag.is_to_measure():
             drag.submit_measurement()
         if outcome is None and not drag.work.is_alive():
             return self.cancel_drag(context, "The solver stopped: the mesh is as it was before")
@@ -178,7 +178,7 @@ class DraggedTool(SolveTool):
         if drag_input.keeps(event, drag.values, held=self.release_confirm):
             drag.submit_request(context, final=True)
         elif self.update_values(event):
-            drag.moved = True
+            drag.note_move()
         drag.update_texts(context)
         return {'RUNNING_MODAL'}
 

@@ -4,12 +4,11 @@ from dataclasses import replace
 from functools import partial
 
 import bpy
-import numpy as np
 
 from ..bridge import facing, read_light_set, units
 from ..interactive.drag_handles import Handle
 from ..model.beside import Crossing
-from ..model.gain import Healed
+from ..model.gain import join_healed
 from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -27,15 +26,6 @@ from ..ui.tool_properties import SmoothSettings
 from .dragged_tool import DraggedTool
 
 BESIDE_STRAIGHT = 0.01  # weight of crossed lines; see native/include/reflines/kept_target.h
-
-
-def join_healed(solutions: Sequence[Solution]) -> Healed:
-    """Returns what was healed on several objects as on one."""
-    areas = np.array([solution.patch.measure_area() for solution in solutions])
-    shares = np.array([solution.healed.area for solution in solutions])
-    return Healed(float(areas @ shares / max(areas.sum(), 1e-300)),
-                  max(solution.healed.worst_before for solution in solutions),
-                  max(solution.healed.worst_after for solution in solutions))
 
 
 class REFLINES_OT_smooth(DraggedTool, SmoothSettings, bpy.types.Operator):
@@ -60,6 +50,10 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         layout.prop(self, "lights")
         automatic_values.draw_plain_value(layout, self, "limit")
 
+    def choose_automatic(self, name: str, patch: Patch) -> float:
+        """Returns the value that 0 stands for; of the length in the automatic press a multiple."""
+        return super().choose_automatic(name, patch) * (self.flaw_size if name == "length" else 1.0)
+
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines
 
@@ -68,7 +62,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
 
     def build_target(self, _context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         length = self.filter_length = solve.choose_length(patch, self.length)
-        if self.follow_mouse and not self.length:
+        if self.follow_mouse and not self.length and self.directional:
             self.length = length  # a drag smooths by the length that it shows; the redo panel and Re-solve repeat that
         return partial(smooth.build_smooth_target, settings=Smooth(length, self.strength, self.directional))
 
@@ -167,10 +161,12 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         for refusal in self.refusals if self.is_automatic() else ():
             self.report({'WARNING'}, f"Left as it is: {refusal}")
         if len(solutions) > 1 and all(solution.healed is not None for solution in solutions):
+            joined = join_healed([solution.healed for solution in solutions],
+                                 [solution.patch.measure_area() for solution in solutions])
             largest = max(solution.report.largest_move for solution in solutions)
             moved = units.format_length(largest, bpy.context.scene, 2)
             names = ", ".join(solution.patch.name for solution in solutions)
-            self.report({'INFO'}, f"{join_healed(solutions).describe()}, moved at most {moved} ({names})")
+            self.report({'INFO'}, f"{joined.describe()}, moved at most {moved} ({names})")
 
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         if not self.is_automatic():

@@ -13,6 +13,7 @@ from ..model.view import View
 from ..native_call import call
 from . import live_optimizer, remarks
 from .formulation import Formulation, choose_formulation
+from .native_notes import word_note, word_notes
 
 MOST_NOTES = 2
 REACH_MARGIN = 1.05  # of what the native press takes in: its diagonal is that of the faces that it can use
@@ -67,6 +68,23 @@ async def build_press(patch: Patch, seen: View, border: str, settings: Automatic
     return KeptPress(patch, seen, border, settings, smoother)
 
 
+@dataclass(frozen=True)
+class Preview:
+    """The result of a press as a drag shows it: nothing is measured yet."""
+    positions: np.ndarray  # #V x 3, world space
+    refusal: str = ""      # why nothing was moved
+
+
+async def preview_press(kept: KeptPress, settings: AutomaticSmooth,
+                        progress: "native.Progress | None" = None) -> Preview:
+    """Presses without measuring the result; raises the native module's errors."""
+    formulation = choose_formulation(kept.patch, kept.view)
+    positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
+                                 limit_share=formulation.choose_share(), progress=progress, judged=False)
+    live_optimizer.refuse_closed(kept.patch.name, int(kept.patch.faces.sum()), told.region.closed)
+    return Preview(formulation.read_pressed(positions), "" if told.applied else word_note(told.notes[0]))
+
+
 async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
                       progress: "native.Progress | None" = None) -> Solution:
     """Presses once; raises the native module's errors. `progress` lets the caller watch and cancel.
@@ -92,13 +110,14 @@ def build_solution(formulation: Formulation, positions: np.ndarray, told: "nativ
     lacks = (np.radians(each[0]) / told.length for each in unevenness)
     scores = told.score_before, told.score_after if told.applied else told.score_before
     shifts, turns = np.mean([[(score.shift, score.turn) for score in each] for each in scores], axis=1).T.tolist()
+    notes = (note for note in told.region.notes if note.kind != "unseen")  # of lights, which are told of by their names
     return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *shifts,
                     choose_notes(formulation, told, settings.light_set), told.length,
                     automatic_limit=0.0 if settings.limit else told.limit, cage_move=press.cage_move,
                     turn_before=turns[0], turn_after=turns[1],
-                    kept=(*remarks.describe_marked_creases(patch), *told.region.messages),
+                    kept=(*remarks.describe_marked_creases(patch), *word_notes(notes)),
                     healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after,
-                                  find_worse(kept.view, settings.light_set, told)),
+                                  find_worse(formulation.view, settings.light_set, told)),
                     longer_waves=told.longer_waves)
 
 
@@ -114,16 +133,16 @@ def find_worse(seen: View, light_set: LightSet | None, told: "native.SmoothPanel
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:
     termination = told.solve.termination if told.applied else "not_applied"
-    message = told.solve.message if told.applied else told.messages[0]
+    message = told.solve.message if told.applied else word_note(told.notes[0])
     move, limited = (told.largest_move, told.limited) if told.applied else (0.0, 0)
     return SolveReport(termination, message, told.solve.iterations, seconds, told.solve.unknowns, move, limited)
 
 
 def choose_notes(formulation: Formulation, told: "native.SmoothPanelReport",
                  light_set: LightSet | None) -> tuple[str, ...]:
-    """Returns the most important sentences."""
-    told_of_limit = told.applied and told.limited > 0  # by the first sentence; the headline of the result has it too
+    """Returns the most important sentences. That the limit holds vertices back stands in the headline of the result."""
+    notes = [note for note in told.notes if note.kind != "limited"]
     lopsided = () if told.mirrored else remarks.describe_mirror(formulation)
     lights = () if light_set is None else light_set.describe(told.seen, told.unevenness_before, told.unevenness_after,
                                                              applied=told.applied)
-    return (*told.messages[told_of_limit:], *lights, *lopsided)[:MOST_NOTES]
+    return (*word_notes(notes), *lights, *lopsided)[:MOST_NOTES]

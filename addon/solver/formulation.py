@@ -130,14 +130,11 @@ class Formulation:
             return edges
         return {"border": np.where(follows, CODES["follow"], self.fill_codes(border)), "around": (found.V, found.F)}
 
-    async def build(self, border: str, progress: "native.Progress | None", *,
-                    sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
-        """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely, and `held` (#V, bool) are
-        vertices that stay whatever the border says.
-        """
+    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.ShapeOptimizer":
+        """Builds the native optimizer; `sparse` samples the surface of a cage more coarsely."""
         return await call(
             native.reflines.ShapeOptimizer.create, self.patch.V, self.patch.F, **self.choose_directions(),
-            progress=progress, **self.choose_edges(border), fixed=held, partner=self.partner,
+            progress=progress, **self.choose_edges(border), partner=self.partner,
             face_of_triangle=self.patch.face_of_triangle, **self.patch.creases.build_arguments())
 
     def read_positions(self, optimizer: "native.ShapeOptimizer") -> np.ndarray:
@@ -168,9 +165,9 @@ class Formulation:
         """Returns the target for all that is solved, from one that was built for it."""
         return wanted
 
-    def read_residual(self, optimizer: "native.ShapeOptimizer", target: "native.Target") -> np.ndarray:
-        """Reads the residual of the patch's triangles: #F."""
-        return optimizer.residual(target)[:len(self.patch.F)]
+    def read_residual(self, _optimizer: "native.ShapeOptimizer", residual: np.ndarray) -> np.ndarray:
+        """Returns the residual of the patch's triangles (#F) from that of all that is solved."""
+        return residual[:len(self.patch.F)]
 
     def hold_marked_creases(self) -> np.ndarray:
         """Returns which vertices the automatic press of Smooth holds: #V, bool. The automatic rule would take noise for
@@ -209,9 +206,13 @@ class Formulation:
         codes = self.choose_border(border)
         return np.full(len(self.choose_own_border()), CODES[codes]) if isinstance(codes, str) else codes
 
+    def read_pressed(self, positions: np.ndarray) -> np.ndarray:
+        """Returns the patch's positions (#V x 3) from those that the native smoother returns."""
+        return positions
+
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
         """Converts what the native smoother returns to arrays of the patch."""
-        return Press(positions, told.stray, told)
+        return Press(self.read_pressed(positions), told.stray, told)
 
 
 class SymmetricFormulation(Formulation):
@@ -280,13 +281,11 @@ class JoinedFormulation(Formulation):
         matrix = self.patch.matrix
         return (places - matrix[:3, 3]) @ np.linalg.inv(matrix[:3, :3]).T
 
-    async def build(self, border: str, progress: "native.Progress | None", *,
-                    sparse: bool, held: np.ndarray | None = None) -> "native.ShapeOptimizer":
+    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.ShapeOptimizer":
         V, F, partner = self.join()
-        fixed = None if held is None else np.append(held, held[partner[len(held):]])
         return await call(
             native.reflines.ShapeOptimizer.create, V, F, **self.choose_directions(), progress=progress,
-            **self.choose_edges(border), fixed=fixed, partner=partner,
+            **self.choose_edges(border), partner=partner,
             face_of_triangle=np.tile(self.patch.face_of_triangle, 2), **self.patch.creases.build_arguments(partner))
 
     async def spread_weights(self, _optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
@@ -306,8 +305,11 @@ class JoinedFormulation(Formulation):
         return {"V": V, "F": F, "fixed": np.append(own, own[partner[len(own):]]), "partner": partner,
                 "face_of_triangle": np.tile(self.patch.face_of_triangle, 2)}
 
+    def read_pressed(self, positions: np.ndarray) -> np.ndarray:
+        return self.read_own_half(positions)
+
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
-        return Press(self.read_own_half(positions), told.stray[:len(self.patch.F)], told)
+        return Press(self.read_pressed(positions), told.stray[:len(self.patch.F)], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         sign = mirror.compute_theta_sign(self.patch.mirror, self.patch.matrix, self.view.line_direction)
@@ -359,16 +361,11 @@ class CageFormulation(Formulation):
                                  vertices=len(values))
         return subdivision.positions(values)[optimizer.refined]
 
-    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool,
-                    held: np.ndarray | None = None) -> "native.CageOptimizer":
-        fixed = None
-        if held is not None:
-            fixed = np.zeros(len(self.patch.cage.V), dtype=bool)
-            fixed[self.patch.index] = held
+    async def build(self, border: str, progress: "native.Progress | None", *, sparse: bool) -> "native.CageOptimizer":
         return await call(
             native.reflines.CageOptimizer.create, **self.patch.cage.build_arguments(self.is_symmetric),
-            **self.choose_directions(), progress=progress, border=self.choose_border(border), fixed=fixed,
-            sparse=sparse, **self.patch.creases.build_cage_arguments())
+            **self.choose_directions(), progress=progress, border=self.choose_border(border), sparse=sparse,
+            **self.patch.creases.build_cage_arguments())
 
     def read_triangles(self, optimizer: "native.CageOptimizer") -> np.ndarray:
         return optimizer.triangles
@@ -393,9 +390,9 @@ class CageFormulation(Formulation):
     def measure_cage_move(self, optimizer: "native.CageOptimizer") -> float:
         return float(np.linalg.norm(optimizer.cage_positions - self.patch.cage.V, axis=1).max())
 
-    def read_residual(self, optimizer: "native.ShapeOptimizer", target: "native.Target") -> np.ndarray:
-        """Reads the root mean square over the surface of each face, for all triangles of that face: #F."""
-        residual, faces = optimizer.residual(target), len(self.patch.cage.sizes)
+    def read_residual(self, optimizer: "native.ShapeOptimizer", residual: np.ndarray) -> np.ndarray:
+        """Returns the root mean square over the surface of each face, for all triangles of that face: #F."""
+        faces = len(self.patch.cage.sizes)
         squared, area = (np.bincount(optimizer.parent, values, faces)
                          for values in (optimizer.area * residual**2, optimizer.area))
         return self.spread_to_triangles(np.sqrt(squared / np.maximum(area, 1e-300)))
@@ -415,9 +412,12 @@ class CageFormulation(Formulation):
             native.reflines.PanelSmoother.create_for_cage, **arguments, **self.choose_press_directions(),
             border=self.choose_border(border), **settings)
 
+    def read_pressed(self, positions: np.ndarray) -> np.ndarray:
+        return self.patch.V + (positions - self.patch.cage.V)[self.patch.index]
+
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
-        return Press(self.patch.V + (positions - self.patch.cage.V)[self.patch.index],
-                     self.spread_to_triangles(told.stray), told, told.largest_control_move)
+        return Press(self.read_pressed(positions), self.spread_to_triangles(told.stray), told,
+                     told.largest_control_move)
 
 
 def choose_formulation(patch: Patch, view: View) -> Formulation:

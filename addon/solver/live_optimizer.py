@@ -34,14 +34,13 @@ class LiveOptimizer:
 
 
 async def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Progress | None" = None, *,
-                          to_follow: bool = False, held: np.ndarray | None = None) -> LiveOptimizer:
+                          to_follow: bool = False) -> LiveOptimizer:
     """Builds the optimizer of a patch, which takes long. Refuses closed surfaces; raises the native module's errors.
 
     `progress` goes on watching the optimizer. `to_follow` a drag, a cage is sampled more coarsely: several times faster
-    steps, and a shape that differs by a hundredth of the move. `held` (#V, bool) are vertices that stay whatever the
-    border says.
+    steps, and a shape that differs by a hundredth of the move.
     """
-    optimizer = await choose_formulation(patch, seen).build(border, progress, sparse=to_follow, held=held)
+    optimizer = await choose_formulation(patch, seen).build(border, progress, sparse=to_follow)
     refuse_closed(patch.name, int(patch.faces.sum()), optimizer.region.closed)
     return LiveOptimizer(patch, seen, border, optimizer)
 
@@ -55,21 +54,13 @@ async def build_targets(live: LiveOptimizer, build: BuildTarget, settings: Solve
     if isinstance(built, JointTargets):
         return replace(built, targets=[*(complete(each) for each in built.targets), *crossed])
     target = complete(built)
-    return JointTargets([target, *crossed], partial(compute_rms_residual, target=target), is_plain=True)
+    return JointTargets([target, *crossed], partial(measure_residual, target=target), is_plain=True)
 
 
-async def compute_rms_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:
+async def measure_residual(optimizer: "native.ShapeOptimizer", target: "native.Target") -> float:
     """Returns the root mean square of the residual over the triangles that can change, by area and the target's weight.
     """
-    return compute_rms(optimizer, target, await call(optimizer.residual, target))
-
-
-def compute_rms(optimizer: "native.ShapeOptimizer", target: "native.Target", values: np.ndarray) -> float:
-    """Returns the root mean square of values (#F), weighted as the residual is."""
-    weight = optimizer.area * optimizer.changeable
-    if len(target.weight):
-        weight = weight * target.weight
-    return float(np.sqrt(weight @ values**2 / max(weight.sum(), 1e-300)))
+    return await call(native.reflines.measure_residual, optimizer, target)
 
 
 @contextmanager

@@ -1,13 +1,11 @@
 """Remarks: sentences about a finished solve that the artist should read."""
 import numpy as np
 
-from .. import native
 from ..model import mirror
 from ..model.border import CODES, NAMES
 from ..model.patch import Patch
 from ..model.solution import SolveReport
 from .formulation import Formulation
-from .turned_faces import TURNED
 
 FAR_MOVE = 0.05  # relative to the patch's diagonal; larger moves are mentioned
 
@@ -55,7 +53,7 @@ def describe_limit(limited: int, limit: float, *, automatic: bool) -> tuple[str,
     return (f"The {own} holds {limited} {'vertices' if limited > 1 else 'vertex'} back: ask for less, or raise Limit",)
 
 
-def describe_unfinished(report: "native.Report | SolveReport") -> tuple[str, ...]:
+def describe_unfinished(report: SolveReport) -> tuple[str, ...]:
     """Says that a solve stopped before its end, and what to press."""
     finished = report.termination in {"converged", "already_optimal", "cancelled"}
     return () if finished else ("The solver stopped before its end: ask for less, or select less",)
@@ -64,12 +62,12 @@ def describe_unfinished(report: "native.Report | SolveReport") -> tuple[str, ...
 def describe_held_faces(count: int) -> tuple[str, ...]:
     """Says how many faces were held since they would have turned far."""
     return (f"{count} face{'s' if count > 1 else ''} seen at a slant stayed: they would have turned by more than "
-            f"{np.degrees(TURNED):.0f} degrees",) if count else ()
+            "45 degrees",) if count else ()
 
 
 def describe_turned_faces(count: int) -> tuple[str, ...]:
-    """Warns where faces turned by more than turned_faces.TURNED all the same."""
+    """Warns where faces turned by more than 45 degrees all the same."""
     if count == 0:
         return ()
-    return (f"{count} face{'s turn' if count > 1 else ' turns'} by more than {np.degrees(TURNED):.0f} degrees: "
+    return (f"{count} face{'s turn' if count > 1 else ' turns'} by more than 45 degrees: "
             "deselect the faces that the view sees at a slant, or turn the view camera towards them",)

@@ -1,8 +1,9 @@
 """The cache of the last operation's presses of Smooth, for the redo panel: another strength or limit begins with what
 the first press found. It can be rebuilt at any time from the mesh and the properties.
 """
-from collections.abc import Collection, Sequence
+from collections.abc import Awaitable, Callable, Collection, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 import bpy
 
@@ -12,8 +13,11 @@ from ..model.refusal import Refusal
 from ..model.solution import Solution
 from ..model.view import View
 from ..solver import automatic_smooth, joint_smooth, live_optimizer
-from ..solver.automatic_smooth import AutomaticSmooth, KeptPress
+from ..solver.automatic_smooth import AutomaticSmooth, KeptPress, Preview
 from ..solver.joint_smooth import KeptJoint
+
+Pressed = TypeVar("Pressed")
+PressOnce = Callable[[KeptPress, AutomaticSmooth, "native.Progress | None"], Awaitable[Pressed]]
 
 _presses: dict[str, KeptPress] = {}  # by the name of the object
 _joint: list[KeptJoint] = []  # the last press of several objects, or none
@@ -22,15 +26,26 @@ _joint: list[KeptJoint] = []  # the last press of several objects, or none
 async def smooth_with_cache(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
                             progress: "native.Progress | None" = None) -> Solution:
     """Presses Smooth once, with the kept smoother where nothing but strength and limit has changed."""
+    return await press_with_cache(automatic_smooth.press_panel, patch, seen, border, settings, progress)
+
+
+async def preview_with_cache(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
+                             progress: "native.Progress | None" = None) -> Preview:
+    """Does likewise without measuring the result, as a drag shows it."""
+    return await press_with_cache(automatic_smooth.preview_press, patch, seen, border, settings, progress)
+
+
+async def press_with_cache(press: PressOnce[Pressed], patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
+                           progress: "native.Progress | None") -> Pressed:
     with live_optimizer.convert_native_errors(patch):
         kept = _presses.pop(patch.name, None)  # nobody else takes it meanwhile
         if kept is not None and kept.suits(patch, seen, border, settings):
             kept = replace(kept, patch=patch)  # the way back to the mesh may differ, such as the shape key
         else:
             kept = await automatic_smooth.build_press(patch, seen, border, settings)
-        solution = await automatic_smooth.press_panel(kept, settings, progress)
+        pressed = await press(kept, settings, progress)
         _presses[patch.name] = kept  # one that failed or was cancelled has nothing to keep
-        return solution
+        return pressed
 
 
 async def smooth_all(patches: Sequence[Patch], views: Sequence[View], border: str, settings: AutomaticSmooth,

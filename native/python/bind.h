@@ -16,6 +16,7 @@ void bind_line_handles(pybind11::module_& module);
 void bind_report(pybind11::module_& module);
 void bind_light_set(pybind11::module_& module);
 void bind_smooth_panel(pybind11::module_& module);
+void bind_solve_panel(pybind11::module_& module);
 void bind_check_panel(pybind11::module_& module);
 void bind_inspect_panel(pybind11::module_& module);
 void bind_gap_continuation(pybind11::module_& module);

@@ -51,6 +51,7 @@ PYBIND11_MODULE(reflines, module) {
   reflines::bind_joint_smoother(module);
   reflines::bind_optimizer(module);
   reflines::bind_cage_optimizer(module);
+  reflines::bind_solve_panel(module);
   reflines::bind_builders(module);
   reflines::bind_line_handles(module);
   reflines::allow_only_initialized_objects(module);

@@ -20,7 +20,8 @@ Result = TypeVar("Result")
 AUTOMATIC_LENGTH: float  # of flaws, relative to the diagonal of a panel
 AUTOMATIC_LIMIT: float   # of the moves, relative to that length
 FAIR_REACH: float        # lengths from a panel that a press with a fair border takes in
-MOST_BOUNDED: int        # free vertices up to which a press solves for a shape within its limit
+MOST_BOUNDED: int        # free vertices up to which a shape within a limit is solved for; above, moves are scaled to it
+MOST_BOUNDED_CAGE: int   # likewise, unknowns of a cage
 
 class InvalidInput(ValueError):
     """Raised for arrays that cannot be used. The text is one sentence: what, how many, what to do."""
@@ -57,8 +58,16 @@ def start(function: Callable[Arguments, Result], *args: Arguments.args, **kwargs
     function written in Python.
     """
 
+class Note:
+    """A code of native/include/reflines/note.h, as "limited", which the caller words for its users, and its numbers. Its text is
+    for developers."""
+    kind: str
+    count: int
+    before: float
+    after: float
+
 class Region:
-    """Counts of a region's faces and vertices by their roles; `messages` are sentences for the user."""
+    """Counts of a region's faces and vertices by their roles; `notes` tell what of it is left as it is."""
     triangles: int
     free: int
     fixed: int
@@ -73,7 +82,7 @@ class Region:
                        # before any smoothing and for the other tools, than a sixth of the region's diagonal
     hidden: int        # faces of less weight: the reflected ray is nearly parallel to the lines
     closed: bool       # the region has no border edge
-    messages: list[str]
+    notes: list[Note]
 
 class Target:
     """One wanted gradient of theta and one weight per triangle, for one family of lines. Arrays are copied when read and when
@@ -183,6 +192,9 @@ class ShapeOptimizer:
         A solve has a progress of its own."""
     def scale_move(self, share: float) -> None:
         """Scales all moves from the heights that the optimizer was built with by a share between 0 and 1."""
+    def keep_within(self, limit: float) -> int:
+        """Scales all moves by the share that the limit is of the largest one, where that is beyond it; returns how many vertices
+        were beyond it."""
     def reset(self) -> None:
         """Restores the heights that the optimizer was built with."""
 
@@ -238,7 +250,7 @@ class SmoothPanelReport:
                                # radians / length; by area its root mean square is the first unevenness over the length
     region: Region             # of the panel as it came
     applied: bool              # False: some light would have become worse, and nothing was moved
-    messages: list[str]        # sentences for the user, the most important first
+    notes: list[Note]          # the most important first
 
 class LightSet:
     """The lights of one press, each with the eye that sees it: directions #lights x 3, those of eyes from the surface to the eye.
@@ -275,8 +287,38 @@ class PanelSmoother:
                         lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, length: float | None = None,
                         flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother: ...
     def press(self, *, strength: float = 1.0, limit: float | None = None, limit_share: np.ndarray | None = None,
-              progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
-        """Presses the panel as it was given: returns what smooth_panel returns, bit for bit, whatever was pressed before."""
+              progress: Progress | None = None, judged: bool = True) -> tuple[np.ndarray, SmoothPanelReport]:
+        """Presses the panel as it was given: returns what smooth_panel returns, bit for bit, whatever was pressed before.
+
+        Not `judged`, the report has no measures of the result, and a light that became worse refuses nothing: for what a
+        drag shows, at a tenth of the work where the strength alone has changed."""
+
+class SolvePanelReport:
+    """The report of `solve_panel`. Residuals are those of the first target, radians / length."""
+    solve: Report              # of the last solve
+    limited: int               # vertices that the limit holds back
+    score_before: LineScore    # of the heights that the optimizer was built with
+    score_after: LineScore
+    residual_before: float     # root mean square by area and weight
+    residual_after: float
+    residual: np.ndarray       # #F
+    falls_short: bool          # less than a fifth was reached of a target that is a visible change
+    held_faces: int            # faces that would have turned by more than 45 degrees and were held instead
+    turned_faces: int          # faces that turned so far all the same
+    rim_bend: float            # by which the edges to the faces around bend more than before, at most, radians
+
+def solve_panel(optimizer: ShapeOptimizer, targets: list[Target], *, length: float, limit: float,
+                limit_share: np.ndarray | None = None, around: tuple[np.ndarray, np.ndarray] | None = None,
+                most_bounded: int = 0, progress: Progress | None = None) -> SolvePanelReport:
+    """Solves for a tool's targets from the optimizer's present heights, with the rules that hold for every tool: freely, and where
+    a vertex moved beyond the limit again within it; where few faces turn by more than 45 degrees again with these held. Scores
+    are taken at `length`; `limit_share` (#V x 2) has each vertex's shares of the limit, `around` the faces that the rim is bent
+    against. More than `most_bounded` unknowns (0: MOST_BOUNDED, of a cage MOST_BOUNDED_CAGE) have all moves scaled to the limit.
+
+    Raises InvalidInput, SolverFailure; a cancelled solve leaves the heights and says so."""
+
+def measure_residual(optimizer: ShapeOptimizer, target: Target) -> float:
+    """Returns the root mean square of the residual over the triangles that can change, by area and the target's weight."""
 
 class JointPanel:
     """One panel of several that are pressed as one problem: the arguments of smooth_panel, and of continue_over_gap what stays
@@ -327,10 +369,10 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
     A border that is held keeps its flaws. Border vertices with `fair_border` move instead, as inner ones do: the press then takes
     in the faces of `around` within two lengths of the region, which stay, and everything is judged over the region alone. Of
     those faces the ones without area, doubled, at an edge of more than two, or not connected with the region are left out; where
-    none are beside the border it is held, and the report's messages say so.
+    none are beside the border it is held, and the report's notes say so.
 
     With the borders "curvature" and "flow" the region is pressed with "clamped", too. That result is returned, and the report's
-    messages say so, where lines would have ended less even than with it in some light, or nothing could have been changed.
+    notes say so, where lines would have ended less even than with it in some light, or nothing could have been changed.
 
     Raises InvalidInput, SolverFailure, and Cancelled where `progress` was cancelled."""
 

@@ -2,6 +2,9 @@
 
 #include <pybind11/stl.h>
 
+#include <sstream>
+#include <string>
+
 #include "python/bind.h"
 #include "reflines/progress.h"
 #include "reflines/shape_optimizer.h"
@@ -26,12 +29,33 @@ void bind_region(py::module_& module) {
       .def_readonly("features", &Region::features)
       .def_readonly("hidden", &Region::hidden)
       .def_readonly("closed", &Region::closed)
-      .def_readonly("messages", &Region::messages);
+      .def_readonly("notes", &Region::notes);
+}
+
+// Writes a note for developers, as "limited(count=30)".
+std::string repr(const Note& note) {
+  std::ostringstream text;
+  text << to_string(note.kind) << "(";
+  if (note.count != 0) text << "count=" << note.count;
+  if (note.after != 0) text << (note.count != 0 ? ", " : "") << "before=" << note.before << ", after=" << note.after;
+  text << ")";
+  return text.str();
+}
+
+void bind_note(py::module_& module) {
+  py::class_<Note>(module, "Note", py::module_local())
+      .def_property_readonly("kind", [](const Note& note) { return to_string(note.kind); })
+      .def_readonly("count", &Note::count)
+      .def_readonly("before", &Note::before)
+      .def_readonly("after", &Note::after)
+      .def("__eq__", [](const Note& one, const Note& other) { return one == other; })
+      .def("__repr__", &repr);
 }
 
 }  // namespace
 
 void bind_report(py::module_& module) {
+  bind_note(module);
   bind_region(module);
   py::class_<LineScore>(module, "LineScore", py::module_local())
       .def_readonly("shift", &LineScore::shift)

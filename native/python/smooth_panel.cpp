@@ -66,8 +66,9 @@ py::object convert_result(SmoothPanelResult result) {
 }
 
 py::object press(PanelSmoother& smoother, double strength, const std::optional<double>& limit,
-                 const Shares& limit_share, std::shared_ptr<Progress> progress) {
-  const PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
+                 const Shares& limit_share, std::shared_ptr<Progress> progress, bool judged) {
+  PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
+  amount.judged = judged;
   check_single_call();
   const auto exclusive_use = std::make_shared<const ExclusiveUse>(smoother, ExclusiveUse::Use::kChanges);
   return run_native([exclusive_use, &smoother, amount] { return smoother.press(amount); }, convert_result);
@@ -122,7 +123,7 @@ void bind_press_report(py::module_& module) {
       .def_readonly("stray", &Told::stray)
       .def_readonly("region", &Told::region)
       .def_readonly("applied", &Told::applied)
-      .def_readonly("messages", &Told::messages);
+      .def_readonly("notes", &Told::notes);
 }
 
 }  // namespace
@@ -132,7 +133,6 @@ void bind_smooth_panel(py::module_& module) {
   module.attr("AUTOMATIC_LENGTH") = kAutomaticLength;
   module.attr("AUTOMATIC_LIMIT") = kAutomaticLimit;
   module.attr("FAIR_REACH") = kFairReach;
-  module.attr("MOST_BOUNDED") = kMostBounded;
   py::class_<PanelSmoother> smoother(module, "PanelSmoother", py::module_local());
   const SmoothPanelOptions defaults;
   const PressAmount whole;
@@ -171,7 +171,9 @@ void bind_smooth_panel(py::module_& module) {
         [&](const auto&... all) { module.def("smooth_cage_panel", press_once(&prepare_cage_smoother), all...); },
         own...);
   });
-  define_press([&](const auto&... all) { smoother.def("press", &press, py::kw_only(), all...); });
+  define_press([&](const auto&... all) {
+    smoother.def("press", &press, py::kw_only(), all..., py::arg("judged") = whole.judged);
+  });
 }
 
 }  // namespace reflines

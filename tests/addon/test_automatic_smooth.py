@@ -191,7 +191,8 @@ def test_one_undo_takes_the_press_back() -> None:
 
 def test_what_the_native_function_refuses_is_not_applied(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its judgement is tested beside it: here it is made to refuse."""
-    real, why = native.reflines.PanelSmoother, "Nothing was changed: the lines would have become less even."
+    real = native.reflines.PanelSmoother
+    why = SimpleNamespace(kind="light_would_worsen", count=0, before=1.0001, after=1.0002)
 
     def build(V: np.ndarray, F: np.ndarray, **settings: object) -> SimpleNamespace:
         smoother = real(V, F, **settings)
@@ -199,7 +200,7 @@ def test_what_the_native_function_refuses_is_not_applied(monkeypatch: pytest.Mon
         def refuse(**amount: object) -> tuple[np.ndarray, SimpleNamespace]:
             _, told = smoother.press(**amount)
             names = [name for name in dir(told) if not name.startswith("_")]
-            changed = {name: getattr(told, name) for name in names} | {"applied": False, "messages": [why]}
+            changed = {name: getattr(told, name) for name in names} | {"applied": False, "notes": [why]}
             return V.copy(), SimpleNamespace(**changed)
 
         return SimpleNamespace(press=refuse)
@@ -209,7 +210,8 @@ def test_what_the_native_function_refuses_is_not_applied(monkeypatch: pytest.Mon
     before, report = scenes.positions(ob).tobytes(), ob.reflection_lines.report
     assert scenes.smooth() == {'FINISHED'}
     assert scenes.positions(ob).tobytes() == before
-    assert report.termination == "not_applied" and report.notes.startswith(why)
+    told = "Nothing was changed: the lines would have become less even in one light (1.0001 to 1.0002 degrees)."
+    assert report.termination == "not_applied" and report.notes.startswith(told)
     assert report.largest_move == 0.0 and report.score_after == report.score_before
     assert report.residual_after == report.residual_before
 

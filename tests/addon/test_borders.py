@@ -296,7 +296,7 @@ def test_flow_by_segment_is_said_to_fall_back_where_noise_hides_the_rate() -> No
     assert (stored(ob)[segment] == 5).all()
     scenes.select_faces(ob, scenes.inner(CELLS, MARGIN))
     assert scenes.smooth(length=0.3, border='clamped') == {'FINISHED'}
-    said = re.search(r"At (\d+) vertices .* Flow is the same as Curvature", ob.reflection_lines.report.kept)
+    said = re.search(r"At (\d+) vertices .* Flow \(G3\) is the same as Curvature", ob.reflection_lines.report.kept)
     assert 0.8 * len(segment) <= int(said[1]) <= len(segment)
 
 

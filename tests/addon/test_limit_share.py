@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import scenes
-from reflection_lines.solver import limited_solve
+from reflection_lines import native
 
 TOOLS = {"press": ("smooth", {}), "smooth": ("smooth", {"length": 0.6}),
          "direction": ("direction", {"density": 1.2, "border": "clamped"}),
@@ -85,11 +85,8 @@ def test_the_limit_is_one_of_the_surface_of_a_cage(cage: bpy.types.Object, tool:
     assert 0.9 * LIMIT < np.abs(moves).max() <= LIMIT + ROUNDING
 
 
-def test_large_cages_are_scaled_to_the_limit_and_refused_one_way(
-        cage: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(limited_solve, "MOST_BOUNDED_CAGE", 100)
-    moves = solve_cage("direction", cage)
-    assert 0.9 * LIMIT < np.abs(moves).max() <= LIMIT + ROUNDING
+def test_large_cages_are_refused_one_way(cage: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(native.reflines, "MOST_BOUNDED_CAGE", 100)
     cage.reflection_lines.limit_side = 'OUTWARD'
     scenes.edit_inner(cage)
     before = scenes.fingerprint(cage)

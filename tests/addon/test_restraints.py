@@ -3,9 +3,8 @@ import bpy
 import numpy as np
 import pytest
 from reflection_lines import native
-from reflection_lines.model.patch import Patch
 from reflection_lines.model.solution import SolveReport
-from reflection_lines.solver import remarks, turned_faces
+from reflection_lines.solver import remarks
 
 import scenes
 
@@ -88,19 +87,6 @@ def test_the_crossed_light_counts_unless_it_is_left_out() -> None:
         changes[lights] = [np.linalg.norm(now[k] - then[k]) for k in (0, 1)]
     assert 0.0 < changes['CROSSED'][1] < 0.95 * changes['SINGLE'][1]
     assert changes['CROSSED'][0] > 0.9 * changes['SINGLE'][0]
-
-
-def test_few_faces_that_would_turn_far_are_found_and_held() -> None:
-    """A strip of triangles of which one is steep: along the view its corners need to slide little to turn it over."""
-    V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [1.01, 0, 0.5], [1.01, 1, 0.5]], dtype=float)
-    F = np.array([[0, 1, 2], [1, 3, 2], [1, 4, 3], [4, 5, 3]])
-    patch = Patch("strip", np.ones(4, bool), np.arange(6), V, V, F, np.arange(4), np.eye(4), "", None, None,
-                  np.full(6, -1), None, None)
-    moved = V + np.array([0, 0, 0, 0, -1, -1])[:, None] * [0, 0, 1]
-    turned = turned_faces.find_turned(patch, moved)
-    assert turned.tolist() == [False, False, True, True]
-    assert turned_faces.find_vertices_to_hold(patch, turned) is None  # half of all: what was asked for
-    assert turned_faces.find_vertices_to_hold(patch, np.array([0, 0, 1, 0], bool)).tolist() == [0, 1, 0, 1, 1, 0]
 
 
 @pytest.mark.parametrize(("termination", "told"), [("converged", 0), ("already_optimal", 0), ("iteration_limit", 1),

@@ -70,7 +70,7 @@ def test_the_automatic_length_is_shown_as_its_value() -> None:
     assert report.automatic_length == pytest.approx(0.1773, rel=1e-3)
     assert report.automatic_limit == pytest.approx(report.automatic_length / 20.0)
     solved(directional=True)
-    assert settings.length_shown == pytest.approx(0.41)  # a sixth of the diagonal
+    assert settings.length_shown == pytest.approx(0.18)  # one automatic length, whatever it is for
     solved(length=0.5)
     assert settings.length_shown == 0.0  # the run told nothing of it
 

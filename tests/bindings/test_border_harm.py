@@ -9,7 +9,6 @@ Array = np.ndarray
 CONTINUED = ["curvature", "flow"]
 DIAGONALS = ["random", "jittered"]
 LESS_EVEN, SEEN = 1.01, 0.05  # share and degrees, both, by which a light may end less even
-SAID = "The border is only clamped: with its curvature continued"
 
 
 def shape(kind: str, V: Array) -> Array:
@@ -33,7 +32,7 @@ def press(panel: Panel, border: str) -> tuple[Array, reflines.SmoothPanelReport]
 
 
 def is_said(report: reflines.SmoothPanelReport) -> bool:
-    return any(message.startswith(SAID) for message in report.messages)
+    return any(note.kind.startswith("continuing_") for note in report.notes)
 
 
 def make_panel(kind: str, diagonals: str) -> Panel:

@@ -145,7 +145,7 @@ def test_marked_edges_are_held_and_cut_the_lines(rule: str) -> None:
     solver = solver_of(mesh, marked_creases=middle(mesh[0])[:, ::-1], crease_rule=rule)
     assert solver.region.marked_creases == solver.region.creases == 24
     assert solver.region.pieces == 2 and not solver.free[middle(mesh[0])].any()
-    assert "24 edges are marked as creases; held, the lines are solved on each side." in solver.region.messages
+    assert [(note.kind, note.count) for note in solver.region.notes] == [("marked_edges", 24)]
 
 
 def test_marks_that_are_no_edges_are_ignored() -> None:
@@ -165,7 +165,7 @@ def test_without_the_automatic_rule_no_bend_is_held(rule: str) -> None:
 
 def test_a_refusal_names_creases_where_they_hold_all_vertices() -> None:
     mesh = panel(24)
-    with pytest.raises(reflines.InvalidInput, match=r"creases \(24 edges\).*set Creases to Marked or None"):
+    with pytest.raises(reflines.InvalidInput, match=r"creases \(24 edges\).*hold fewer creases"):
         solver_of((mesh[0], mesh[1][(mesh[1] % 25 >= 11).all(1) & (mesh[1] % 25 <= 13).all(1)]),
                   marked_creases=middle(mesh[0]))
     with pytest.raises(reflines.InvalidInput) as refused:

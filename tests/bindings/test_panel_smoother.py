@@ -50,7 +50,7 @@ def test_press_is_that_of_smooth_panel(pose) -> None:
         again, told_again = smoother.press(**amount)
         once, told = reflines.smooth_panel(*mesh, **DIRECTIONS, **settings, **amount)
         assert np.array_equal(again, once), amount
-        assert (told_again.limited, told_again.limit, told_again.messages) == (told.limited, told.limit, told.messages)
+        assert (told_again.limited, told_again.limit, told_again.notes) == (told.limited, told.limit, told.notes)
         assert told_again.healed.area == pytest.approx(told.healed.area, rel=1e-9)
         assert told_again.unevenness_after == pytest.approx(told.unevenness_after, rel=1e-9)
         assert told_again.longer_waves == told.longer_waves
@@ -66,6 +66,24 @@ def test_press_of_a_cage_is_that_of_smooth_cage_panel() -> None:
         again, told = smoother.press(**amount)
         assert np.array_equal(again, reflines.smooth_cage_panel(*cage, **DIRECTIONS, **amount)[0]), amount
     assert told.largest_control_move > 0
+
+
+@pytest.mark.parametrize("pose", [rippled_mesh, continued_region, faired_region])
+def test_a_press_that_is_not_judged_has_the_same_positions(pose) -> None:
+    mesh, settings = pose()
+    smoother = reflines.PanelSmoother(*mesh, **DIRECTIONS, **settings)
+    for amount in AMOUNTS:
+        shown = smoother.press(judged=False, **amount)[0]
+        judged, told = smoother.press(**amount)
+        assert told.applied and np.array_equal(shown, judged), amount
+
+
+def test_a_press_that_is_not_judged_solves_for_no_measures() -> None:
+    mesh, _ = rippled_mesh()
+    smoother = reflines.PanelSmoother(*mesh, **DIRECTIONS)
+    smoother.press(judged=False)
+    told = smoother.press(judged=False, strength=0.5)[1]
+    assert (told.work.factorizations, told.work.solves) == (0, 0) and told.largest_move > 0
 
 
 def test_second_press_looks_for_no_flaws() -> None:

@@ -122,7 +122,7 @@ def test_what_is_seen_at_less_than_twelve_degrees_stays():
     assert solver.solve(reflines.smooth(solver, length=0.3)).converged
     assert solver.score(0.3).shift < 0.5 * before
     assert len(steep) > 100 and np.array_equal(solver.positions[steep], V[steep])
-    assert "seen nearly edge on" in " ".join(solver.region.messages)
+    assert "edge_on" in [note.kind for note in solver.region.notes]
 
 
 @pytest.mark.parametrize("border", ["clamped", "fixed"])

@@ -16,7 +16,7 @@ PUBLIC = {
     "uniform_target": "targets", "kept_target": "targets", "warp_target": "targets", "pattern_target": "targets",
     "line_handles": "targets",
     "minimizer_options": "optimization", "report": "optimization",
-    "shape_optimizer": "solver", "cage_optimizer": "solver",
+    "shape_optimizer": "solver", "cage_optimizer": "solver", "solve_panel": "solver",
     "smooth_panel": "restoration", "panel_smoother": "restoration", "joint_smoother": "restoration",
     "check_panel": "inspection", "inspect_panel": "inspection",
     "handle_follower": "following",

@@ -49,10 +49,8 @@ def executed(driver: window.Window, levels: int = 0, **settings: object) -> np.n
 
 
 def dragged_length() -> float:
-    """The length of the last drag, which is never automatic."""
-    length = bpy.context.window_manager.operators[-1].properties.length
-    assert length > 0.0
-    return length
+    """The length that the last drag was kept with; 0 is the automatic one."""
+    return bpy.context.window_manager.operators[-1].properties.length
 
 
 def press(driver: window.Window, operator: str = "smooth") -> Steps:

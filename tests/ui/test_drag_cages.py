@@ -26,6 +26,7 @@ def test_a_cage_follows_and_escape_leaves_no_bit_changed(driver: window.Window) 
 
 def test_what_is_kept_is_the_whole_solve_and_what_was_shown_lay_beside_it(driver: window.Window) -> Steps:
     panel(driver, levels=LEVELS)
+    bpy.context.scene.reflection_lines.length = 0.5  # with 0, the automatic press, what is shown is what is kept
     start = shown(driver)
     yield from press(driver)
     for x in (380, 300, 500, 250):

@@ -15,14 +15,20 @@ from pulling import MIDDLE, UP, begin, pull
 Steps = Generator[float, None, None]
 
 
+def press_half(driver: window.Window) -> Steps:
+    """Begins a drag of Smooth with the strength 0.5, which is typed: the mouse does not change it."""
+    yield from press(driver)
+    for key in ('PERIOD', 'FIVE'):
+        driver.key(key)
+        yield 0.1
+    yield from settled(driver)
+
+
 def start_both(driver: window.Window) -> Generator[float, None, np.ndarray]:
     """Pull Line over a drag of Smooth, each of which has moved the panel; returns the positions before both."""
     panel(driver, cells=24)
     before = shown(driver)
-    yield from press(driver)
-    driver.move(470, 300)
-    yield 0.2
-    yield from settled(driver)
+    yield from press_half(driver)
     smoothed = shown(driver)
     yield from begin(driver)
     assert len(sys.modules["reflection_lines"].interactive.drag._running) == 2
@@ -59,10 +65,7 @@ def test_disabling_the_add_on_takes_both_back(driver: window.Window) -> Steps:
     assert np.array_equal(after, before)
 
 
-def move_and_keep(driver: window.Window) -> Steps:
-    driver.move(470, 300)
-    yield 0.2
-    yield from settled(driver)
+def keep(driver: window.Window) -> Steps:
     driver.key('RET')
     yield 0.5
     yield from settled(driver)
@@ -72,12 +75,12 @@ def test_the_lower_one_is_kept_after_the_upper_one_was_left(driver: window.Windo
     """What is kept is what the lower one alone would have made: nothing of the pull is left in it."""
     yield from start_both(driver)
     yield from left(driver, 1)
-    yield from move_and_keep(driver)
+    yield from keep(driver)
     assert not is_running()
     kept = shown(driver)
     panel(driver, cells=24)
-    yield from press(driver)
-    yield from move_and_keep(driver)
+    yield from press_half(driver)
+    yield from keep(driver)
     assert np.abs(kept - shown(driver)).max() < 1e-6
 
 

@@ -20,6 +20,9 @@ struct PressAmount {
   double limit = 0.0;
   MoveLimit limit_share;
   std::shared_ptr<Progress> progress;  // of this press, or none
+  // False: the report has no measures of the result, and a light that became worse refuses nothing. The positions are
+  // those of a judged press that is applied. With another strength, as a drag shows it, that is a tenth of the work.
+  bool judged = true;
 };
 
 PressAmount amount_of(const SmoothPanelOptions& options);

@@ -82,6 +82,8 @@ class ShapeOptimizer {
   int triangle_count() const;
   int family_count() const { return family_count_; }
   int count_faces(const Mask& triangles) const;  // those that have a triangle in the mask (#F)
+  const Positions& start() const;                // #V x 3, as handed in
+  const Triangles& triangles() const;            // #F x 3, as handed in
 
   // These depend on the image plane only, not on the heights.
   PlanePositions xy() const;       // #V x 2
@@ -150,6 +152,18 @@ class ShapeOptimizer {
 
   // Scales all moves from the heights that the optimizer was built with. Throws InvalidInput outside 0 to 1.
   void scale_move(double share);
+
+  // Scales all moves by the share that the limit is of the largest one, where that is beyond it. Returns how many
+  // vertices were beyond it, at least one then: the numbers are rounded.
+  int keep_within(double limit);
+
+  // Keep the heights, with the limit of the solve that found them, and return to them.
+  struct State {
+    std::vector<Vector> unknowns;  // of each piece
+    MoveLimit limit;
+  };
+  State state() const;
+  void restore(const State& state);
 
   // Sets all free heights to those that the optimizer was built with plus `move` (#V), of partners the mean of both,
   // without a limit. Throws InvalidInput for numbers that are not finite, and for the surface of a cage.

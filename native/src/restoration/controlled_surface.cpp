@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "reflines/smooth_panel.h"
+#include "reflines/solve_panel.h"
 
 namespace reflines {
 MeshSurface::MeshSurface(const Positions& V, const Triangles& F, const Vector3& view, std::vector<Vector3> families,

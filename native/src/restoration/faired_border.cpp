@@ -1,6 +1,5 @@
 #include "restoration/faired_border.h"
 
-#include <string>
 #include <utility>
 
 #include "geometry/mesh.h"
@@ -24,17 +23,10 @@ std::vector<Border> free_border(const ShapeOptions& shape, const Mask& faired) {
   return result;
 }
 
-// Tells that the whole border was held, after the sentence that comes first; see SmoothPanelReport::messages.
+// Tells that the whole border was held, after the note that comes first; see SmoothPanelReport::notes.
 void tell_held(SmoothPanelReport& report) {
   const bool has_first = !report.applied || report.limited > 0 || report.largest_control_move == 0;
-  report.messages.insert(report.messages.begin() + has_first,
-                         "There are no faces beside the region by which its border could be faired: it was held.");
-}
-
-void tell_partly_held(Eigen::Index count, SmoothPanelReport& report) {
-  report.messages.push_back("At " + std::to_string(count) + (count == 1 ? " vertex" : " vertices") +
-                            " of the border there are no faces beside the region by which it could be faired: it was "
-                            "held there.");
+  report.notes.insert(report.notes.begin() + has_first, {NoteKind::kNotFaired});
 }
 
 // Presses the border as it is held, and tells so.
@@ -80,7 +72,7 @@ class FairedBorderPress : public Press {
     SmoothPanelResult result = judge_->judge_move(move.head(own), press_.report(), press_.limited().head(own),
                                                   press_.held_triangles().head(region_->triangles().rows()));
     result.report.work += press_.take_work();
-    if (held_.any()) tell_partly_held(held_.count(), result.report);
+    if (held_.any()) result.report.notes.push_back({NoteKind::kPartlyFaired, static_cast<int>(held_.count())});
     return result;
   }
 

@@ -44,7 +44,9 @@ class FollowedBorderPress : public Press {
         joined_shape_(join_followed(own, free_, joined_, F.rows())),
         joined_options_(join_options(options, alone_.report().length, joined_shape_.partner)) {}
 
-  SmoothPanelResult run(const PressAmount& amount) override {
+  SmoothPanelResult run(const PressAmount& wanted) override {
+    PressAmount amount = wanted;
+    amount.judged = true;  // the measures choose between the borders
     alone_.choose(amount);
     const double limit = alone_.report().limit;
     const ControlRange range(limit, amount.limit_share, V_.rows());
@@ -90,8 +92,7 @@ class FollowedBorderPress : public Press {
   SmoothPanelResult press_clamped(const PressAmount& amount) {
     if (!clamped_) clamped_ = prepare_held_border(V_, F_, view_, families_, clamp_followed(own_), options_);
     SmoothPanelResult result = clamped_->run(amount);
-    result.report.messages.emplace_back(
-        "The border is only clamped: following its neighbours, lines would have become less even.");
+    result.report.notes.push_back({NoteKind::kFollowingWorsens});
     return result;
   }
 

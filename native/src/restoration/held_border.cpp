@@ -1,9 +1,7 @@
 #include "restoration/held_border.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
-#include <string>
 
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
@@ -46,14 +44,10 @@ std::optional<Strays> find_less_even(const SmoothPanelReport& one, const SmoothP
   return std::nullopt;
 }
 
-std::string explain_clamped(bool continued_applied, const std::optional<Strays>& strays) {
-  const std::string start = "The border is only clamped: with its curvature continued, ";
-  if (!continued_applied || !strays) return start + "nothing could have been changed.";
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "lines would have ended less even in one light (they stray by %.3g instead of %.3g degrees).",
-                strays->one, strays->other);
-  return start + text;
+// Tells why the clamped result was chosen.
+Note explain_clamped(bool continued_applied, const std::optional<Strays>& strays) {
+  if (!continued_applied || !strays) return {NoteKind::kContinuingChangesNothing};
+  return {.kind = NoteKind::kContinuingWorsens, .before = strays->other, .after = strays->one};
 }
 
 // Finds the move with the curvature continued. Empty where the solver breaks down: what lies beside the region is no
@@ -82,8 +76,7 @@ SmoothPanelResult press_both(Restoration& press, Restoration& clamped_press, con
   SmoothPanelResult clamped = clamped_press.judge(clamped_move);
   const std::optional<Vector> continued_move = find_continued_move(press, amount);
   if (!continued_move) {
-    clamped.report.messages.emplace_back(
-        "The border is only clamped: with its curvature continued, the solver breaks down.");
+    clamped.report.notes.push_back({NoteKind::kContinuingFails});
     return clamped;
   }
   SmoothPanelResult continued = press.judge(bound_addition(clamped_move, *continued_move));
@@ -91,7 +84,7 @@ SmoothPanelResult press_both(Restoration& press, Restoration& clamped_press, con
   clamped.report.work = continued.report.work;
   const std::optional<Strays> strays = find_less_even(continued.report, clamped.report);
   if (!clamped.report.applied || (continued.report.applied && !strays)) return continued;
-  clamped.report.messages.push_back(explain_clamped(continued.report.applied, strays));
+  clamped.report.notes.push_back(explain_clamped(continued.report.applied, strays));
   return clamped;
 }
 
@@ -106,7 +99,10 @@ class HeldBorderPress : public Press {
   }
 
   SmoothPanelResult run(const PressAmount& amount) override {
-    return clamped_press_ ? press_both(press_, *clamped_press_, amount) : press_.run(amount);
+    if (!clamped_press_) return press_.run(amount);
+    PressAmount judged = amount;  // the measures choose between both
+    judged.judged = true;
+    return press_both(press_, *clamped_press_, judged);
   }
 
  private:

@@ -12,7 +12,7 @@
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
 #include "restoration/joined_options.h"
-#include "restoration/press_messages.h"
+#include "restoration/press_notes.h"
 #include "restoration/press_setup.h"
 #include "restoration/region_result.h"
 #include "restoration/rim_spread.h"
@@ -136,8 +136,7 @@ SmoothPanelResult JointSide::press_alone(const PressAmount& amount) {
 
 SmoothPanelResult JointSide::press_clamped(const PressAmount& amount) {
   SmoothPanelResult result = press_alone(amount);
-  result.report.messages.emplace_back(
-      "The border is only clamped: smoothed across the gap, lines would have become less even.");
+  result.report.notes.push_back({NoteKind::kJoiningWorsens});
   return result;
 }
 
@@ -243,7 +242,7 @@ SmoothPanelResult JointSide::judge(const PressAmount& amount) {
   SmoothPanelResult judged = press_->judge(amount.strength * move);
   if (!judged.report.applied) return judged;
   judged.report.limited = limited_;
-  if (limited_ > 0) judged.report.messages = describe_result(judged.report);
+  if (limited_ > 0) judged.report.notes = tell_result(judged.report);
   const TangentMatch match{joined_, V_.rows(), F_.rows(), turned_border_, region_->optimizer().frame()};
   return take_region({judged, V_, *range_, region_->optimizer().region(), alone_->report().limit}, match,
                      amount.strength * move_, amount.strength * turned_);

@@ -1,9 +1,8 @@
 #include "restoration/region_result.h"
 
 #include <algorithm>
-#include <cstdio>
 
-#include "restoration/press_messages.h"
+#include "restoration/press_notes.h"
 
 namespace reflines {
 namespace {
@@ -27,12 +26,9 @@ SmoothPanelResult take_region(const JoinedResult& result, const TangentMatch& ma
   report.region = result.region;
   report.limit = result.limit;
   report.largest_move = report.largest_control_move = move.cwiseAbs().maxCoeff();
-  if (!turned.isZero(0)) report.messages = describe_result(report);
+  if (!turned.isZero(0)) report.notes = tell_result(report);
   const double angle = find_turn(match, turned);
-  if (angle < kToldTurn) return own;
-  char text[96];
-  std::snprintf(text, sizeof text, "The border was turned by up to %.2g degrees to follow its neighbours.", angle);
-  report.messages.emplace_back(text);
+  if (angle >= kToldTurn) report.notes.push_back({.kind = NoteKind::kBorderTurned, .after = angle});
   return own;
 }
 

@@ -1,7 +1,6 @@
 #include "restoration/restoration.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "base/smoothstep.h"
@@ -9,8 +8,8 @@
 #include "reflines/errors.h"
 #include "restoration/healed_flaws.h"
 #include "restoration/line_fields.h"
-#include "restoration/press_messages.h"
-#include "restoration/turned_faces.h"
+#include "restoration/press_notes.h"
+#include "solver/turned_faces.h"
 
 namespace reflines {
 namespace {
@@ -222,40 +221,47 @@ bool Restoration::has_longer_waves() {
   return *longer_waves_;
 }
 
-SmoothPanelResult Restoration::judge(const Vector& move) {
-  const Vector end = start_ + surface_.surface_move(move);
+// Measures heights of the surface (#V) against the start.
+void Restoration::measure_result(const Vector& end) {
   const Unevenness& before = measure_start();
-  const Unevenness after = measure(end);
+  Unevenness after = measure(end);
   report_.score_before = before.score;
   report_.score_after = after.score;
   report_.unevenness_before = before.degrees;
   report_.unevenness_after = after.degrees;
   report_.seen = before.seen;
-  report_.stray = before.stray;
+  report_.stray = std::move(after.stray);
   // The course of the lines is that of the shape without flaws, smoothed: what counts as design is in it, and what a
   // limit or the strength leaves of a flaw is not.
   if (!course_) course_ = smooth(shape_);
   report_.healed = measure_healed(surface_, start_, end, *course_, report_.length);
-  if (turns_faces(move)) return refuse(explain_turned_faces());
-  for (size_t k = 0; k < after.degrees.size(); ++k) {
-    if (after.degrees[k] > kWorse * before.degrees[k])
-      return refuse(explain_worse_light(before.degrees[k], after.degrees[k]));
+}
+
+SmoothPanelResult Restoration::judge(const Vector& move) {
+  if (amount_.judged) measure_result(start_ + surface_.surface_move(move));
+  if (turns_faces(move)) return refuse({NoteKind::kFacesWouldTurn});
+  for (size_t k = 0; k < report_.unevenness_after.size(); ++k) {
+    const double before = report_.unevenness_before[k], after = report_.unevenness_after[k];
+    if (after > kWorse * before) return refuse({NoteKind::kLightWouldWorsen, 0, before, after});
   }
-  report_.stray = after.stray;
+  return apply(move);
+}
+
+SmoothPanelResult Restoration::apply(const Vector& move) {
   report_.largest_move = surface_.surface_move(move).cwiseAbs().maxCoeff();
   report_.largest_control_move = move.cwiseAbs().maxCoeff();
-  if (options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = has_longer_waves();
-  report_.messages = amount_.strength > 0 || report_.limited > 0
-                         ? describe_result(report_)
-                         : std::vector<std::string>{"The strength is 0: nothing was changed."};
+  if (amount_.judged && options_.length == 0 && options_.flaw_size <= 1) report_.longer_waves = has_longer_waves();
+  report_.notes =
+      amount_.strength > 0 || report_.limited > 0 ? tell_result(report_) : std::vector<Note>{{NoteKind::kNoStrength}};
   report_.work = take_work();
   return {range_.apply(surface_.control_positions(), axis_, move), report_};
 }
 
-SmoothPanelResult Restoration::refuse(const std::string& reason) {
+SmoothPanelResult Restoration::refuse(const Note& reason) {
   report_.applied = false;
+  if (amount_.judged) report_.stray = measure_start().stray;
   report_.healed = {.worst_before = report_.healed.worst_before, .worst_after = report_.healed.worst_before};
-  report_.messages.push_back(reason);
+  report_.notes.push_back(reason);
   report_.work = take_work();
   return {surface_.control_positions(), report_};
 }

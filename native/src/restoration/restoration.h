@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "geometry/height_field.h"
@@ -73,7 +72,9 @@ class Restoration {
   const Unevenness& measure_start();
   bool has_longer_waves();
   double weigh_gain();
-  SmoothPanelResult refuse(const std::string& reason);
+  void measure_result(const Vector& end);
+  SmoothPanelResult apply(const Vector& move);
+  SmoothPanelResult refuse(const Note& reason);
 
   ControlledSurface& surface_;
   const SmoothPanelOptions options_;

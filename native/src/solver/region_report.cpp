@@ -9,9 +9,9 @@ namespace {
 
 std::string format_face_count(int count) { return std::to_string(count) + (count == 1 ? " face" : " faces"); }
 
-std::string format_features(int count) {
-  return format_face_count(count) +
-         " bend far more than the panel, and run on (fillets, hems, gaps); their lines are kept.";
+// Adds a note on so many, where there are any.
+void tell(NoteKind kind, int count, Region& region) {
+  if (count > 0) region.notes.push_back({kind, count});
 }
 
 int count(const HeightField& field, VertexRole role) {
@@ -32,24 +32,11 @@ Region describe_region(const HeightField& field, const IndexVector& face_of_tria
   region.free = count(field, VertexRole::kFree);
   region.fixed = count(field, VertexRole::kFixed);
   region.clamped = count(field, VertexRole::kClamped);
-  if (region.turned_away > 0) {
-    region.messages.push_back(format_face_count(region.turned_away) +
-                              " turned away from the view or folded over: left as they are.");
-  }
-  const std::string fate = creases_held ? "held" : "kept sharp";
-  if (const int found = region.creases - region.marked_creases; found > 0) {
-    region.messages.push_back(std::to_string(found) + (found == 1 ? " edge bends" : " edges bend") +
-                              " too sharply for a fair panel (gaps, folds, hems); " + fate +
-                              ", the lines are solved on each side.");
-  }
-  if (const int marked = region.marked_creases; marked > 0) {
-    region.messages.push_back(std::to_string(marked) + (marked == 1 ? " edge is" : " edges are") +
-                              " marked as creases; " + fate + ", the lines are solved on each side.");
-  }
-  if (region.silhouettes > 0) {
-    region.messages.push_back(format_face_count(region.silhouettes) +
-                              " seen nearly edge on (less than 12 degrees): left as they are.");
-  }
+  tell(NoteKind::kTurnedAway, region.turned_away, region);
+  const int sharp = region.creases - region.marked_creases;
+  tell(creases_held ? NoteKind::kSharpEdges : NoteKind::kSharpEdgesKept, sharp, region);
+  tell(creases_held ? NoteKind::kMarkedEdges : NoteKind::kMarkedEdgesKept, region.marked_creases, region);
+  tell(NoteKind::kEdgeOn, region.silhouettes, region);
   return region;
 }
 
@@ -62,37 +49,28 @@ std::string explain_no_free_vertex(const Region& region, int faces, int doubled)
   const std::string creases = std::to_string(region.creases) + (region.creases == 1 ? " edge" : " edges");
   return "No vertex of the region is free to move (" + format_face_count(faces) + ": all vertices are held by " +
          (region.creases > 0 ? "creases (" + creases + "), " : "") +
-         "the border, silhouettes or faces turned away); select a larger region, or a border that holds less (Fixed or "
-         "Free)" +
-         (region.creases > 0 ? ", or set Creases to Marked or None." : ".");
+         "the border, silhouettes or faces turned away); select a larger region, or a border that holds less, as a "
+         "free "
+         "one" +
+         (region.creases > 0 ? ", or hold fewer creases." : ".");
 }
 
-void add_piece_messages(Region& region) {
-  if (region.unused_pieces > 0) {
-    region.messages.push_back(std::to_string(region.unused_pieces) + " of " + std::to_string(region.pieces) +
-                              " pieces have no free vertex and stay as they are.");
-  }
-  if (region.hidden > 0) {
-    region.messages.push_back("The lines are not defined on " + format_face_count(region.hidden) +
-                              " that mirror the view almost along the light lines; little or no weight there.");
-  }
+void add_piece_notes(Region& region) {
+  tell(NoteKind::kUnusedPieces, region.unused_pieces, region);
+  tell(NoteKind::kHiddenFaces, region.hidden, region);
 }
 
-void add_eye_message(const std::vector<Vector>& sight, Region& region) {
-  std::string blind;
+void add_eye_notes(const std::vector<Vector>& sight, Region& region) {
   for (size_t k = 0; k < sight.size(); ++k) {
-    if (sight[k].isZero(0)) blind += (blind.empty() ? "" : ", ") + std::to_string(k);
+    if (sight[k].isZero(0)) region.notes.push_back({NoteKind::kUnseen, static_cast<int>(k)});
   }
-  if (blind.empty()) return;
-  region.messages.push_back(
-      "Turned away from these eyes or hidden from them, the region has no weight there: " + blind + ".");
 }
 
 void set_feature_count(int count, Region& region) {
   if (count == region.features) return;
-  std::erase(region.messages, format_features(region.features));
+  std::erase(region.notes, Note{NoteKind::kFeatures, region.features});
   region.features = count;
-  if (count > 0) region.messages.push_back(format_features(count));
+  tell(NoteKind::kFeatures, count, region);
 }
 
 }  // namespace reflines

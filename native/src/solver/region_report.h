@@ -1,4 +1,4 @@
-// Counts triangles and vertices of a region by their roles, and formats the counts as sentences for the user.
+// Counts triangles and vertices of a region by their roles, and tells which faces and edges stay as they are.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace reflines {
 
-// Returns the counts and messages that follow from the height field. `face_of_triangle`: see ShapeOptions.
+// Returns the counts and notes that follow from the height field. `face_of_triangle`: see ShapeOptions.
 // `creases_held`: creases are fixed; else they move with their vertices, as on the surface of a cage.
 Region describe_region(const HeightField& field, const IndexVector& face_of_triangle, bool creases_held);
 
-// Adds the messages on unused pieces and hidden faces, once those are counted.
-void add_piece_messages(Region& region);
+// Adds the notes on unused pieces and hidden faces, once those are counted.
+void add_piece_notes(Region& region);
 
-// Adds a sentence about the eyes that see nothing of the region; `sight` (#F) is that of each, see Families.
-void add_eye_message(const std::vector<Vector>& sight, Region& region);
+// Adds a note for each eye that sees nothing of the region; `sight` (#F) is that of each, see Families.
+void add_eye_notes(const std::vector<Vector>& sight, Region& region);
 
 // Returns a sentence why no vertex of a region of so many faces is free. `doubled`: vertices that lie on others.
 std::string explain_no_free_vertex(const Region& region, int faces, int doubled);
 
-// Sets the count of features and replaces the message on the previous count.
+// Sets the count of features and replaces the note on the previous count.
 void set_feature_count(int count, Region& region);
 
 }  // namespace reflines

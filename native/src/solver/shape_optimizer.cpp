@@ -93,8 +93,8 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   }
   region_.hidden = count_faces(pieces_->hidden());
   count_features(feature_length_, 0);
-  add_piece_messages(region_);
-  add_eye_message(sight_, region_);
+  add_piece_notes(region_);
+  add_eye_notes(sight_, region_);
 }
 
 void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
@@ -113,24 +113,12 @@ void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& b
   }
   border_ = std::move(curvature.targets);
   if (border_.empty() && curvature.strong == 0) {
-    region_.messages.emplace_back(
-        "No faces beside the region tell the curvature of its border, which is only clamped.");
+    region_.notes.push_back({NoteKind::kCurvatureUnknown});
   } else if (curvature.unknown > 0) {
-    region_.messages.push_back("At " + std::to_string(curvature.unknown) +
-                               " vertices of the border the faces beside it do not tell its curvature, since they are "
-                               "too few, bend at a crease or have noise: it is only clamped there.");
+    region_.notes.push_back({NoteKind::kCurvaturePartlyUnknown, curvature.unknown});
   }
-  if (curvature.strong > 0) {
-    region_.messages.push_back("At " + std::to_string(curvature.strong) +
-                               " vertices of the border the surface bends strongly on one of its sides, as at a hem: "
-                               "it is only clamped there.");
-  }
-  if (curvature.constant > 0) {
-    region_.messages.push_back(
-        "At " + std::to_string(curvature.constant) +
-        " vertices of the border the faces beside it do not tell the rate at which its curvature "
-        "changes: Flow is the same as Curvature there.");
-  }
+  if (curvature.strong > 0) region_.notes.push_back({NoteKind::kStrongBorderBend, curvature.strong});
+  if (curvature.constant > 0) region_.notes.push_back({NoteKind::kFlowUnknown, curvature.constant});
 }
 
 std::vector<Target> ShapeOptimizer::with_border(const std::vector<Target>& targets) const {
@@ -316,6 +304,26 @@ void ShapeOptimizer::scale_move(double share) {
   for (const auto& piece : pieces_->pieces()) piece->scale_move(share);
 }
 
+int ShapeOptimizer::keep_within(double limit) {
+  const Vector move = (heights() - frame().heights(start())).cwiseAbs();
+  const double largest = move.maxCoeff();
+  if (!(largest > limit)) return 0;
+  scale_move(limit / largest);
+  return std::max(1, static_cast<int>((move.array() > limit).count()));
+}
+
+ShapeOptimizer::State ShapeOptimizer::state() const {
+  State result{{}, pieces_->limit()};
+  for (const auto& piece : pieces_->pieces()) result.unknowns.push_back(piece->unknowns());
+  return result;
+}
+
+void ShapeOptimizer::restore(const State& state) {
+  forget_lines();
+  pieces_->set_limit(state.limit);
+  for (size_t k = 0; k < state.unknowns.size(); ++k) pieces_->pieces()[k]->set_heights(state.unknowns[k]);
+}
+
 void ShapeOptimizer::set_move(const Vector& move) {
   if (kind_ == SurfaceKind::kSubdivided) throw InvalidInput("The vertices of a cage's surface do not move one by one.");
   if (move.size() != pieces_->vertex_count() || !move.allFinite()) {
@@ -370,6 +378,10 @@ const ImagePlane& ShapeOptimizer::frame() const { return pieces_->frame(); }
 int ShapeOptimizer::count_faces(const Mask& triangles) const {
   return reflines::count_faces(triangles, face_of_triangle_);
 }
+
+const Positions& ShapeOptimizer::start() const { return pieces_->start(); }
+
+const Triangles& ShapeOptimizer::triangles() const { return pieces_->triangles(); }
 
 int ShapeOptimizer::triangle_count() const { return pieces_->triangle_count(); }
 

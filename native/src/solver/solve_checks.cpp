@@ -71,7 +71,7 @@ void check_reach(const Eigen::AlignedBox3d& region, double largest_move) {
   std::snprintf(move, sizeof move, "%.3g", largest_move / diagonal);
   throw SolverFailure("The lines asked for would move the surface by " + std::string(move) +
                       " times its own size, so nothing was changed; ask for less strength or density, or hold more of "
-                      "the border (Clamped).");
+                      "the border.");
 }
 
 }  // namespace reflines

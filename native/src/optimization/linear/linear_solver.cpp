@@ -134,7 +134,7 @@ class LinearSolver::Backend {
     throw SolverFailure(
         "The system of " + std::to_string(matrix.rows()) +
         " unknowns is singular or not positive definite, also with 1e-3 of its diagonal added; hold more of "
-        "the border (Fixed or Clamped).");
+        "the border.");
   }
 
   static std::shared_ptr<Backend> make(LinearSolverKind kind);

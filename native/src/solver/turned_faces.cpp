@@ -1,4 +1,4 @@
-#include "restoration/turned_faces.h"
+#include "solver/turned_faces.h"
 
 #include <cmath>
 #include <numbers>

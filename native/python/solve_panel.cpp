@@ -1,0 +1,59 @@
+#include "reflines/solve_panel.h"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "python/array_arguments.h"
+#include "python/bind.h"
+#include "python/exclusive_use.h"
+#include "python/native_call.h"
+#include "python/surroundings.h"
+
+namespace py = pybind11;
+
+namespace reflines {
+namespace {
+
+py::object solve(ShapeOptimizer& optimizer, const std::vector<Target>& targets, double length, double limit,
+                 const std::optional<PlanePositions>& limit_share, const Around& around, int most_bounded,
+                 const std::shared_ptr<Progress>& progress) {
+  SolvePanelOptions options{length, limit, {}, surroundings_of(around), most_bounded};
+  if (limit_share) options.limit_share = {limit_share->col(0), limit_share->col(1)};
+  return call_native(optimizer, [&optimizer, targets, options, progress] {
+    return solve_panel(optimizer, targets, options, progress.get());
+  });
+}
+
+py::object residual_of(const ShapeOptimizer& optimizer, const Target& target) {
+  return call_native(optimizer, ExclusiveUse::Use::kReads,
+                     [&optimizer, target] { return measure_residual(optimizer, target); });
+}
+
+}  // namespace
+
+void bind_solve_panel(py::module_& module) {
+  using Told = SolvePanelReport;
+  module.attr("MOST_BOUNDED") = kMostBounded;
+  module.attr("MOST_BOUNDED_CAGE") = kMostBoundedCage;
+  py::class_<Told>(module, "SolvePanelReport", py::module_local())
+      .def_readonly("solve", &Told::solve)
+      .def_readonly("limited", &Told::limited)
+      .def_readonly("score_before", &Told::score_before)
+      .def_readonly("score_after", &Told::score_after)
+      .def_readonly("residual_before", &Told::residual_before)
+      .def_readonly("residual_after", &Told::residual_after)
+      .def_readonly("residual", &Told::residual)
+      .def_readonly("falls_short", &Told::falls_short)
+      .def_readonly("held_faces", &Told::held_faces)
+      .def_readonly("turned_faces", &Told::turned_faces)
+      .def_readonly("rim_bend", &Told::rim_bend);
+  module.def("solve_panel", &solve, py::arg("optimizer"), py::arg("targets"), py::kw_only(), py::arg("length"),
+             py::arg("limit"), py::arg("limit_share") = py::none(), py::arg("around") = py::none(),
+             py::arg("most_bounded") = SolvePanelOptions().most_bounded, py::arg("progress") = py::none());
+  module.def("measure_residual", &residual_of, py::arg("optimizer"), py::arg("target"));
+}
+
+}  // namespace reflines
