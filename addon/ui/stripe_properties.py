@@ -46,7 +46,7 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     before: BoolProperty(name="Compare with Before",
                          description="Show the reflections that the panel had before its last solve")
     side_by_side: BoolProperty(name="Side by Side", default=True, options={'HIDDEN'},
-                               description="For pictures. Left of a line in the view the reflections before the last solve, "
+                               description="For pictures. Left of a line the reflections before the last solve, "
                                "right of it those after; drag the line with the mouse")
     look: EnumProperty(name="Look", items=NAMED_LOOKS, options=set(), get=lambda self: self.find_look(),
                        set=lambda self, value: self.use_look(value),
