@@ -7,7 +7,7 @@ bl_info = {
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > Reflection",
-    "description": "Optimize the shape of a panel through its reflection lines",
+    "description": "Remove dents and waves from car panels by their reflections",
     "category": "Mesh",
 }
 

@@ -1,6 +1,6 @@
-"""Smooths the bonnet through the add-on's operator and shows it: `./run demo`, or
+"""Smooths the car's bonnet through the add-on's operator and shows it: `./run demo`, or
 
-    blender -b blend_samples/hood.blend -P tests/in_blender.py -- blend_samples/demo.py OUTPUT_FOLDER
+    blender -b blend_samples/car.blend -P tests/in_blender.py -- blend_samples/demo.py OUTPUT_FOLDER
 
 Writes before.png, after.png and comparison.png (Cycles: the paint mirrors line lights) and the solved file.
 """
@@ -37,7 +37,7 @@ def main(folder: pathlib.Path) -> None:
     change = f"worst {report.worst_before:.2f} to {report.worst_after:.2f} degrees"
     pictures.picture(after, f"after: {change}, {1000.0 * report.seconds:.0f} ms")
     pictures.side_by_side([before, after], folder / "comparison.png")
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "hood_smoothed.blend"), compress=True, copy=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "car_smoothed.blend"), compress=True, copy=True)
     print(f"demo: look at {folder / 'comparison.png'}")
 
 

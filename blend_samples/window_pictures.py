@@ -62,7 +62,7 @@ def join(names: tuple[str, ...]) -> np.ndarray:
 
 def drag_by_the_arrow(driver: window.Window) -> Steps:
     """Takes the toolbar's tool with its gizmos, and a drag of the strength."""
-    driver.key('Z', ctrl=True)  # the ripples again
+    driver.key('Z', ctrl=True)  # the dents again
     yield from dragging.settled(driver)
     with driver.override():
         bpy.ops.wm.tool_set_by_id(name="reflection_lines.tool")
@@ -80,9 +80,8 @@ def drag_by_the_arrow(driver: window.Window) -> Steps:
 
 def take_all() -> Steps:
     yield from newcomer.use_sample(view_picture)
-    driver = window.Window()
-    yield from newcomer.use_own_model(driver, view_picture)
-    yield from drag_by_the_arrow(driver)
+    yield from newcomer.use_own_model(view_picture)
+    yield from drag_by_the_arrow(window.Window())
     save(join(STRIP), FOLDER / "first_use.png")
     for name, source, width in (("first_use", "first_use", STRIP_WIDTH), ("toolbar", "toolbar", WIDTH),
                                 ("drag", "drag", WIDTH), ("sidebar", "smoothed", WIDTH)):

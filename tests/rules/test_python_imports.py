@@ -8,7 +8,7 @@ from tree import ROOT, files, python_files
 MAY_IMPORT = {
     "bl_info": set(),  # of addon/__init__.py
     "library_copy": set(),
-    "native": {"library_copy"},
+    "native": {"bl_info", "library_copy"},
     "native_call": set(),
     "model": {"native"},
     "targets": {"native", "native_call", "model.line_curve", "model.line_handle", "model.solution"},

@@ -115,7 +115,9 @@ def test_what_another_modifier_made_of_the_mesh_before_is_not_shown_as_a_coarse_
     stripes.before, stripes.side_by_side = True, False
     told = yield from captured(driver)
     stripes.before = False
-    assert np.array_equal(told, after)
+    yield from window.take_picture(driver, "split_told")
+    print(f"{(np.abs(told - after) > 3.0 / 255.0).mean():.3%} of the pixels differ")
+    assert (np.abs(told - after) > 3.0 / 255.0).mean() < 1e-3
 
 
 def test_a_file_with_an_edge_of_too_many_faces_shows_the_modifiers_surface(driver: window.Window) -> Steps:
