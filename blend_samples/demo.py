@@ -11,6 +11,20 @@ import bpy
 
 import checkout
 import pictures
+import studio
+
+COLOUR = (0.56, 0.66, 0.78)
+
+
+def light_for_cycles() -> None:
+    """Gives the render what the stripes show in a view: line lights all around, and paint that mirrors them."""
+    settings = bpy.context.scene.reflection_lines
+    shown = settings.stripes
+    studio.light_the_room(settings.camera, settings.light, studio.Stripes(shown.count, shown.width, shown.softness))
+    paint = studio.car_paint("Mirror", COLOUR)
+    for ob in shown.collection.objects:
+        ob.data.materials.clear()
+        ob.data.materials.append(paint)
 
 
 def smooth(panel: bpy.types.Object) -> None:
@@ -30,6 +44,7 @@ def main(folder: pathlib.Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     checkout.enable_add_on()
     panel = bpy.context.view_layer.objects.active
+    light_for_cycles()
     before, after = folder / "before.png", folder / "after.png"
     pictures.picture(before, "before")
     smooth(panel)
