@@ -1,5 +1,5 @@
-"""Takes the manual's pictures of Blender's window: the six of the first use, the drag, the toolbar's tool, the sidebar, and
-the brush.
+"""Takes the manual's pictures of Blender's window: the six of the first use, the drag, the toolbar's tool, the
+sidebar, and the brush.
 
 Run by `./run gallery` in a real window with simulated events, which takes Blender 3.4: later ones save black pictures
 under Xvfb. What is pressed is what the test of the first use presses, tests/ui/newcomer.py.

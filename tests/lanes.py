@@ -176,7 +176,7 @@ def window_counts(index: int, files: Sequence[Path]) -> Counts:
 
 
 def group_window_tests() -> list[list[Path]]:
-    """Returns the files of window tests, those that run in one Blender together; the groups, which take longest, first."""
+    """Returns the files of window tests that run in one Blender; those of several, which take longest, first."""
     files = {path.stem.removeprefix("test_"): path for path in sorted((ROOT / "tests/ui").glob("test_*.py"))}
     groups = [[files.pop(name) for name in group] for group in TOGETHER]
     return groups + [[path] for path in files.values()]

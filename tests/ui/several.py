@@ -2,7 +2,7 @@
 
     blender ... -P tests/in_blender.py -- tests/ui/several.py FILE...
 
-Starting Blender takes longer than most of the files. What a test leaves in the add-on's memory meets the next file, as in the
+Starting Blender takes longer than many files. What a test leaves in the add-on's memory meets the next file, as in the
 session of an artist who opens one file after another.
 """
 import runpy
