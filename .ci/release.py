@@ -8,7 +8,7 @@ matrix does.
     .ci/release.py [--test]
 
 --test: then in a window of both Blenders the repository is added by an address on this machine; the add-on is installed
-from it, used, updated to a version 0.2.0 that is made for it, used again and removed, in one session. Blender 3.4
+from it, used, updated to a version 0.2.0 that is made for it, which asks for a new session, and removed. Blender 3.4
 installs and enables the zip for older ones.
 """
 import argparse
@@ -103,6 +103,8 @@ def next_version(folder: Path) -> Path:
         wheel.unlink()
     manifest = folder / "blender_manifest.toml"
     manifest.write_text(manifest.read_text().replace(version(), NEXT))
+    start = folder / "__init__.py"
+    start.write_text(start.read_text().replace(*(str(tuple(map(int, each.split(".")))) for each in (version(), NEXT))))
     return folder
 
 

@@ -1,17 +1,20 @@
-"""Loads the native module `reflines`, which other modules take from here, and describes why it cannot be loaded."""
+"""Loads the native module `reflines`, which other modules take from here, and describes why it cannot be loaded.
+
+In an extension it is the wheel's, imported as any module; a zip for older Blenders has it beside this file.
+"""
 import re
 import sys
 import sysconfig
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib import invalidate_caches
+from importlib import import_module, invalidate_caches
 from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from . import library_copy
+from . import bl_info, library_copy
 
 if TYPE_CHECKING:
     from .reflines import CageOptimizer as CageOptimizer
@@ -34,6 +37,7 @@ if TYPE_CHECKING:
     from .reflines import Task as Task
 
 HERE = Path(__file__).resolve().parent
+VERSION = ".".join(map(str, bl_info["version"]))
 SYSTEMS = {"win32": "Windows", "darwin": "macOS"}
 SYSTEM = SYSTEMS.get(sys.platform, "Linux")
 # Words of Windows, macOS and Linux for a library that may not be loaded.
@@ -41,23 +45,43 @@ BLOCKED = re.compile(r"Access is denied|Application Control|virus|system policy|
                      r"Operation not permitted|Permission denied")
 
 
+class OtherVersion(ImportError):
+    """The module of another version, which a session goes on using after an update of the extension."""
+
+
 def find_library() -> Path | None:
-    """Returns the file of the module: beside this one, or where Blender unpacks the wheels of an extension."""
-    beside = [HERE / f"reflines{suffix}" for suffix in EXTENSION_SUFFIXES]
+    """Returns the file of the module beside this one, None where there is none for this Python."""
+    beside = (HERE / f"reflines{suffix}" for suffix in EXTENSION_SUFFIXES)
+    return next((path for path in beside if path.is_file()), None)
+
+
+def is_there() -> bool:
+    """Returns whether there is a module to load, beside this file or in a wheel."""
     invalidate_caches()  # the wheel may have come in this session
-    wheel = find_spec("reflines")
-    installed = [Path(wheel.origin)] if wheel is not None and wheel.origin else []
-    return next((path for path in beside + installed if path.is_file()), None)
+    return find_library() is not None or find_spec("reflines") is not None
 
 
-def load_library() -> ModuleType:
-    """Loads the module from a copy that no installation overwrites.
+def load_module() -> ModuleType:
+    """Loads the module: that of the wheel as any other, one beside this file from a copy.
+
+    Blender knows how to replace a wheel whose library is in use; one of an older version is used until it ends.
+    """
+    library = find_library()
+    if library is not None:
+        return load_copy(library)
+    if not is_there():
+        raise ImportError("there is none for this Python")
+    module = import_module("reflines")
+    if module.__version__ != VERSION:
+        raise OtherVersion(module.__version__)
+    return module
+
+
+def load_copy(library: Path) -> ModuleType:
+    """Loads a library from a copy that no installation overwrites.
 
     Each content is loaded once in a process, under a name of its own that survives reloads of the add-on.
     """
-    library = find_library()
-    if library is None:
-        raise ImportError("there is none for this Python")
     digest = library_copy.compute_digest(library)
     name = f"reflines_{digest}.reflines"
     if name in sys.modules:
@@ -85,9 +109,9 @@ def load_file(path: Path, name: str) -> ModuleType:
 
 
 try:
-    reflines, _import_error = load_library(), ""
+    reflines, _failure = load_module(), None
 except (ImportError, OSError) as error:
-    reflines, _import_error = None, str(error)
+    reflines, _failure = None, error
 
 
 @dataclass(frozen=True)
@@ -112,8 +136,11 @@ def describe_state() -> State:
     """Describes whether the module is loaded, and if not, why."""
     if reflines is not None:
         return State()
-    if find_library() is not None:
-        return describe_failure(_import_error)
+    if isinstance(_failure, OtherVersion):
+        return State(f"The native solver is that of version {_failure} and the add-on's is {VERSION}.",
+                     "Start Blender again.")
+    if is_there():
+        return describe_failure(str(_failure))
     python = sysconfig.get_python_version()
     built = sorted(path.name for path in HERE.glob("reflines.*") if path.suffix in {".so", ".pyd"})
     if not built:

@@ -36,7 +36,7 @@ OPERATIONS = (
     Operation("direction", "plate.blend", lambda: bpy.ops.reflines.direction(
         direction='ANGLE', angle=0.35, border='free', centre='EVERYWHERE')),
     Operation("density", "plate.blend", lambda: bpy.ops.reflines.direction(
-        density=1.8, centre='REGION', radius=0.4, emphasis=20.0, border='clamped')),
+        density=1.8, centre='REGION', radius=0.4, border='clamped')),
     Operation("untwist", "fender.blend", lambda: bpy.ops.reflines.untwist()),
     Operation("warp", "hood_warp.blend", lambda: bpy.ops.reflines.warp()),
     Operation("cage", "cage_hood.blend", lambda: bpy.ops.reflines.smooth()),

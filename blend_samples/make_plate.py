@@ -29,7 +29,7 @@ def main() -> None:
     plate = studio.stage("Plate", V, quads, np.ones(len(V), bool), SHOT)
     settings = bpy.context.scene.reflection_lines
     settings.pattern.image, settings.pattern.strength, settings.pattern.blur = star(), 0.3, 16.0
-    settings.pattern.keep_lines, settings.border = 0.0, 'free'
+    settings.border = 'free'
     studio.save(plate, str(HERE / "plate.blend"))
 
 

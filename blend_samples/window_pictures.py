@@ -1,4 +1,5 @@
-"""Takes the manual's pictures of Blender's window: the six of the first use, the drag, the toolbar's tool, the sidebar.
+"""Takes the manual's pictures of Blender's window: the six of the first use, the drag, the toolbar's tool, the
+sidebar, and the brush.
 
 Run by `./run gallery` in a real window with simulated events, which takes Blender 3.4: later ones save black pictures
 under Xvfb. What is pressed is what the test of the first use presses, tests/ui/newcomer.py.
@@ -62,7 +63,7 @@ def join(names: tuple[str, ...]) -> np.ndarray:
 
 def drag_by_the_arrow(driver: window.Window) -> Steps:
     """Takes the toolbar's tool with its gizmos, and a drag of the strength."""
-    driver.key('Z', ctrl=True)  # the ripples again
+    driver.key('Z', ctrl=True)  # the dents again
     yield from dragging.settled(driver)
     with driver.override():
         bpy.ops.wm.tool_set_by_id(name="reflection_lines.tool")
@@ -78,14 +79,38 @@ def drag_by_the_arrow(driver: window.Window) -> Steps:
     yield 0.3
 
 
-def take_all() -> Steps:
-    yield from newcomer.use_sample(view_picture)
+def open_sample(name: str) -> Steps:
+    bpy.ops.wm.open_mainfile(filepath=str(newcomer.SAMPLE.with_name(name)), load_ui=True)
+    yield 1.5
+
+
+def paint_a_stroke() -> Steps:
+    """Takes a stroke of the brush across half of the car's bonnet."""
+    yield from open_sample("car.blend")
     driver = window.Window()
-    yield from newcomer.use_own_model(driver, view_picture)
-    yield from drag_by_the_arrow(driver)
+    with driver.override():
+        bpy.ops.wm.tool_set_by_id(name="reflection_lines.fair_brush")
+    bpy.context.scene.reflection_lines.brush.strength = 1.0
+    for y in (-1.75, -1.45, -1.15):
+        newcomer.move_over(driver, (-0.5, y, newcomer.ON_BONNET[2]))
+        driver.event('LEFTMOUSE', 'PRESS')
+        for x in np.linspace(-0.5, 0.1, 13):
+            newcomer.move_over(driver, (x, y, newcomer.ON_BONNET[2]))
+            yield 0.2
+        driver.event('LEFTMOUSE', 'RELEASE')
+        yield 1.0
+    yield from view_picture("fair_brush")
+
+
+def take_all() -> Steps:
+    yield from paint_a_stroke()
+    yield from newcomer.use_sample(view_picture)
+    yield from newcomer.use_own_model(view_picture)
+    yield from drag_by_the_arrow(window.Window())
     save(join(STRIP), FOLDER / "first_use.png")
     for name, source, width in (("first_use", "first_use", STRIP_WIDTH), ("toolbar", "toolbar", WIDTH),
-                                ("drag", "drag", WIDTH), ("sidebar", "smoothed", WIDTH)):
+                                ("drag", "drag", WIDTH), ("sidebar", "smoothed", WIDTH),
+                                ("fair_brush", "fair_brush", WIDTH)):
         pictures.shrink(FOLDER / f"{source}.png", FOLDER / f"{name}.jpg", width, QUALITY)
 
 

@@ -157,24 +157,44 @@ def window_command(width: int = 1280, height: int = 900, display: int = 99) -> l
             "--enable-event-simulate", "--window-geometry", "0", "0", str(width), str(height)]
 
 
-def window_counts(index: int, path: Path) -> Counts:
-    command = [*window_command(800, 600, 100 + 20 * index), *script_options(str(path.relative_to(ROOT)))]
-    return run_reporting(command, blender_environment(f"blender_user_{path.stem}"), 600, f"{path.stem}: ")
+# Window tests that take less time than a Blender takes to start, or not much more, and leave nothing to each other.
+TOGETHER = (
+    ("drag", "drag_cages", "drag_meshes", "drag_tools", "draw_nearest", "drawn_lines", "handle_gizmos"),
+    ("compare", "check", "stripe_modes", "stripes_edit", "look_through", "toolbar"),
+    ("borders", "buttons", "light", "menus", "panels", "pick"),
+    ("bake_handles", "follow_selected_edges", "inspect", "redo", "sidebar"),
+)
+
+
+def window_counts(index: int, files: Sequence[Path]) -> Counts:
+    """Runs files of window tests in one Blender."""
+    names = [str(path.relative_to(ROOT)) for path in files]
+    script = script_options(names[0]) if len(names) == 1 else [*script_options("tests/ui/several.py"), *names]
+    mark = files[0].stem if len(files) == 1 else f"{files[0].stem} and {len(files) - 1} more"
+    return run_reporting([*window_command(800, 600, 100 + 20 * index), *script],
+                         blender_environment(f"blender_user_{files[0].stem}"), 300 * (len(files) + 1), f"{mark}: ")
+
+
+def group_window_tests() -> list[list[Path]]:
+    """Returns the files of window tests that run in one Blender; those of several, which take longest, first."""
+    files = {path.stem.removeprefix("test_"): path for path in sorted((ROOT / "tests/ui").glob("test_*.py"))}
+    groups = [[files.pop(name) for name in group] for group in TOGETHER]
+    return groups + [[path] for path in files.values()]
 
 
 def ui_lane() -> Counts:
-    """Every file in a Blender of its own, in a window of a virtual screen, with simulated mouse and keys; as many at
-    once as there are cores, for a Blender with simulated events waits by turning in a loop."""
-    files = sorted((ROOT / "tests/ui").glob("test_*.py"))
+    """Window tests on virtual screens, with simulated mouse and keys; as many Blenders at once as there are cores, for
+    one with simulated events waits by turning in a loop."""
+    groups = group_window_tests()
     with ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
-        return sum(pool.map(window_counts, range(len(files)), files), Counts())
+        return sum(pool.map(window_counts, range(len(groups)), groups), Counts())
 
 
 def hostile_lane() -> Counts:
     """Runs those tests of other lanes whose scenes, files and arguments are hostile on purpose."""
     addon = [f"tests/addon/test_{name}.py" for name in ("hostile_scenes", "hostile_files", "tampered")]
     return (pytest_lane("bindings/test_hostile.py") + addon_lane(*addon)
-            + window_counts(0, ROOT / "tests/ui/test_hostile.py"))
+            + window_counts(0, [ROOT / "tests/ui/test_hostile.py"]))
 
 
 def rooted_lane(*script: str) -> Counts:

@@ -42,7 +42,7 @@ def describe_turned_away(ob: bpy.types.Object, patch: Patch, *, inside_out: bool
         return (f"{all_faces}, for the normals of {ob.name} point inwards there: select the faces and choose "
                 "Mesh > Normals > Flip")
     return (f"{all_faces}, which sees them from behind: turn the view camera. Look at the panel's outside and press "
-            "Camera from This View")
+            "Set Up from This View")
 
 
 def is_inside_out(mesh: bpy.types.Mesh, region: np.ndarray) -> bool:

@@ -41,7 +41,7 @@ class LineDrag(Drag):
         self.near: int | None = None   # handle under the mouse
         self.dot = 0                   # number of the dot of that handle
         self.draws = tool.draws        # whether a press draws a line
-        self.nearest = tool.nearest    # whether a stroke takes the line that has to change least
+        self.nearest = False           # whether a stroke takes the line that has to change least
         self.stroke: list[Place] = []  # what is being drawn
         self.typed = ""                # radius
         self.hover: Place | None = None  # place under the mouse
@@ -69,9 +69,8 @@ class LineDrag(Drag):
         if not final:
             self.request = replace(self.request, lines=True, follows=tuple(each.follow for each in self.request.builds))
 
-    def keep_values(self, settings: bpy.types.PropertyGroup) -> None:
-        """Writes which line strokes took into the scene's settings."""
-        settings.nearest = self.nearest
+    def keep_values(self, _settings: bpy.types.PropertyGroup) -> None:
+        """Keeps nothing: what a session leaves are its handles."""
 
     def take_gain(self, outcome: SolveOutcome) -> None:
         """Takes the lines, which a session shows instead of the gain."""

@@ -76,7 +76,7 @@ def read_warp(scene: bpy.types.Scene) -> Warp:
     if not scene.reflection_lines.present(own.lattice):
         raise BaselineChanged(f"The warp lattice of {live.panel_name()} is no longer in the scene: bring it back by "
                               "undo; apply leaves the panel as it is now, discard takes it back to where it began")
-    return Warp(warp_lattice.read_lattice(own.lattice).scaled(own.amount / 100.0), own.cells, own.fit == 'VALUE')
+    return Warp(warp_lattice.read_lattice(own.lattice).scaled(own.amount / 100.0), own.fit == 'VALUE')
 
 
 def read_signs(scene: bpy.types.Scene, ob: bpy.types.Object, center: np.ndarray) -> tuple:
@@ -111,6 +111,6 @@ def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
 def read_operator_settings(scene: bpy.types.Scene) -> dict[str, str | float]:
     """Returns the settings with which the operator Warp makes the same shape."""
     settings, own = scene.reflection_lines, scene.reflection_lines.warp
-    return {"amount": own.amount, "cells": own.cells, "fit": own.fit, "border": settings.border,
+    return {"amount": own.amount, "fit": own.fit, "border": settings.border,
             "lights": settings.lights, "limit": settings.limit,
             "solve_for": settings.live.solve_for, "result": settings.live.result}

@@ -12,7 +12,7 @@ HELD_TOLERANCE = 1e-4  # of axes, and of places relative to the coordinates: mat
 
 
 class CameraAim:
-    """The part that Add View Camera and Camera from This View have in common; they differ in which camera is aimed."""
+    """The part that Add View Camera and Set Up from This View have in common; they differ in which camera is aimed."""
     bl_options = {'REGISTER', 'UNDO'}
 
     # Hidden: in Edit Mode undo knows the mesh only, so a redo would begin with the camera of the first run.

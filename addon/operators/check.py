@@ -1,10 +1,6 @@
-"""Check Panel, and Export Check."""
-from pathlib import Path
-
+"""The operator Check Panel."""
 import bpy
 import numpy as np
-from bpy.props import StringProperty
-from bpy_extras.io_utils import ExportHelper
 
 from ..bridge import mesh_checks, read_checked, read_mesh, read_patch, scene_objects
 from ..bridge.mesh_checks import Purpose
@@ -77,34 +73,4 @@ def build_drawn(ob: bpy.types.Object, found: Checked, *, compared: bool) -> Draw
     return DrawnCheck(segments, change, worst, worse, read_mesh.read_shown_coordinates(ob))
 
 
-class REFLINES_OT_export_check(ExportHelper, bpy.types.Operator):
-    """Write the table of the last check to a file: .csv for tables, .json for programs"""
-    bl_idname = "reflines.export_check"
-    bl_label = "Export Check"
-
-    filename_ext = ".csv"
-    check_extension = None  # the artist's own ending says which
-    filter_glob: StringProperty(default="*.csv;*.json", options={'HIDDEN'})
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        ob = scene_objects.read_active_object(context)
-        cls.poll_message_set("Make a panel active that was checked")
-        return ob is not None and ob.type == 'MESH' and len(ob.reflection_lines.check.rows) > 0
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
-        rows = ob.reflection_lines.check.to_rows()
-        kinds = {".json": check_table.format_json(ob.name, rows), ".csv": check_table.format_csv(rows)}
-        try:
-            if path.suffix.lower() not in kinds:
-                raise Refusal(f"{path.name or 'The file'} has neither of the endings .csv and .json: add one")
-            path.write_text(kinds[path.suffix.lower()], encoding="utf-8")
-        except (Refusal, OSError) as error:
-            self.report({'ERROR'}, str(error))
-            return {'CANCELLED'}
-        self.report({'INFO'}, f"{ob.name}: {len(rows)} lines written to {path.name}")
-        return {'FINISHED'}
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_check, REFLINES_OT_export_check])
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_check])

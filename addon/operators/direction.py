@@ -41,8 +41,7 @@ evenly spaced"""
         scene = context.scene
         settings = Direction(
             self.find_line_direction(scene), self.density, self.density_end, self.axis,
-            count=scene.reflection_lines.stripes.count if self.unit == 'LINES' else 0, strength=self.strength,
-            falloff=self.read_falloff(context, ob, patch), emphasis=self.emphasis)
+            strength=self.strength, falloff=self.read_falloff(context, ob, patch))
         return partial(direction.build_direction_target, settings=settings)
 
     def find_line_direction(self, scene: bpy.types.Scene) -> np.ndarray:

@@ -13,9 +13,6 @@ the view: the stripes over the mesh are the finer judge"""
     bl_label = "Install Stripes MatCap"
     bl_options = {'REGISTER'}
 
-    shade_view: bpy.props.BoolProperty(name="Shade This View", options={'SKIP_SAVE'},
-                                       description="Shade this 3D view with it, too")
-
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         obstacle = view_and_light.find_obstacle(context.scene)
@@ -33,15 +30,8 @@ the view: the stripes over the mesh are the finer judge"""
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
-        if self.shade_view:
-            self.shade(getattr(context.space_data, "shading", None))
         self.report({'INFO'}, f"{matcap.NAME} is among your MatCaps")
         return {'FINISHED'}
-
-    def shade(self, shading: bpy.types.View3DShading | None) -> None:
-        if shading is not None:
-            shading.type, shading.light = 'SOLID', 'MATCAP'
-            shading.studio_light = matcap.NAME
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_install_matcap])

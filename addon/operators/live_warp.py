@@ -1,5 +1,6 @@
-"""The operators that start, apply and discard the live warp."""
+"""The operator Live Warp, which starts, applies and discards it."""
 import bpy
+from bpy.props import EnumProperty
 
 from ..bridge import (gather, live_warp_start, modifiers, read_mesh, region_faces, scene_objects, shape_keys,
                       warp_lattice, write_mesh)
@@ -14,20 +15,15 @@ from .solve_tool import is_ready
 
 
 class LiveWarpEnd:
-    """The base of Apply and Discard. Both end in Object Mode, so that one undo takes them back."""
-    bl_options = {'REGISTER', 'UNDO'}
+    """The part of the operator that ends a live warp, in Object Mode, so that one undo takes it back."""
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        cls.poll_message_set("There is no live warp in this scene: press Start Live Warp")
-        return context.scene.reflection_lines.live.panel is not None
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def end(self, context: bpy.types.Context) -> set[str]:
+        """Keeps the panel's shape, or takes it back."""
         enter_object_mode(context)
         context.view_layer.update()
         scene = context.scene
         try:
-            self.finish(scene, live_baseline.find_subject(scene))
+            (self.apply if self.action == 'APPLY' else self.discard)(scene, live_baseline.find_subject(scene))
         except BaselineChanged as changed:
             self.report({'WARNING'}, str(changed))
         except Refusal as refusal:
@@ -38,9 +34,41 @@ class LiveWarpEnd:
         live_warp_handlers.end_live_warp(scene)
         return {'FINISHED'}
 
-    def finish(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> None:
-        """Writes the final shape of the mesh."""
-        raise NotImplementedError
+    def apply(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> None:
+        """Writes the shape that the lattice gives the panel."""
+        live_baseline.refuse_changed(ob)
+        solution = self.find_solution(scene, ob)
+        patch = solution.patch
+        write_mesh.write_positions(ob, patch, patch.to_object_space(solution.positions),
+                                   read_mesh.read_patch_positions(ob, patch))
+        solve_history.remember_solve(solution.to_last_solve())
+        stored = ob.reflection_lines
+        stored.center = patch.local_center
+        shown = (*shape_keys.describe_hidden_key(ob, patch.key),
+                 *modifiers.describe_unsolved_modifiers(ob, scene.reflection_lines.live.solve_for))
+        stored.report.fill(solution, (*solution.notes, *warp.describe_outside(solution.target), *shown))
+        stored.run.note("REFLINES_OT_warp", live_baseline.read_operator_settings(scene), ob.data, patch.key)
+        for note in stored.report.notes.splitlines():
+            self.report({'WARNING'}, f"{ob.name}: {note}")
+        self.report({'INFO'}, f"{ob.name}: {stored.report.headline()}")  # the status bar shows the last report
+
+    def find_solution(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> Solution:
+        """Returns the live warp's own solution where it is final, else solves from the start."""
+        live = live_warp_handlers.find_live_warp(scene)
+        if live is not None and live.is_settled(scene, ob):
+            return live.solution
+        wanted, baseline = live_baseline.read_warp(scene), live_baseline.read_baseline(scene, ob)
+        live_warp_handlers.end_live_warp(scene)
+        settings = live_baseline.read_solve_settings(scene)
+        solution = optimizer_cache.solve_with_cache(baseline.patch, baseline.view, settings,
+                                                    live_baseline.bind_target(wanted))
+        optimizer_cache.drop_surplus({ob.name})
+        return solution
+
+    def discard(self, _scene: bpy.types.Scene, ob: bpy.types.Object) -> None:
+        """Writes the shape of the start, to the last bit."""
+        live_baseline.refuse_other_mesh(ob)
+        live_warp_start.restore_start(ob)
 
 
 def enter_object_mode(context: bpy.types.Context) -> None:
@@ -55,23 +83,44 @@ def refuse_keys(ob: bpy.types.Object, result: str) -> None:
                       "choose the result Shape Key")
 
 
-class REFLINES_OT_start_live_warp(bpy.types.Operator):
+ACTIONS = (
+    ('START', "Start", "Let the panel follow its warp lattice while you edit that with Blender's own tools"),
+    ('APPLY', "Apply", "Keep the shape that the lattice gives the panel, and end the live warp"),
+    ('DISCARD', "Discard", "Take the panel back to the shape it had when the live warp began, to the last bit"),
+)
+
+
+class REFLINES_OT_live_warp(LiveWarpEnd, bpy.types.Operator):
     """Let the panel follow its warp lattice while you edit that with Blender's own tools. Apply keeps the panel's
 shape, Discard takes it back; both can wait until the file is opened again"""
-    bl_idname = "reflines.start_live_warp"
-    bl_label = "Start Live Warp"
+    bl_idname = "reflines.live_warp"
+    bl_label = "Live Warp"
     bl_options = {'REGISTER', 'UNDO'}
+
+    action: EnumProperty(name="Action", items=ACTIONS, default='START', options={'HIDDEN', 'SKIP_SAVE'})
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Returns the tooltip of the buttons that end it; empty for the start, which has the docstring."""
+        return {action: about for action, _, about in ACTIONS[1:]}.get(properties.action, "")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        live, active = context.scene.reflection_lines.live, context.view_layer.objects.active
-        if live.panel is not None:
-            cls.poll_message_set(f"{live.panel.name} already follows its lattice: apply or discard that first")
-            return False
-        return context.mode == 'EDIT_LATTICE' and active.reflection_lines.panel is not None \
-            or is_ready(cls, context)
+        active = context.view_layer.objects.active
+        return (context.scene.reflection_lines.live.panel is not None
+                or context.mode == 'EDIT_LATTICE' and active.reflection_lines.panel is not None
+                or is_ready(cls, context))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        panel = context.scene.reflection_lines.live.panel
+        if (panel is None) == (self.action == 'START'):
+            return self.start(context) if self.action == 'START' else self.end(context)
+        self.report({'ERROR'}, "There is no live warp in this scene: press Live Warp" if panel is None else
+                    f"{panel.name} already follows its lattice: apply or discard that first")
+        return {'CANCELLED'}
+
+    def start(self, context: bpy.types.Context) -> set[str]:
+        """Begins a live warp; after a refusal all is as it was."""
         context.view_layer.update()
         active = context.view_layer.objects.active
         mode = active.mode
@@ -111,51 +160,4 @@ shape, Discard takes it back; both can wait until the file is opened again"""
         live_warp_handlers.note_change(context.scene)
 
 
-class REFLINES_OT_apply_live_warp(LiveWarpEnd, bpy.types.Operator):
-    """Keep the shape that the lattice gives the panel, and end the live warp"""
-    bl_idname = "reflines.apply_live_warp"
-    bl_label = "Apply"
-
-    def finish(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> None:
-        live_baseline.refuse_changed(ob)
-        solution = self.find_solution(scene, ob)
-        patch = solution.patch
-        write_mesh.write_positions(ob, patch, patch.to_object_space(solution.positions),
-                                   read_mesh.read_patch_positions(ob, patch))
-        solve_history.remember_solve(solution.to_last_solve())
-        stored = ob.reflection_lines
-        stored.center = patch.local_center
-        shown = (*shape_keys.describe_hidden_key(ob, patch.key),
-                 *modifiers.describe_unsolved_modifiers(ob, scene.reflection_lines.live.solve_for))
-        stored.report.fill(solution, (*solution.notes, *warp.describe_outside(solution.target), *shown))
-        stored.run.note("REFLINES_OT_warp", live_baseline.read_operator_settings(scene), ob.data, patch.key)
-        for note in stored.report.notes.splitlines():
-            self.report({'WARNING'}, f"{ob.name}: {note}")
-        self.report({'INFO'}, f"{ob.name}: {stored.report.headline()}")  # the status bar shows the last report
-
-    def find_solution(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> Solution:
-        """Returns the live warp's own solution where it is final, else solves from the start."""
-        live = live_warp_handlers.find_live_warp(scene)
-        if live is not None and live.is_settled(scene, ob):
-            return live.solution
-        wanted, baseline = live_baseline.read_warp(scene), live_baseline.read_baseline(scene, ob)
-        live_warp_handlers.end_live_warp(scene)
-        settings = live_baseline.read_solve_settings(scene)
-        solution = optimizer_cache.solve_with_cache(baseline.patch, baseline.view, settings,
-                                                    live_baseline.bind_target(wanted))
-        optimizer_cache.drop_surplus({ob.name})
-        return solution
-
-
-class REFLINES_OT_discard_live_warp(LiveWarpEnd, bpy.types.Operator):
-    """Take the panel back to the shape it had when the live warp began, to the last bit, and end the live warp"""
-    bl_idname = "reflines.discard_live_warp"
-    bl_label = "Discard"
-
-    def finish(self, _scene: bpy.types.Scene, ob: bpy.types.Object) -> None:
-        live_baseline.refuse_other_mesh(ob)
-        live_warp_start.restore_start(ob)
-
-
-register, unregister = bpy.utils.register_classes_factory([
-    REFLINES_OT_start_live_warp, REFLINES_OT_apply_live_warp, REFLINES_OT_discard_live_warp])
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_live_warp])

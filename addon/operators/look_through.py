@@ -17,7 +17,7 @@ The scene's own camera stays as it is"""
         if getattr(context.space_data, "region_3d", None) is None:
             cls.poll_message_set("Run this in a 3D view")
             return False
-        cls.poll_message_set("No view camera: press Camera from This View")
+        cls.poll_message_set("No view camera: press Set Up from This View")
         return context.scene.reflection_lines.picture_camera() is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:

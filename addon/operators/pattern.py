@@ -12,7 +12,7 @@ from ..model.refusal import Refusal
 from ..solver.live_optimizer import BuildTarget
 from ..targets import pattern
 from ..targets.pattern import Pattern
-from ..ui.tool_properties import PatternSettings, lights_property
+from ..ui.tool_properties import PatternSettings
 from .dragged_tool import DraggedTool
 
 
@@ -24,8 +24,8 @@ What no surface can show is left over: see the colour map of the residual"""
     bl_idname = "reflines.pattern"
     bl_label = "Image Pattern"
 
-    lights: lights_property('SINGLE')
-    image: bpy.props.StringProperty(name="Image", options={'SKIP_SAVE'}, description="Name; empty takes the scene's")
+    image: bpy.props.StringProperty(name="Image", options={'HIDDEN', 'SKIP_SAVE'},
+                                    description="Name; empty takes the scene's")
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.pattern
@@ -35,15 +35,18 @@ What no surface can show is left over: see the colour map of the residual"""
                 Handle("angle", "Rotation", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE'))
 
     def keeps_crossed(self) -> bool:
-        """Returns false for a fit by value, which says where each line lies and leaves the crossed ones no choice."""
-        return super().keeps_crossed() and self.fit != 'VALUE'
+        """Returns false: one light draws an image, and much less of it is reached where crossed lines are kept."""
+        return False
+
+    def has_use(self, context: bpy.types.Context, name: str) -> bool:
+        return name != "lights" and super().has_use(context, name)
 
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         right, up = view_and_light.read_camera_axes(context.scene.reflection_lines.camera)
         centre = patch.center + self.offset[0] * right + self.offset[1] * up
         settings = Pattern(
             image_pixels.read_grey(self.chosen(context.scene)), centre, right, self.width or np.ptp(patch.V @ right),
-            self.angle, self.strength, self.blur, self.keep_lines, self.fit == 'VALUE')
+            self.angle, self.strength, self.blur, self.fit == 'VALUE')
         return partial(pattern.build_pattern_target, settings=settings)
 
     def chosen(self, scene: bpy.types.Scene) -> bpy.types.Image:

@@ -11,7 +11,8 @@ class REFLINES_OT_pin_lines(bpy.types.Operator):
     bl_label = "Pin Lines"
     bl_options = {'REGISTER', 'UNDO'}
 
-    unpin: BoolProperty(name="Unpin", options={'SKIP_SAVE'}, description="Let the lines on the selected faces go again")
+    unpin: BoolProperty(name="Unpin", options={'HIDDEN', 'SKIP_SAVE'},
+                        description="Let the lines on the selected faces go again")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:

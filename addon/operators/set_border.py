@@ -16,7 +16,7 @@ of selected faces it is set at their rim"""
     bl_label = "Set Border"
     bl_options = {'REGISTER', 'UNDO'}
 
-    border: EnumProperty(name="Border", items=(*BORDERS, UNSET), default='clamped',
+    border: EnumProperty(name="Border", items=(*BORDERS, UNSET), default='clamped', options={'HIDDEN'},
                          description="What happens at the selected vertices where they are a region's border")
 
     @classmethod

@@ -40,12 +40,13 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
                 Handle("length", "Length", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH',
                        wheel=True))
 
-    def draw(self, _context: bpy.types.Context) -> None:
+    def draw(self, context: bpy.types.Context) -> None:
         """Draws the redo panel."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         for name in ("strength", "border", "solve_for", "result"):
-            layout.prop(self, name)
+            if self.has_use(context, name):
+                layout.prop(self, name)
         self.draw_smooth(layout, automatic_values.draw_plain_value)
         layout.prop(self, "lights")
         automatic_values.draw_plain_value(layout, self, "limit")

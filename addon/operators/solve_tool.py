@@ -74,6 +74,19 @@ class SolveTool:
     def poll(cls, context: bpy.types.Context) -> bool:
         return is_ready(cls, context, needs_faces=cls.needs_faces)
 
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draws the redo panel: the settings that act on the active object."""
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        for about in self.properties.bl_rna.properties:
+            if about.identifier != "rna_type" and not about.is_hidden and self.has_use(context, about.identifier):
+                layout.prop(self, about.identifier)
+
+    def has_use(self, context: bpy.types.Context, name: str) -> bool:
+        """Returns whether a setting acts: what is solved for can be chosen where there is a cage."""
+        ob = context.view_layer.objects.active
+        return name != "solve_for" or (ob is not None and ob.type == 'MESH' and ob.reflection_lines.is_cage())
+
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()  # scripts may have set transforms that are not evaluated yet
         self.copy_settings(context.scene)

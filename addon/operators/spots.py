@@ -1,14 +1,9 @@
-"""Show Spot, Next Spot and Export Spots: what is done with the worst spots of an inspection."""
-from pathlib import Path
-
+"""The operator Next Spot, which shows the worst spots of an inspection."""
 import bpy
-from bpy.props import IntProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper
+from bpy.props import IntProperty
 from mathutils import Vector
 
 from ..bridge import light_angles, scene_objects, select_faces
-from ..model import inspection
-from ..model.refusal import Refusal
 
 FRAMED = 5.0  # sizes of the spot that the view shows
 
@@ -55,32 +50,20 @@ def frame_spot(region_3d: bpy.types.RegionView3D, camera: bpy.types.Object | Non
 
 
 class REFLINES_OT_show_spot(bpy.types.Operator):
-    """Look at this spot: the view frames it, the light turns to what shows it best, and its faces are selected"""
+    """Look at the next spot, the worst first: the view frames it, the light turns to what shows it best, and its faces
+are selected"""
     bl_idname = "reflines.show_spot"
-    bl_label = "Show Spot"
-    bl_options = {'REGISTER', 'UNDO'}
-
-    index: IntProperty(name="Spot", min=0, options={'HIDDEN'}, description="From 0, the worst")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_spots(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        ob = scene_objects.read_active_object(context)
-        count = len(ob.reflection_lines.inspection.spots)
-        if self.index >= count:
-            self.report({'ERROR'}, f"{ob.name} has {count} spots: there is no number {self.index + 1}")
-            return {'CANCELLED'}
-        self.report({'INFO'}, show_spot(context, ob, self.index))
-        return {'FINISHED'}
-
-
-class REFLINES_OT_next_spot(bpy.types.Operator):
-    """Look at the next spot, the worst first; after the last at the first"""
-    bl_idname = "reflines.next_spot"
     bl_label = "Next Spot"
     bl_options = {'REGISTER', 'UNDO'}
+
+    index: IntProperty(name="Spot", min=-1, default=-1, options={'HIDDEN', 'SKIP_SAVE'},
+                       description="From 0, the worst; -1: the next one, after the last the first")
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Returns the tooltip of a spot's line; empty for the button, which has the docstring."""
+        return ("Look at this spot: the view frames it, the light turns to what shows it best, and its faces are "
+                "selected") if properties.index >= 0 else ""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -89,7 +72,12 @@ class REFLINES_OT_next_spot(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = scene_objects.read_active_object(context)
         stored = ob.reflection_lines.inspection
-        self.report({'INFO'}, show_spot(context, ob, (stored.active + 1) % len(stored.spots)))
+        count = len(stored.spots)
+        if self.index >= count:
+            self.report({'ERROR'}, f"{ob.name} has {count} spots: there is no number {self.index + 1}")
+            return {'CANCELLED'}
+        index = (stored.active + 1) % count if self.index < 0 else self.index
+        self.report({'INFO'}, show_spot(context, ob, index))
         return {'FINISHED'}
 
 
@@ -113,31 +101,4 @@ worse, and its faces are selected"""
         return {'FINISHED'}
 
 
-class REFLINES_OT_export_spots(ExportHelper, bpy.types.Operator):
-    """Write the spots of the last inspection to a .csv file, for tables"""
-    bl_idname = "reflines.export_spots"
-    bl_label = "Export Spots"
-
-    filename_ext = ".csv"
-    filter_glob: StringProperty(default="*.csv", options={'HIDDEN'})
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_spots(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
-        spots = [spot.to_spot() for spot in ob.reflection_lines.inspection.spots]
-        try:
-            if path.suffix.lower() != ".csv":
-                raise Refusal(f"{path.name or 'The file'} does not end in .csv: add that")
-            path.write_text(inspection.format_csv(spots), encoding="utf-8")
-        except (Refusal, OSError) as error:
-            self.report({'ERROR'}, str(error))
-            return {'CANCELLED'}
-        self.report({'INFO'}, f"{ob.name}: {len(spots)} spots written to {path.name}")
-        return {'FINISHED'}
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_show_spot, REFLINES_OT_next_spot,
-                                                           REFLINES_OT_show_worse, REFLINES_OT_export_spots])
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_show_spot, REFLINES_OT_show_worse])

@@ -23,10 +23,11 @@ picture, the wheel tilts it"""
     bl_label = "Sweep Light"
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
 
-    turn: FloatProperty(name="Turn", subtype='ANGLE', options={'SKIP_SAVE'},
+    turn: FloatProperty(name="Turn", subtype='ANGLE', options={'HIDDEN', 'SKIP_SAVE'},
                         description="Of the light in the view camera's picture, counter-clockwise from the horizontal")
     tilt: FloatProperty(name="Tilt", subtype='ANGLE', min=-light_angles.TILT_LIMIT, max=light_angles.TILT_LIMIT,
-                        options={'SKIP_SAVE'}, description="Of the light out of the picture, towards the viewer")
+                        options={'HIDDEN', 'SKIP_SAVE'},
+                        description="Of the light out of the picture, towards the viewer")
     around: FloatVectorProperty(subtype='XYZ', options={'HIDDEN', 'SKIP_SAVE'},
                                 description="Middle of the gizmo's ring, along which the mouse turns the light then")
     release_confirm: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Keep the light when the mouse button "

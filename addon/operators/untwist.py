@@ -1,4 +1,4 @@
-"""The operator Untwist Lines."""
+"""The operator Turn Lines."""
 from functools import partial
 from math import pi, radians
 
@@ -19,7 +19,7 @@ class REFLINES_OT_untwist(DraggedTool, UntwistSettings, bpy.types.Operator):
     """Move the vertices of the selected faces along the view so that their reflection lines turn by an angle,
 less with the distance from a centre"""
     bl_idname = "reflines.untwist"
-    bl_label = "Untwist Lines"
+    bl_label = "Turn Lines"
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.untwist
@@ -32,7 +32,7 @@ less with the distance from a centre"""
         return read_falloff(self, context.scene, ob, patch)
 
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
-        settings = Untwist(self.angle, self.read_falloff(context, ob, patch), self.emphasis)
+        settings = Untwist(self.angle, self.read_falloff(context, ob, patch))
         return partial(untwist.build_untwist_target, settings=settings)
 
 

@@ -20,7 +20,7 @@ An untouched lattice moves nothing"""
     bl_idname = "reflines.warp"
     bl_label = "Warp Lines"
 
-    lattice: bpy.props.StringProperty(name="Lattice", options={'SKIP_SAVE'},
+    lattice: bpy.props.StringProperty(name="Lattice", options={'HIDDEN', 'SKIP_SAVE'},
                                       description="Name; empty takes the scene's")
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
@@ -35,7 +35,7 @@ An untouched lattice moves nothing"""
 
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, _patch: Patch) -> BuildTarget:
         moves = warp_lattice.read_lattice(warp_lattice.find_lattice(context.scene, self.lattice))
-        settings = Warp(moves.scaled(self.amount / 100.0), self.cells, self.fit == 'VALUE')
+        settings = Warp(moves.scaled(self.amount / 100.0), self.fit == 'VALUE')
         return partial(warp.build_warp_target, settings=settings)
 
     def describe_solution(self, solution: Solution) -> tuple[str, ...]:

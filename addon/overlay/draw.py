@@ -166,15 +166,14 @@ def drop_unseen_objects() -> None:
 def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
             depsgraph: bpy.types.Depsgraph) -> None:
     solution = solve_history.find_last_solve(ob.name_full) if stripe_scene.needs_solution(settings) else None
-    solve_for = settings.id_data.reflection_lines.solve_for
     with_cage = settings.cage_on_top and ob.mode == 'EDIT' and draw_cage.read_kind(ob)
-    kind = (ob.mode, stripe_scene.identify_content(ob, settings), id(solution), solve_for, with_cage)
+    kind = (ob.mode, stripe_scene.identify_content(ob, settings), id(solution), with_cage)
     if not shown.stale and shown.kind == kind:
         return
-    read = read_limit_surface(ob, settings) or viewport_surface.read_viewport_surface(ob, depsgraph, shown.topology)
+    read = read_limit_surface(ob) or viewport_surface.read_viewport_surface(ob, depsgraph, shown.topology)
     changed = solution is not None and not is_current(ob, solution, read)
     solve_history.mark_changed(ob.name_full, changed=changed)
-    if changed:
+    if changed or not is_old_surface_known(ob, read):
         solution = None
     shown.surface.take(build_arrays(ob, settings, read, solution))
     if stripe_scene.is_split(settings) and solution is not None and is_seen(ob, solution):
@@ -194,18 +193,23 @@ def is_current(ob: bpy.types.Object, solution: LastSolve, read: Surface) -> bool
     return not read_mesh.is_undone(ob, solution.patch, solution.positions)
 
 
+def is_old_surface_known(ob: bpy.types.Object, read: Surface) -> bool:
+    """Returns whether the surface before the last solve can be drawn: that of the mesh itself, or a cage's. What other
+    modifiers made of the mesh then, such as a bevel, is not known.
+    """
+    return read.normals is not None or len(read.V) == len(ob.data.vertices)
+
+
 def is_seen(ob: bpy.types.Object, solution: LastSolve) -> bool:
     """Returns whether the last solve is a difference that is seen."""
     return solve_maps.has_moved(solution) and shape_keys.read_seen_share(ob, solution.patch.key) != 0.0
 
 
-def read_limit_surface(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
-                       before: LastSolve | None = None) -> Surface | None:
-    """Returns the limit surface of a cage where the cage is solved for, else None; with `before` that of the shape
-    before this solve.
+def read_limit_surface(ob: bpy.types.Object, before: LastSolve | None = None) -> Surface | None:
+    """Returns the limit surface of a cage, whether that or the mesh is solved for; None of other objects. With `before`
+    that of the shape before this solve.
     """
-    wanted = settings.id_data.reflection_lines.solve_for == 'CAGE' and native.STATE.usable
-    read = viewport_cage.read_viewport_cage(ob, before) if wanted else None
+    read = viewport_cage.read_viewport_cage(ob, before) if native.STATE.usable else None
     return None if read is None else _cache.limits.update_surface(ob.name_full, *read)
 
 
@@ -216,12 +220,14 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
         make = solve_maps.build_residual_map if settings.mode == 'RESIDUAL' else solve_maps.build_deviation_map
         return make(solution, settings.map_range) if solution is not None else NOTHING
     if settings.before and solution is not None:
-        cage = read_limit_surface(ob, settings, solution) if read.normals is not None else None
+        cage = read_limit_surface(ob, solution) if read.normals is not None else None
         if cage is not None:  # its old limit normals; a coarse cage's own would show none of its surface's dents
             return read.V, read.F, cage.normals
-        V, F, old = solve_maps.build_shape_before(solution, read.V, read.F, len(ob.data.vertices))
-        shaded = _cache.fits.update_shaded(BEFORE + ob.name_full, old, F)
-        return V[shaded.vertex], shaded.F, shaded.normals
+        old = read.V.copy()
+        old[solution.patch.index] = solution.patch.local
+        # Vertices move along the view, so seen from the view camera the old reflections lie on the present surface.
+        shaded = _cache.fits.update_shaded(BEFORE + ob.name_full, old, read.F)
+        return read.V[shaded.vertex], shaded.F, shaded.normals
     return build_shape_arrays(ob, settings, read)
 
 

@@ -63,18 +63,3 @@ def compute_values(solution: LastSolve, mode: str) -> np.ndarray:
 def scale_values(values: np.ndarray, full: float) -> np.ndarray:
     """Returns the values as shares of `full`, or of the largest where that is 0."""
     return values / (full or np.abs(values).max(initial=0.0) or 1.0)
-
-
-def build_shape_before(solution: LastSolve, V: np.ndarray, F: np.ndarray,
-                       vertices: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Returns where to draw, the triangles, and where the vertices were before; of the patch alone where the surface
-    has other vertices than the mesh.
-
-    Vertices move along the view, so seen from the view camera the old reflections lie on the present surface.
-    """
-    patch = solution.patch
-    if len(V) != vertices:
-        return compute_left_positions(solution), patch.F, patch.local
-    old = V.copy()
-    old[patch.index] = patch.local
-    return V, F, old

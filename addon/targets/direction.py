@@ -7,8 +7,6 @@ from .. import native
 from ..native_call import call
 from .falloff import Falloff, compute_influence, compute_weight, project_to_plane
 
-TURN = 2.0 * np.pi
-
 
 @dataclass(frozen=True)
 class Direction:
@@ -16,13 +14,11 @@ class Direction:
     lines.
     """
     direction: np.ndarray      # 3
-    density: float = 1.0       # a factor of the mean's, or lines a unit of length where `count` is given
+    density: float = 1.0       # a factor of the mean's
     density_end: float = 1.0   # at the far end of the axis
     axis: str = 'NONE'         # along which the density varies: 'ALONG' or 'ACROSS' the lines
-    count: int = 0             # line lights in a full turn; 0: densities are factors
     strength: float = 1.0
     falloff: Falloff | None = None
-    emphasis: float = 1.0
 
 
 async def build_direction_target(optimizer: "native.ShapeOptimizer", settings: Direction) -> "native.Target":
@@ -30,13 +26,12 @@ async def build_direction_target(optimizer: "native.ShapeOptimizer", settings: D
     influence.
     """
     influence = await compute_influence(optimizer, settings.falloff, settings.strength)
-    gradient = TURN / settings.count if settings.count else 1.0  # |grad theta| of one line a unit
     direction = project_to_plane(optimizer, settings.direction)
     axis = compute_density_axis(optimizer, direction, settings.axis)
     return await call(
-        native.reflines.uniform, optimizer, direction=direction, density=gradient * settings.density,
-        relative=settings.count == 0, density_end=gradient * settings.density_end if axis.any() else -1.0, axis=axis,
-        influence=influence, weight=compute_weight(influence, settings.emphasis))
+        native.reflines.uniform, optimizer, direction=direction, density=settings.density,
+        relative=True, density_end=settings.density_end if axis.any() else -1.0, axis=axis,
+        influence=influence, weight=compute_weight(influence))
 
 
 def compute_density_axis(optimizer: "native.ShapeOptimizer", direction: np.ndarray, kind: str) -> np.ndarray:

@@ -7,6 +7,7 @@ from .. import native
 from ..native_call import call
 
 STEPS = 256
+EMPHASIS = 10.0  # how many times more lines count where a tool acts fully than where it does not
 
 
 @dataclass(frozen=True)
@@ -37,11 +38,10 @@ async def compute_influence(optimizer: "native.ShapeOptimizer", falloff: Falloff
         curve=np.clip(falloff.curve, 0.0, 1.0))
 
 
-def compute_weight(influence: np.ndarray, factor: float) -> np.ndarray:
-    """Returns the weight of each triangle: #F, `factor` (>= 1) where the influence is 1, and 1 where it is 0 (the
-    paper's c >= 1).
+def compute_weight(influence: np.ndarray) -> np.ndarray:
+    """Returns the weight of each triangle: #F, EMPHASIS where the influence is 1, and 1 where it is 0 (the paper's c).
     """
-    return 1.0 + (factor - 1.0) * influence
+    return 1.0 + (EMPHASIS - 1.0) * influence
 
 
 def project_to_plane(optimizer: "native.ShapeOptimizer", vector: np.ndarray) -> np.ndarray:

@@ -18,14 +18,13 @@ class Pattern:
     angle: float = 0.0        # radians, counter-clockwise as the viewer sees it
     strength: float = 1.0     # radians of theta from black to white
     blur: float = 0.0         # pixels
-    keep: float = 1.0         # factor of the present lines to which the pattern is added
     by_value: bool = False    # fits theta itself, where black leaves the lines in place
 
 
 async def build_pattern_target(optimizer: "native.ShapeOptimizer", settings: Pattern) -> "native.Target":
-    """Builds the target of the present lines times `keep` plus the gradient of the image."""
+    """Builds the target of the present lines plus the gradient of the image."""
     x, y = project_to_plane(optimizer, settings.right)
     return await call(
         native.reflines.pattern, optimizer, image=settings.grey, strength=settings.strength, blur=settings.blur,
-        keep=settings.keep, centre=project_to_plane(optimizer, settings.centre), width=settings.width,
+        centre=project_to_plane(optimizer, settings.centre), width=settings.width,
         angle=settings.angle + np.arctan2(y, x), by_value=settings.by_value)

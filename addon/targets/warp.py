@@ -11,6 +11,7 @@ import numpy as np
 from .. import native
 from ..native_call import call
 
+CELLS = 128  # a side of the regular grid that the map is sampled on
 TENSION = {'KEY_CARDINAL': 0.71, 'KEY_CATMULL_ROM': 0.5}  # Blender's
 
 
@@ -33,14 +34,13 @@ class Lattice:
 
 @dataclass(frozen=True)
 class Warp:
-    """The lattice, and how its map is sampled."""
+    """The lattice, and what is fitted to its map."""
     lattice: Lattice
-    cells: int = 128       # a side of the regular grid that the map is sampled on
     by_value: bool = False
 
     def same(self, other: "Warp | None") -> bool:
         return (other is not None and self.lattice.same(other.lattice)
-                and (self.cells, self.by_value) == (other.cells, other.by_value))
+                and self.by_value == other.by_value)
 
 
 async def build_warp_target(optimizer: "native.ShapeOptimizer", settings: Warp) -> "native.Target":
@@ -49,13 +49,13 @@ async def build_warp_target(optimizer: "native.ShapeOptimizer", settings: Warp) 
     """
     to_plane = optimizer.frame[:2] @ settings.lattice.matrix[:3]  # 2 x 4, of the lattice's space
     low, high = compute_grid_extent(optimizer.xy, settings.lattice, to_plane)
-    step = np.arange(settings.cells + 1) / settings.cells
+    step = np.arange(CELLS + 1) / CELLS
     x, y = (low[axis] + (high[axis] - low[axis]) * step for axis in (0, 1))
     rest = np.stack([np.tile(x, len(y)), np.repeat(y, len(x))], axis=1)
     local = np.linalg.solve(to_plane[:, :2], (rest - to_plane[:, 3]).T).T
     position = rest + evaluate_moves(settings.lattice, local) @ to_plane[:, :3].T
-    target, _ = await call(native.reflines.warp, optimizer, low=low, high=high, columns=settings.cells,
-                           rows=settings.cells, position=position, by_value=settings.by_value)
+    target, _ = await call(native.reflines.warp, optimizer, low=low, high=high, columns=CELLS,
+                           rows=CELLS, position=position, by_value=settings.by_value)
     # Not reduced to its reachable part: a live warp follows with loose tolerances, at which the solver does not reduce
     # targets, and the final shape would differ from the one shown by more than a twentieth of the move.
     target.reachable_only = False

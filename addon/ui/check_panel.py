@@ -9,7 +9,6 @@ class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
     bl_label = "Check"
     bl_order = 4  # after the result
     bl_options = {'DEFAULT_CLOSED'}
-    manual = "reflines.check"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, marks = self.layout, context.scene.reflection_lines.marks
@@ -30,7 +29,7 @@ class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
             line = layout.column(align=True)
             line.alert = change == "worse"
             draw_paragraph(line, context, row.describe(compared=check.compared), ICONS.get(change, 'DOT'))
-        layout.operator("reflines.export_check", icon='EXPORT')
+        layout.operator("reflines.export_table", icon='EXPORT')
 
 
 register, unregister = bpy.utils.register_classes_factory([VIEW3D_PT_reflines_check])

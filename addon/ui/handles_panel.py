@@ -20,7 +20,6 @@ class REFLINES_UL_handles(bpy.types.UIList):
 class VIEW3D_PT_reflines_handles(ReflinesPanel, bpy.types.Panel):
     bl_label = "Handles"
     bl_parent_id = "VIEW3D_PT_reflines_pull"
-    manual = "kept-handles"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -10,7 +10,6 @@ class VIEW3D_PT_reflines_inspection(ReflinesPanel, bpy.types.Panel):
     bl_label = "Inspect"
     bl_order = 5  # after the check
     bl_options = {'DEFAULT_CLOSED'}
-    manual = "reflines.inspect"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -33,8 +32,8 @@ class VIEW3D_PT_reflines_inspection(ReflinesPanel, bpy.types.Panel):
             button.index = index
         if len(inspection.spots) > MOST_LINES:
             column.label(text=f"and {len(inspection.spots) - MOST_LINES} more")
-        layout.operator("reflines.next_spot", icon='FRAME_NEXT')
-        layout.operator("reflines.export_spots", icon='EXPORT')
+        layout.operator("reflines.show_spot", icon='FRAME_NEXT')
+        layout.operator("reflines.export_table", icon='EXPORT').table = 'SPOTS'
 
 
 register, unregister = bpy.utils.register_classes_factory([VIEW3D_PT_reflines_inspection])

@@ -13,7 +13,7 @@ PAGE = Path(__file__).resolve().parents[1] / "manual" / "index.html"
 # Pattern of a setting's lower-case RNA identifier, and its section. Blender takes the first pattern that matches.
 SETTINGS = (
     *((f"bpy.types.reflines{tool}.{name}", "#falloff")
-      for tool in ("direction", "untwist") for name in ("centre", "radius", "shape", "emphasis")),
+      for tool in ("direction", "untwist") for name in ("centre", "radius", "shape")),
     *((f"bpy.types.reflines{tool}.*", f"#reflines.{tool}") for tool in ("direction", "untwist", "warp", "pattern")),
     ("bpy.types.reflinesscene.camera", "#view-and-light"),
     ("bpy.types.reflinesscene.light*", "#view-and-light"),
@@ -31,14 +31,8 @@ SETTINGS = (
     ("bpy.types.reflineslightset.*", "#light-set"),
     ("bpy.types.reflinesscene.*", "#reflines.smooth"),
     ("bpy.types.reflinesstripes.*", "#stripes"),
-    ("bpy.types.reflinessetups.*", "#stripes"),
     ("bpy.types.view3d_mt_reflines*", "#tools"),
 )
-
-
-def build_address(section: str) -> str:
-    """Returns the address of a section of the manual."""
-    return f"{PAGE.as_uri()}#{section}"
 
 
 def manual_map() -> tuple[str, tuple[tuple[str, str], ...]]:

@@ -9,7 +9,7 @@ DRAGGED = (
 TOOLS = (*DRAGGED, ("reflines.pull_line", 'VIEW_PAN'), ("reflines.fair_brush", 'BRUSH_DATA'),
          ("reflines.fit", 'MOD_SHRINKWRAP'))
 SETUP = (
-    ("reflines.set_up", 'VIEW_CAMERA'), ("reflines.camera_from_view", 'VIEW_CAMERA'),
+    ("reflines.set_up", 'VIEW_CAMERA'),
     ("reflines.add_view_camera", 'CAMERA_DATA'),
     ("reflines.look_through", 'HIDE_OFF'), ("reflines.add_light_direction", 'EMPTY_SINGLE_ARROW'),
     ("reflines.sweep_light", 'LIGHT_SUN'), ("reflines.sweep_view", 'ORIENTATION_GIMBAL'),
@@ -33,17 +33,16 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.operator_menu_enum("reflines.set_border", "border")
         layout.separator()
         stripes = context.scene.reflection_lines.stripes
-        layout.prop(stripes, "show", text="Show Stripes (Zebra)")  # F3 finds it by the trade's word, too
+        layout.prop(stripes, "show")
         layout.prop(stripes, "before")
         layout.prop_menu_enum(stripes, "mode")
-        layout.operator("reflines.freeze_eye", icon='FREEZE')
         layout.operator("reflines.install_matcap", icon='MATSPHERE')
         layout.operator("reflines.resolve", icon='FILE_REFRESH')
         layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
         layout.operator("reflines.store_result", icon='SPREADSHEET')
         layout.operator("reflines.check", icon='CHECKMARK')
         layout.operator("reflines.inspect", icon='VIEWZOOM')
-        layout.operator("reflines.next_spot", icon='FRAME_NEXT')
+        layout.operator("reflines.show_spot", icon='FRAME_NEXT')
 
 
 def draw_drags(layout: bpy.types.UILayout) -> None:
@@ -77,13 +76,13 @@ class VIEW3D_MT_reflines_pie(bpy.types.Menu):
         """Fills the slots in Blender's order: west, east, south, north, then the corners."""
         pie = self.layout.menu_pie()
         stripes = context.scene.reflection_lines.stripes
-        pie.operator("reflines.smooth", text="Smooth", icon='MOD_SMOOTH')
-        pie.operator("reflines.direction", text="Direction", icon='ALIGN_JUSTIFY')
+        pie.operator("reflines.smooth", icon='MOD_SMOOTH')
+        pie.operator("reflines.pull_line", icon='VIEW_PAN')
         pie.prop(stripes, "show", icon='SHADING_RENDERED')
-        pie.operator("wm.context_toggle", text="Before / After", icon='ARROW_LEFTRIGHT').data_path = BEFORE
-        pie.operator("reflines.untwist", text="Untwist", icon='LOOP_BACK')
-        pie.operator("reflines.warp", text="Warp", icon='MOD_LATTICE')
-        pie.operator("reflines.pattern", text="Image Pattern", icon='IMAGE_DATA')
+        pie.operator("wm.context_toggle", text="Compare with Before", icon='MOD_MIRROR').data_path = BEFORE
+        pie.operator("reflines.fair_brush", icon='BRUSH_DATA')
+        pie.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
+        pie.operator("reflines.sweep_light", icon='LIGHT_SUN')
         pie.operator("wm.call_menu_pie", text="Drag a Tool", icon='ARROW_LEFTRIGHT').name = DRAG_PIE
 
 

@@ -6,10 +6,11 @@ import textwrap
 import bpy
 
 from ..model.border import name_border
-from . import automatic_values, manual_links, rows
+from . import automatic_values, rows
 
 
 BIG = 1.5  # height of the one button to press, in rows
+ENDED = {"converged", "already_optimal"}  # how a solve ends that found the best shape
 
 
 def draw_paragraph(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
@@ -26,18 +27,11 @@ class ReflinesPanel:
     bl_region_type = 'UI'
     bl_category = "Reflection"
     bl_order = 3  # this decides before the order of registration
-    manual = ""  # section of the manual that describes the panel
-
-    def draw_header_preset(self, _context: bpy.types.Context) -> None:
-        """Draws the help button at the right end of the header."""
-        button = self.layout.operator("wm.url_open", text="", icon='HELP', emboss=False)
-        button.url = manual_links.build_address(self.manual)
 
 
 class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
     bl_label = "View and Light"
     bl_options = {'DEFAULT_CLOSED'}
-    manual = "view-and-light"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reflection_lines
@@ -48,7 +42,7 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
             through = context.window_manager.reflection_lines.is_looking_through(context)
             row.operator("reflines.look_through", text="", icon='HIDE_OFF', depress=through)
             row.operator("reflines.add_view_camera", text="", icon='ADD')
-            column.operator("reflines.camera_from_view", icon='VIEW_CAMERA')
+            column.operator("reflines.set_up", icon='VIEW_CAMERA')
         else:
             column.operator("reflines.add_view_camera", icon='ADD')
         ob = context.view_layer.objects.active
@@ -83,14 +77,7 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
 
 class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
     bl_label = "Region"
-    manual = "region"
     bl_options = {'DEFAULT_CLOSED'}
-
-    def draw_header_preset(self, context: bpy.types.Context) -> None:
-        ob = context.view_layer.objects.active
-        if ob is not None and ob.type == 'MESH' and ob.mode == 'EDIT':
-            self.layout.label(text=f"{ob.data.total_face_sel} faces")
-        super().draw_header_preset(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -141,13 +128,11 @@ class ToolPanel(ReflinesPanel):
         self.draw_tool(self.layout, context, context.scene.reflection_lines)
 
     def draw_buttons(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, name: str, icon: str, *,
-                     lights: bpy.types.PropertyGroup | None = None) -> None:
-        """Draws what restrains the tool, its button, and beside that the handle that drags the tool in the 3D view.
-
-        `lights` are the settings that hold the tool's choice of lights, where that is not the scene's.
-        """
+                     by_two_lights: bool = True) -> None:
+        """Draws what restrains the tool, its button, and beside that the handle that drags the tool in the 3D view."""
         scene = bpy.context.scene.reflection_lines
-        layout.prop(lights or scene, "lights")
+        if by_two_lights:
+            layout.prop(scene, "lights")
         automatic_values.draw_value(layout, scene, "limit")
         layout.prop(settings, "border")
         row = layout.row(align=True)
@@ -164,13 +149,11 @@ class ToolPanel(ReflinesPanel):
         layout.prop(settings, "shape")
         if settings.shape == 'CURVE' and curve is not None and len(curve.nodes):
             layout.template_curve_mapping(curve.nodes[0], "mapping")
-        layout.prop(settings, "emphasis")
 
 
 class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
     bl_label = "Smooth Lines"
     bl_order = 0
-    manual = "reflines.smooth"
 
     def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
                   settings: bpy.types.PropertyGroup) -> None:
@@ -183,6 +166,15 @@ class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
         row.operator("reflines.smooth", icon='MOD_SMOOTH')
         row.operator("reflines.smooth", text="", icon='ARROW_LEFTRIGHT').follow_mouse = True
         layout.prop(settings, "strength")
+        self.draw_hands(layout)
+
+    def draw_hands(self, layout: bpy.types.UILayout) -> None:
+        """Draws what is done by hand where the press has left something."""
+        hands = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+        hands.operator("reflines.fair_brush", text="Brush", icon='BRUSH_DATA')
+        hands.operator("reflines.pull_line", text="Pull", icon='VIEW_PAN')
+        hands.operator("reflines.pull_line", text="Draw", icon='GREASEPENCIL').draws = True
+        hands.operator("reflines.sweep_light", text="Sweep", icon='LIGHT_SUN')
 
     def draw_problem(self, layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
         session = context.window_manager.reflection_lines
@@ -197,7 +189,6 @@ class VIEW3D_PT_reflines_smooth_settings(ToolPanel, bpy.types.Panel):
     bl_label = "Settings"
     bl_parent_id = "VIEW3D_PT_reflines_smooth"
     bl_options = {'DEFAULT_CLOSED'}
-    manual = "reflines.smooth"
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         settings.draw_smooth(layout, automatic_values.draw_value)
@@ -208,7 +199,6 @@ class VIEW3D_PT_reflines_smooth_settings(ToolPanel, bpy.types.Panel):
 
 class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
     bl_label = "Pull Line"
-    manual = "reflines.pull_line"
     bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
@@ -222,7 +212,6 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
             layout.prop_search(ob.reflection_lines, "follow_group", ob, "vertex_groups")
         layout.operator("reflines.pull_line", icon='VIEW_PAN')
         layout.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
-        rows.draw_switch(layout, own, "nearest")
         pins = layout.row(align=True)
         pins.operator("reflines.pin_lines", icon='PINNED')
         pins.operator("reflines.pin_lines", text="", icon='UNPINNED').unpin = True
@@ -230,7 +219,6 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
 
 class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):
     bl_label = "Fair Brush"
-    manual = "reflines.fair_brush"
     bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
@@ -244,9 +232,18 @@ class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):
         layout.operator("reflines.fair_brush", icon='BRUSH_DATA')
 
 
+class VIEW3D_PT_reflines_design(ReflinesPanel, bpy.types.Panel):
+    """The tools that give lines another course than a smoother one of their own, each in a panel within."""
+    bl_label = "Design Lines"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draws nothing beside the panels within."""
+
+
 class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
     bl_label = "Direction and Density"
-    manual = "reflines.direction"
+    bl_parent_id = "VIEW3D_PT_reflines_design"
     bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
@@ -256,8 +253,7 @@ class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
             layout.prop(own, "angle")
         elif own.direction == 'POINTS':
             layout.operator("reflines.pick_direction", icon='EYEDROPPER')
-        layout.prop(own, "unit")
-        layout.prop(own, "density", text="At the Start" if own.axis != 'NONE' else "Value")
+        layout.prop(own, "density", text="Density" if own.axis == 'NONE' else "At the Start")
         layout.prop(own, "axis")
         if own.axis != 'NONE':
             layout.prop(own, "density_end")
@@ -267,8 +263,8 @@ class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
 
 
 class VIEW3D_PT_reflines_untwist(ToolPanel, bpy.types.Panel):
-    bl_label = "Untwist Lines"
-    manual = "reflines.untwist"
+    bl_label = "Turn Lines"
+    bl_parent_id = "VIEW3D_PT_reflines_design"
     bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
@@ -279,7 +275,7 @@ class VIEW3D_PT_reflines_untwist(ToolPanel, bpy.types.Panel):
 
 class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
     bl_label = "Warp Lines"
-    manual = "reflines.warp"
+    bl_parent_id = "VIEW3D_PT_reflines_design"
     bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
@@ -288,12 +284,11 @@ class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
         layout.prop(own, "lattice")
         layout.operator("reflines.add_warp_lattice", icon='ADD')
         rows.draw_choice(layout, own, "fit")
-        for name in ("amount", "cells"):
-            layout.prop(own, name)
+        layout.prop(own, "amount")
         if settings.live.panel is not None:
             self.draw_live(layout.box(), context, settings.live)
             return
-        layout.operator("reflines.start_live_warp", icon='PLAY')
+        layout.operator("reflines.live_warp", icon='PLAY')
         if context.mode == 'EDIT_LATTICE':
             draw_paragraph(layout, context, "Leave the lattice's Edit Mode to warp", 'INFO')
         self.draw_buttons(layout, settings, "reflines.warp", 'MOD_LATTICE')
@@ -304,32 +299,31 @@ class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
         if says:
             draw_paragraph(layout, context, says, 'INFO')
         row = layout.row(align=True)
-        row.operator("reflines.apply_live_warp", icon='CHECKMARK')
-        row.operator("reflines.discard_live_warp", icon='CANCEL')
+        row.operator("reflines.live_warp", text="Apply", icon='CHECKMARK').action = 'APPLY'
+        row.operator("reflines.live_warp", text="Discard", icon='CANCEL').action = 'DISCARD'
 
 
 class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
     bl_label = "Image Pattern"
-    manual = "reflines.pattern"
+    bl_parent_id = "VIEW3D_PT_reflines_design"
     bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         own = settings.pattern
         layout.template_ID(own, "image", new="image.new", open="image.open")
         rows.draw_choice(layout, own, "fit")
-        for name in ("strength", "blur", "keep_lines"):
+        for name in ("strength", "blur"):
             layout.prop(own, name)
         layout.prop(own, "width")
         rows.draw_zero(layout, own, "width", "0: as the region")
         layout.prop(own, "angle")
         layout.prop(own, "offset")
-        self.draw_buttons(layout, settings, "reflines.pattern", 'IMAGE_DATA', lights=own)
+        self.draw_buttons(layout, settings, "reflines.pattern", 'IMAGE_DATA', by_two_lights=False)
 
 
 class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
     bl_label = "Result"
     bl_order = 1
-    manual = "result"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -340,7 +334,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         ob = context.view_layer.objects.active
         report, run = ob.reflection_lines.report, ob.reflection_lines.run
         column = self.layout.column(align=True)
-        good = report.termination in {"converged", "already_optimal"} and not report.remedy
+        good = report.termination in ENDED and not report.remedy
         if context.window_manager.reflection_lines.is_undone(ob):
             draw_paragraph(column, context, "Undone: the mesh is no longer as the last solve left it", 'LOOP_BACK')
             self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
@@ -360,8 +354,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if report.limited and limit and bpy.ops.reflines.resolve.poll():
             shown = run.format_length(limit)
             self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
-        self.layout.prop(context.scene.reflection_lines.stripes, "before", text="Compare with Before", toggle=True,
-                         icon='MOD_MIRROR')
+        self.layout.prop(context.scene.reflection_lines.stripes, "before", toggle=True, icon='MOD_MIRROR')
         if ob.type == 'MESH':
             self.draw_mesh_remedies(ob, report)
         if report.worse:
@@ -369,8 +362,6 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if report.longer_waves and run.operator:
             self.layout.operator("reflines.resolve", text="Take Longer Waves Too").flaw_size = 2.0
         self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
-        self.layout.operator("reflines.store_result", icon='GROUP_VERTEX')
-
 
     def draw_mesh_remedies(self, ob: bpy.types.Object, report: bpy.types.PropertyGroup) -> None:
         """Draws the buttons of Blender for what is wrong with the mesh itself."""
@@ -390,7 +381,6 @@ class ResultPart(ReflinesPanel):
     """The base of folded panels within the result."""
     bl_parent_id = "VIEW3D_PT_reflines_result"
     bl_options = {'DEFAULT_CLOSED'}
-    manual = "result"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -417,18 +407,17 @@ class VIEW3D_PT_reflines_numbers(ResultPart, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         report = context.view_layer.objects.active.reflection_lines.report
         column = self.layout.column(align=True)
-        column.label(text=report.termination.replace('_', ' ').capitalize())
-        column.label(text=f"{report.iterations} iterations, {report.seconds:.2f} s")
         column.label(text=f"Line deviation {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
         column.label(text=f"Turn {report.turn_before:.3g}\u00b0 \u2192 {report.turn_after:.3g}\u00b0")
         column.label(text=f"at length {report.measured_length()}")
-        column.label(text=f"Residual {report.residual_before:.3g} \u2192 {report.residual_after:.3g}")
-        column.label(text=f"Largest move {report.moved()}")
+        if report.termination not in ENDED:
+            draw_paragraph(column, context, "The solver stopped before the best shape", 'INFO')
+        column.operator("reflines.store_result", icon='GROUP_VERTEX')
 
 
 register, unregister = bpy.utils.register_classes_factory([
     VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth,
     VIEW3D_PT_reflines_smooth_settings, VIEW3D_PT_reflines_pull,
-    VIEW3D_PT_reflines_brush, VIEW3D_PT_reflines_direction,
+    VIEW3D_PT_reflines_brush, VIEW3D_PT_reflines_design, VIEW3D_PT_reflines_direction,
     VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
     VIEW3D_PT_reflines_kept, VIEW3D_PT_reflines_numbers])

@@ -14,7 +14,7 @@ from .check_properties import ReflinesCheck, ReflinesMarks
 from .handle_properties import ReflinesHandles
 from .inspection_properties import ReflinesInspection, ReflinesSpot
 from .light_set_properties import ReflinesLightSet
-from .stripe_properties import ReflinesSetups, ReflinesStripes
+from .stripe_properties import ReflinesStripes
 from .tool_properties import (ReflinesBake, ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
                               ReflinesUntwist, ReflinesWarp, SmoothSettings)
 
@@ -315,7 +315,6 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     curve: PointerProperty(type=bpy.types.NodeTree, description="Holds the artist's own fall-off curve")
     stripes: PointerProperty(type=ReflinesStripes)
     marks: PointerProperty(type=ReflinesMarks)
-    setups: PointerProperty(type=ReflinesSetups)
     light_set: PointerProperty(type=ReflinesLightSet)
 
     def missing(self) -> str:

@@ -10,10 +10,7 @@ class VIEW3D_PT_reflines_stripe_presets(PresetPanel, bpy.types.Panel):
     preset_add_operator = "reflines.save_stripes_preset"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draws the looks that come with the add-on, and below them the artist's own."""
-        self.layout.emboss = 'PULLDOWN_MENU'
-        self.layout.operator_enum("reflines.use_look", "look")
-        self.layout.separator()
+        """Draws the artist's own presets."""
         if bpy.utils.preset_paths(self.preset_subdir):
             super().draw(context)
         else:  # Blender would say that paths are missing

@@ -1,7 +1,8 @@
-"""Properties of the stripes' look: the scene's present settings, and named set-ups that are copies of them."""
+"""Properties of the stripes' look."""
 import bpy
-from bpy.props import (BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty,
-                       PointerProperty)
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
+
+from ..model.looks import LOOKS
 
 MODES = (
     ('REFLECTION', "Reflection Lines", "Parallel line lights as the panel mirrors them: what the solver optimizes"),
@@ -22,20 +23,34 @@ SCOPES = (
     ('COLLECTION', "Collection", "On all meshes of a collection"),
     ('VISIBLE', "All Visible", "On all visible meshes"),
 )
-NOT_COPIED = {"rna_type", "name", "show", "before", "side_by_side"}
+
+
+NAMED_LOOKS = [*((key, name, about) for key, (name, about, _) in LOOKS.items()),
+               ('OWN', "Own", "As the settings below are now")]
+TOLERANCE = 1e-6  # of settings that Blender keeps in single precision
 
 
 def color_property(name: str, default: tuple[float, float, float, float]) -> object:
     return FloatVectorProperty(name=name, subtype='COLOR', size=4, min=0.0, max=1.0, default=default)
 
 
+def is_same(now: object, value: object) -> bool:
+    """Returns whether a setting has a value, as Blender keeps it."""
+    if isinstance(value, tuple):
+        return all(map(is_same, now, value))
+    return now == value if isinstance(value, str) else abs(now - value) <= TOLERANCE
+
+
 class ReflinesStripes(bpy.types.PropertyGroup):
-    show: BoolProperty(name="Show Stripes", description="Draw the reflection of line lights over the mesh")
-    before: BoolProperty(name="Before Last Solve",
+    show: BoolProperty(name="Show Stripes (Zebra)", description="Draw the reflection of line lights over the mesh")
+    before: BoolProperty(name="Compare with Before",
                          description="Show the reflections that the panel had before its last solve")
-    side_by_side: BoolProperty(name="Side by Side", default=True,
-                               description="Left of a line in the view the reflections before the last solve, right "
-                               "of it those after; drag the line with the mouse")
+    side_by_side: BoolProperty(name="Side by Side", default=True, options={'HIDDEN'},
+                               description="For pictures. Left of a line the reflections before the last solve, "
+                               "right of it those after; drag the line with the mouse")
+    look: EnumProperty(name="Look", items=NAMED_LOOKS, options=set(), get=lambda self: self.find_look(),
+                       set=lambda self, value: self.use_look(value),
+                       description="Looks that come with the add-on; on what and from where the stripes are seen stays")
     mode: EnumProperty(name="Mode", items=MODES, default='REFLECTION')
     eye: EnumProperty(name="Seen From", items=EYES, default='CAMERA',
                       update=lambda self, context: self.freeze_if_asked(context))
@@ -64,6 +79,16 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     gap_color: color_property("Gap", (0.01, 0.012, 0.016, 1.0))
     opacity: FloatProperty(name="Opacity", default=0.9, min=0.0, max=1.0, subtype='FACTOR')
 
+    def find_look(self) -> int:
+        """Returns the number of the look that the settings are those of; the last one is the artist's own."""
+        return next((number for number, (_, _, values) in enumerate(LOOKS.values())
+                     if all(is_same(getattr(self, name), value) for name, value in values.items())), len(LOOKS))
+
+    def use_look(self, number: int) -> None:
+        """Takes the settings of a look; the artist's own are there already."""
+        for name, value in (list(LOOKS.values())[number][2] if number < len(LOOKS) else {}).items():
+            setattr(self, name, value)
+
     def freeze_if_asked(self, context: bpy.types.Context) -> None:
         region_3d = getattr(context.space_data, "region_3d", None)
         if self.eye == 'FROZEN' and region_3d is not None:
@@ -74,46 +99,5 @@ class ReflinesStripes(bpy.types.PropertyGroup):
         perspective = region_3d.is_perspective
         self.frozen_eye = (*(back.translation if perspective else back.col[2].to_3d()), float(perspective))
 
-    def take(self, other: "ReflinesStripes") -> None:
-        """Copies all settings but the switches, which are no part of a set-up."""
-        for one in self.bl_rna.properties:
-            if one.identifier not in NOT_COPIED:
-                setattr(self, one.identifier, getattr(other, one.identifier))
 
-
-class ReflinesSetups(bpy.types.PropertyGroup):
-    """Named set-ups. The scene's stripes show the picked one, and changes go into it."""
-    entries: CollectionProperty(type=ReflinesStripes)
-    index: IntProperty(name="Set-up", update=lambda self, _: self.pick(), description="The set-up that is shown")
-    shown: IntProperty(default=-1)
-
-    def stripes(self) -> ReflinesStripes:
-        return self.id_data.reflection_lines.stripes
-
-    def keep(self) -> None:
-        if 0 <= self.shown < len(self.entries):
-            self.entries[self.shown].take(self.stripes())
-
-    def pick(self) -> None:
-        if self.index == self.shown or not 0 <= self.index < len(self.entries):
-            return
-        self.keep()
-        self.shown = self.index
-        self.stripes().take(self.entries[self.index])
-
-    def add(self, name: str) -> None:
-        """Adds a copy of the present settings and picks it."""
-        self.keep()
-        new = self.entries.add()
-        new.take(self.stripes())
-        new.name = name
-        self.shown = self.index = len(self.entries) - 1
-
-    def remove(self) -> None:
-        self.entries.remove(self.index)
-        self.shown = -1
-        self.index = max(0, self.index - 1)
-
-
-
-register, unregister = bpy.utils.register_classes_factory([ReflinesStripes, ReflinesSetups])
+register, unregister = bpy.utils.register_classes_factory([ReflinesStripes])

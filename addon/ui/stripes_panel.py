@@ -8,21 +8,13 @@ BANDS = {'REFLECTION', 'HIGHLIGHT', 'ISOPHOTE'}
 MAPS = {'RESIDUAL', 'DEVIATION'}
 
 
-class REFLINES_UL_stripes(bpy.types.UIList):
-    def draw_item(self, _context: bpy.types.Context, layout: bpy.types.UILayout, _data: object,
-                  item: bpy.types.PropertyGroup, _icon: int, _active_data: object, _active_property: str) -> None:
-        layout.prop(item, "name", text="", emboss=False, icon='SHADING_RENDERED')
-
-
 class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
     bl_label = "Stripes"
     bl_order = 2
     bl_options = {'DEFAULT_CLOSED'}
-    manual = "stripes"
 
-    def draw_header_preset(self, context: bpy.types.Context) -> None:
+    def draw_header_preset(self, _context: bpy.types.Context) -> None:
         stripe_presets.VIEW3D_PT_reflines_stripe_presets.draw_panel_header(self.layout)
-        super().draw_header_preset(context)
 
     def draw_header(self, context: bpy.types.Context) -> None:
         self.layout.prop(context.scene.reflection_lines.stripes, "show", text="")
@@ -36,6 +28,7 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
             draw_paragraph(layout, context, why, 'INFO')
         layout.active = stripes.show
         layout.use_property_split, layout.use_property_decorate = True, False
+        layout.prop(stripes, "look")
         rows.draw_choice(layout, stripes, "mode")
         layout.prop(stripes, "scope")
         if stripes.scope == 'COLLECTION':
@@ -45,8 +38,6 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         else:
             self.draw_eye(layout, settings)
             rows.draw_switch(layout, stripes, "before")
-            if stripes.before:
-                rows.draw_switch(layout, stripes, "side_by_side")
         if stripes.mode == 'IMAGE':
             self.draw_image(layout, stripes)
 
@@ -54,8 +45,6 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         layout.prop(settings.stripes, "eye")
         if settings.stripes.eye == 'CAMERA' and settings.is_perspective():
             layout.prop(settings.stripes, "per_point")
-        elif settings.stripes.eye == 'FROZEN':
-            layout.operator("reflines.freeze_eye", icon='FREEZE')
 
     def draw_map(self, layout: bpy.types.UILayout, ob: bpy.types.Object | None) -> None:
         if ob is None or not ob.reflection_lines.report.termination:
@@ -73,28 +62,16 @@ class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
     bl_label = "Look"
     bl_parent_id = "VIEW3D_PT_reflines_stripes"
     bl_options = {'DEFAULT_CLOSED'}
-    manual = "stripes"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.reflection_lines, self.layout
         layout.active = settings.stripes.show
-        self.draw_setups(layout, settings.setups)
         layout.use_property_split, layout.use_property_decorate = True, False
         for name in self.list_settings(settings.stripes.mode):
             layout.prop(settings.stripes, name)
         rows.draw_switch(layout, settings.stripes, "cage_on_top")
         if settings.stripes.mode == 'REFLECTION':
             layout.operator("reflines.install_matcap", icon='MATSPHERE')
-
-    def draw_setups(self, layout: bpy.types.UILayout, setups: bpy.types.PropertyGroup) -> None:
-        if not setups.entries:
-            layout.operator("reflines.add_stripes", text="Keep as Set-up", icon='ADD')
-            return
-        row = layout.row()
-        row.template_list("REFLINES_UL_stripes", "", setups, "entries", setups, "index", rows=2)
-        buttons = row.column(align=True)
-        buttons.operator("reflines.add_stripes", text="", icon='ADD')
-        buttons.operator("reflines.remove_stripes", text="", icon='REMOVE')
 
     def list_settings(self, mode: str) -> tuple[str, ...]:
         bands = ("count", "width", "softness", "color", "gap_color") if mode in BANDS else ()
@@ -103,4 +80,4 @@ class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    REFLINES_UL_stripes, VIEW3D_PT_reflines_stripes, VIEW3D_PT_reflines_look])
+    VIEW3D_PT_reflines_stripes, VIEW3D_PT_reflines_look])

@@ -30,10 +30,6 @@ DIRECTIONS = (
     ('ANGLE', "Angle", "An angle in the view camera's picture"),
     ('POINTS', "Two Points", "From one picked point to another"),
 )
-UNITS = (
-    ('RELATIVE', "Relative", "A factor of the present mean density"),
-    ('LINES', "Lines per Unit", "Stripes a unit of length, counted as the stripes are drawn"),
-)
 AXES = (
     ('NONE', "Constant", "The same density everywhere"),
     ('ALONG', "Along Lines", "From one end of the lines to the other"),
@@ -83,11 +79,9 @@ def border_property() -> object:
                         description="What happens at the border of the region")
 
 
-def lights_property(default: str = 'CROSSED') -> object:
-    """Defines whose lines a tool has regard to. An image is drawn by one light: of the sample plate's, 29 % is left
-    where the crossed lines are kept, and 12 % where they are not.
-    """
-    return EnumProperty(name="Lights", items=LIGHTS, default=default, **SAVED,
+def lights_property() -> object:
+    """Defines whose lines a tool has regard to."""
+    return EnumProperty(name="Lights", items=LIGHTS, default='CROSSED', **SAVED,
                         description="Whose lines count: Smooth smooths both, other tools keep the crossed ones as far "
                         "as the wanted ones allow")
 
@@ -111,9 +105,6 @@ class FalloffSettings:
                           description="How far the tool reaches from its centre; 0: a third of the region's diagonal, "
                           "at most half its width")
     shape: EnumProperty(name="Fall-off", items=SHAPES, default='SMOOTH', update=ensure_curve, **SAVED)
-    emphasis: FloatProperty(name="Emphasis", default=10.0, min=1.0, soft_max=100.0, max=1e6, **SAVED,
-                            description="How many times more the lines at the centre count than those where the tool "
-                            "does not act; 1 treats all alike")
 
 
 class SmoothSettings:
@@ -161,9 +152,8 @@ class DirectionSettings(FalloffSettings):
                          description="Of the lines, counter-clockwise from the horizontal of the camera's picture")
     start: FloatVectorProperty(name="From", subtype='XYZ', unit='LENGTH', **SAVED, description="In world space")
     end: FloatVectorProperty(name="To", subtype='XYZ', unit='LENGTH', **SAVED, description="In world space")
-    unit: EnumProperty(name="Density", items=UNITS, default='RELATIVE', **SAVED)
     density: FloatProperty(name="Density", default=1.0, min=0.0, soft_max=10.0, precision=3, **SAVED,
-                           description="How close together the lines are")
+                           description="How close together the lines are: a factor of their present mean density")
     axis: EnumProperty(name="Varies", items=AXES, default='NONE', **SAVED)
     density_end: FloatProperty(name="At the End", default=1.0, min=0.0, soft_max=10.0, precision=3, **SAVED,
                                description="Density at the far end")
@@ -184,18 +174,13 @@ class WarpSettings(FitSettings):
     amount: FloatProperty(name="Amount", default=100.0, min=0.0, soft_max=100.0, max=1000.0, subtype='PERCENTAGE',
                           precision=1, **SAVED, description="How far of the way that the lattice's control points went "
                           "the lines go")
-    cells: IntProperty(name="Raster", default=128, min=4, soft_max=512, max=2048, **SAVED,
-                       description="Cells a side of the grid on which the lattice's map is sampled")
 
 
 class PatternSettings(FitSettings):
-    lights: lights_property('SINGLE')
     strength: FloatProperty(name="Strength", subtype='ANGLE', default=0.1, soft_min=-1.0, soft_max=1.0, **SAVED,
                             description="Turn of the reflected light from black to white; 0 leaves the panel as it is")
     blur: FloatProperty(name="Blur", default=2.0, min=0.0, soft_max=50.0, subtype='PIXEL', **SAVED,
                         description="Standard deviation in pixels; edges too sharp for any surface are not reached")
-    keep_lines: FloatProperty(name="Keep Lines", default=1.0, min=0.0, max=1.0, subtype='FACTOR', **SAVED,
-                        description="Share of the present lines that stays below the pattern; 0: none")
     width: FloatProperty(name="Width", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
                          description="Of the picture; 0 covers the region")
     angle: FloatProperty(name="Rotation", subtype='ANGLE', **SAVED,
@@ -209,9 +194,6 @@ class PullSettings:
     radius: FloatProperty(name="Radius", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
                           description="How far from a new handle lines may move; 0: a third of the region's diagonal, "
                           "at most half its width")
-    nearest: BoolProperty(name="Nearest Line", **SAVED,
-                          description="A stroke of Draw Highlight takes the line that has to change least to run along "
-                          "it, instead of the line at its start")
 
 
 class BakeSettings:
@@ -237,7 +219,7 @@ class ReflinesDirection(DirectionSettings, bpy.types.PropertyGroup):
 
 
 class ReflinesUntwist(UntwistSettings, bpy.types.PropertyGroup):
-    """The scene's settings of Untwist."""
+    """The scene's settings of Turn Lines."""
 
 
 class ReflinesPull(PullSettings, bpy.types.PropertyGroup):

@@ -59,12 +59,6 @@ class DrawHighlightTool(PullLineTool):
     bl_icon = "ops.curve.draw"
     bl_keymap = (("reflines.pull_line", PRESS, {"properties": [("draws", True)]}), LOOK_THROUGH)
 
-    @staticmethod
-    def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, _tool: object) -> None:
-        """Draws the settings of Pull Line, and which line a stroke takes."""
-        PullLineTool.draw_settings(context, layout, _tool)
-        layout.prop(context.scene.reflection_lines.pull, "nearest")
-
 
 class FairBrushTool:
     """The tool that paints smoother lines."""

@@ -17,14 +17,15 @@ CHANGING = {
     "direction": {"density": 2.0, "axis": 'ALONG', "centre": 'EVERYWHERE'}, "direction of most lines": {"density": 1e6},
     "direction as set": {}, "untwist": {"angle": 0.5}, "warp": {}, "warp by place": {"fit": 'VALUE'}, "pattern": {},
     "pattern by place": {"fit": 'VALUE', "blur": 0.0}, "pull_line": {"handles": PULL}, "fit": {}, "check": {},
-    "inspect": {}, "show_spot": {}, "next_spot": {}, "show_worse": {},
+    "inspect": {}, "show_spot": {}, "show_worse": {}, "show_spot of none": {"index": 10**6},
     "set_border": {"border": 'fixed'}, "pin_lines": {}, "resolve": {}, "bake_handles": {},
     "smooth into a key": {"result": 'SHAPE_KEY'}, "smooth for the set": {"lights": 'SET'},
 }
 # Of the scene rather than of the object.
 OTHERS = {
-    "add_warp_lattice": {}, "start_live_warp": {}, "apply_live_warp": {}, "discard_live_warp": {},
-    "camera_from_view": {}, "set_up": {}, "use_panel_view": {}, "add_light_direction": {}, "add_view_camera": {},
+    "add_warp_lattice": {}, "live_warp": {}, "live_warp kept": {"action": 'APPLY'},
+    "live_warp taken back": {"action": 'DISCARD'}, "set_up": {}, "use_panel_view": {}, "add_light_direction": {},
+    "add_view_camera": {},
     "delete_handles": {}, "walk_around": {}, "add_set_light": {}, "remove_set_light": {},
 }
 

@@ -210,7 +210,7 @@ def point(holder: str, name: str, kind: str, ob: bpy.types.Object) -> None:
 def begin_live_warp(change: Callable[[bpy.types.Object], None], ob: bpy.types.Object) -> None:
     """A live warp that is stored in the file, and whose start somebody has changed."""
     bpy.ops.reflines.add_warp_lattice()
-    assert bpy.ops.reflines.start_live_warp() == {'FINISHED'}
+    assert bpy.ops.reflines.live_warp() == {'FINISHED'}
     change(ob)
 
 
@@ -238,12 +238,6 @@ def add_check_row(ob: bpy.types.Object) -> None:
     row.name, row.unit, row.before, row.after, row.mark = "x" * 1000, "parsecs", NAN, INF, NAN
 
 
-def add_setup(ob: bpy.types.Object) -> None:
-    bpy.context.scene.reflection_lines.setups.entries.add()
-    for name in ("index", "shown"):
-        put_scene(f"setups.{name}", 10**9, ob)
-
-
 def save_past_the_addon(path: str | Path) -> None:
     """Saves the file as it is: the add-on's handler would write its own records."""
     handlers = bpy.app.handlers.save_pre
@@ -254,12 +248,12 @@ def save_past_the_addon(path: str | Path) -> None:
 
 
 CHOICES = ("border", "solve_for", "result", "lights", "stripes.mode", "stripes.eye", "stripes.scope",
-           "direction.border", "direction.centre", "direction.shape", "direction.direction", "direction.unit",
-           "direction.axis", "warp.fit", "pattern.fit", "untwist.shape", "pull.border", "brush.border")
+           "direction.border", "direction.centre", "direction.shape", "direction.direction", "direction.axis",
+           "warp.fit", "pattern.fit", "untwist.shape", "pull.border", "brush.border")
 NUMBERS = ("length", "limit", "strength", "stripes.map_range", "stripes.image_rotation", "direction.density",
            "direction.radius", "untwist.angle", "warp.amount", "pattern.width", "pattern.blur", "pull.radius",
            "marks.gap", "marks.curvature")
-COUNTS = {"stripes.count": -5, "warp.cells": -1, "brush.size": -7}
+COUNTS = {"stripes.count": -5, "brush.size": -7}
 REPORT = ("length", "score_before", "score_after", "largest_move", "cage_move", "residual_before", "residual_after",
           "automatic_limit", "automatic_length", "seconds")
 FILES: dict[str, Change] = {
@@ -295,7 +289,6 @@ FILES: dict[str, Change] = {
     "a remedy that is none": partial(put_object, "report.remedy", "nonsense"),
     "an eye that is nowhere": partial(put_scene, "stripes.frozen_eye", [NAN, 0.0, INF, 1.0]),
     "a check that is none": add_check_row,
-    "a set-up that there is not": add_setup,
     "a curve of another kind": take_curve,
     **{f"{holder}.{name} is a {kind.lower()}": partial(point, holder, name, kind) for holder, name, kind in (
         ("scene", "camera", 'MESH'), ("scene", "camera", 'EMPTY'), ("scene", "light", 'MESH'),

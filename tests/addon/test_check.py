@@ -172,7 +172,7 @@ def test_the_table_is_written_as_csv_and_json(tmp_path: Path) -> None:
     ob = solved_panel(length=0.6)
     table = check(ob)
     for name in ("table.csv", "table.JSON"):
-        assert bpy.ops.reflines.export_check(filepath=str(tmp_path / name)) == {'FINISHED'}
+        assert bpy.ops.reflines.export_table(filepath=str(tmp_path / name)) == {'FINISHED'}
     with (tmp_path / "table.csv").open(newline="") as file:
         lines = list(csv.DictReader(file))
     assert [line["name"] for line in lines] == list(table)
@@ -184,14 +184,14 @@ def test_the_table_is_written_as_csv_and_json(tmp_path: Path) -> None:
         assert (line["mark"] == "") == (own["mark"] is None)
 
 
-@pytest.mark.parametrize(("name", "said"), [("table.txt", "neither of the endings"),
+@pytest.mark.parametrize(("name", "said"), [("table.txt", "does not end in .csv or .json"),
                                             ("none/table.csv", "No such file")])
 def test_files_that_cannot_be_written_are_told(tmp_path: Path, name: str, said: str) -> None:
     ob = scenes.panel()
     scenes.edit_inner(ob)
     check(ob)
     with pytest.raises(RuntimeError, match=said):
-        bpy.ops.reflines.export_check(filepath=str(tmp_path / name))
+        bpy.ops.reflines.export_table(filepath=str(tmp_path / name))
     assert not list(tmp_path.iterdir())
 
 
@@ -200,7 +200,7 @@ def test_a_file_beside_the_blend_file(tmp_path: Path) -> None:
     scenes.edit_inner(ob)
     check(ob)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "panel.blend"))
-    assert bpy.ops.reflines.export_check(filepath="//table.csv") == {'FINISHED'}
+    assert bpy.ops.reflines.export_table(filepath="//table.csv") == {'FINISHED'}
     assert (tmp_path / "table.csv").is_file()
 
 

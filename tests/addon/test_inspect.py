@@ -64,7 +64,7 @@ def test_a_spot_is_shown(mode: str) -> None:
     near = [np.linalg.norm(np.array(face.center)[:2] - (-0.5, -0.2)) for face in chosen]
     assert chosen and max(near) < found.spots[1].size and min(near) < 0.1
     assert all(ob.data.vertices[v].select for face in chosen for v in face.vertices)
-    assert bpy.ops.reflines.next_spot('EXEC_DEFAULT', True) == {'FINISHED'} and found.active == 0
+    assert bpy.ops.reflines.show_spot('EXEC_DEFAULT', True) == {'FINISHED'} and found.active == 0
 
 
 def test_only_the_region_is_inspected() -> None:
@@ -88,13 +88,13 @@ def test_places_follow_the_object() -> None:
 def test_spots_are_written_to_a_table(tmp_path: Path) -> None:
     found = inspect(make_panel())
     file = tmp_path / "spots.csv"
-    assert bpy.ops.reflines.export_spots('EXEC_DEFAULT', filepath=str(file)) == {'FINISHED'}
+    assert bpy.ops.reflines.export_table('EXEC_DEFAULT', table='SPOTS', filepath=str(file)) == {'FINISHED'}
     rows = list(csv.DictReader(file.open(encoding="utf-8")))
     assert [row["number"] for row in rows] == ["1", "2"]
     assert [float(row["height"]) for row in rows] == pytest.approx([spot.height for spot in found.spots])
     assert [float(row["x"]) for row in rows] == pytest.approx([spot.find_place()[0] for spot in found.spots])
     with pytest.raises(RuntimeError, match="csv"):
-        bpy.ops.reflines.export_spots('EXEC_DEFAULT', filepath=str(tmp_path / "spots.txt"))
+        bpy.ops.reflines.export_table('EXEC_DEFAULT', table='SPOTS', filepath=str(tmp_path / "spots.txt"))
 
 
 def test_unusable_input_gets_one_sentence() -> None:

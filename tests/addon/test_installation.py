@@ -149,9 +149,19 @@ def test_a_module_that_a_wheel_brought(copy, tmp_path, monkeypatch) -> None:
     place.mkdir()
     shutil.copy(native_module(), place)
     monkeypatch.syspath_prepend(str(place))
+    monkeypatch.delitem(sys.modules, "reflines", raising=False)
     enable(COPY)
     assert not bpy.context.window_manager.reflection_lines.problem
+    module = sys.modules[COPY + ".native"].reflines
+    assert module is sys.modules["reflines"] and Path(module.__file__).parent == place  # no copy, under its own name
     assert works()
+
+
+def test_a_wheel_of_an_older_version_that_is_in_use(copy, tmp_path, monkeypatch) -> None:
+    (tmp_path / "reflines.py").write_text('__version__ = "0.0.9"\n')
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.delitem(sys.modules, "reflines", raising=False)
+    stays_enabled_and_says("is that of version 0.0.9 and the add-on's is 0.1.0", "Start Blender again")
 
 
 class Layout(list):

@@ -22,11 +22,11 @@ def panel() -> bpy.types.Object:
 
 
 def start() -> None:
-    assert bpy.ops.reflines.start_live_warp('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.ops.reflines.live_warp('EXEC_DEFAULT', True) == {'FINISHED'}
 
 
 def end(how: str) -> None:
-    assert getattr(bpy.ops.reflines, f"{how}_live_warp")('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action=how.upper()) == {'FINISHED'}
 
 
 def pull(by: float = 0.2) -> None:

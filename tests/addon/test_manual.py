@@ -78,7 +78,7 @@ def test_f1_over_an_operator_opens_its_section(name: str, manual: Manual, opened
     ("ReflinesScene.camera", "view-and-light"), ("ReflinesScene.border", "region"),
     ("ReflinesDirection.angle", "reflines.direction"), ("ReflinesDirection.radius", "falloff"),
     ("ReflinesWarp.lattice", "reflines.warp"), ("ReflinesStripes.count", "stripes"),
-    ("ReflinesSetups.index", "stripes"), ("VIEW3D_MT_reflines", "tools")])
+    ("VIEW3D_MT_reflines", "tools")])
 def test_f1_over_a_setting_opens_the_section_that_describes_it(setting: str, section: str, manual: Manual,
                                                               opened: list[str]) -> None:
     bpy.ops.wm.doc_view_manual(doc_id=setting)

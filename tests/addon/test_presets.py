@@ -40,7 +40,7 @@ def made(folder: Path) -> Path:
 
 def test_a_preset_has_every_setting_of_the_look() -> None:
     own = {each.identifier for each in stripes().bl_rna.properties}
-    left_out = {"rna_type", "name", "show", "before", "side_by_side", "collection", "image", "frozen_eye"}
+    left_out = {"rna_type", "name", "show", "before", "side_by_side", "look", "collection", "image", "frozen_eye"}
     operator = bpy.types.REFLINES_OT_save_stripes_preset
     paths = {f"bpy.context.scene.reflection_lines.stripes.{name}" for name in own - left_out}
     assert paths == set(operator.preset_values)
@@ -49,12 +49,21 @@ def test_a_preset_has_every_setting_of_the_look() -> None:
 @pytest.mark.parametrize("look", LOOKS)
 def test_a_look_that_comes_with_the_add_on_sets_what_it_says_and_no_more(look: str) -> None:
     stripes().eye, stripes().scope, stripes().count = 'VIEWPORT', 'VISIBLE', 7
-    assert bpy.ops.reflines.use_look(look=look) == {'FINISHED'}
+    stripes().look = look
+    assert stripes().look == look
     for name, value in LOOKS[look][2].items():
         now = getattr(stripes(), name)
         assert tuple(now) == pytest.approx(value) if isinstance(value, tuple) else now == pytest.approx(value) \
             if isinstance(value, float) else now == value
     assert (stripes().eye, stripes().scope, stripes().show) == ('VIEWPORT', 'VISIBLE', False)
+
+
+def test_a_look_that_was_changed_is_the_artists_own() -> None:
+    stripes().look = 'TUBES'
+    stripes().count += 1
+    assert stripes().look == 'OWN'
+    stripes().look = 'OWN'
+    assert stripes().count == LOOKS['TUBES'][2]["count"] + 1
 
 
 def test_the_first_look_is_what_the_settings_begin_with() -> None:

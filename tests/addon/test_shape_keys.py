@@ -185,7 +185,7 @@ def test_a_live_warp_does_not_mix_keys_either(panel) -> None:
     bpy.context.scene.reflection_lines.result = 'SHAPE_KEY'
     before = scenes.fingerprint(panel)
     with pytest.raises(RuntimeError, match="edit Reflection Lines to go on with it"):
-        bpy.ops.reflines.start_live_warp('EXEC_DEFAULT', True)
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True)
     assert scenes.fingerprint(panel) == before and panel.mode == 'EDIT'
 
 
@@ -377,9 +377,9 @@ def test_live_warp_into_a_key(panel, how) -> None:
     kept = scenes.fingerprint(panel)
     settings = bpy.context.scene.reflection_lines
     settings.result = 'SHAPE_KEY'
-    bpy.ops.reflines.start_live_warp('EXEC_DEFAULT', True)
+    bpy.ops.reflines.live_warp('EXEC_DEFAULT', True)
     settings.warp.lattice.data.points[12].co_deform.x += 0.2
-    getattr(bpy.ops.reflines, f"{how}_live_warp")('EXEC_DEFAULT', True)
+    bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action=how.upper())
     if how == "discard":
         assert scenes.fingerprint(panel) == kept
         return

@@ -51,7 +51,7 @@ CHANGES = {
                                                  **CLAMPED),
     "density": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.1, axis='ACROSS', density_end=0.9,
                                                   **CLAMPED),
-    "lines": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, unit='LINES', density=4.0, **INSIDE),
+    "density in the middle": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2, **INSIDE),
     "curve": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2, **(CLAMPED | CURVE)),
     "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True, angle=0.1, radius=0.7, **INSIDE),
     "pattern": pattern,
@@ -117,7 +117,7 @@ def test_the_angle_is_that_of_the_lines_in_the_picture(panel) -> None:
 
 def test_untwist_turns_the_middle_counter_clockwise(panel) -> None:
     before = lines_of(panel).field()
-    bpy.ops.reflines.untwist(angle=0.2, centre='REGION', radius=0.8, emphasis=100.0, border='free')
+    bpy.ops.reflines.untwist(angle=0.2, centre='REGION', radius=0.8, border='free')
     optimizer = lines_of(panel)
     inside = near(optimizer, 0.2)
     old, new = before[inside].mean(axis=0), optimizer.field()[inside].mean(axis=0)
@@ -128,7 +128,7 @@ def test_untwist_turns_the_middle_counter_clockwise(panel) -> None:
 def test_the_cursor_is_the_centre(panel) -> None:
     bpy.context.scene.cursor.location = (0.5, 0.0, 0.0)
     before = scenes.positions(panel)
-    bpy.ops.reflines.untwist(angle=0.3, centre='CURSOR', radius=0.3, emphasis=1000.0, border='clamped')
+    bpy.ops.reflines.untwist(angle=0.3, centre='CURSOR', radius=0.3, border='clamped')
     moved = np.abs(scenes.positions(panel) - before)[:, 2]
     assert (moved @ before[:, 0]) / moved.sum() > 0.2
 

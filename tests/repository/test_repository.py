@@ -1,12 +1,14 @@
 """A repository of extensions on a static host, as `./run release` makes it: an artist adds its address to Blender,
-installs the add-on from it, uses it, updates it and removes it, in one session. Run by .ci/release.py with two folders:
-the repository and one of a later version."""
+installs the add-on from it, uses it, updates it and removes it, in one session. The solver is an ordinary module, which
+a session keeps. Run by .ci/release.py with two folders: the repository and one of a later version."""
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
 from collections.abc import Generator
+from importlib import invalidate_caches
+from importlib.util import find_spec
 from pathlib import Path
 
 import bpy
@@ -42,8 +44,10 @@ def upload(repository: Path, host: Path) -> None:
     shutil.copytree(repository, host, dirs_exist_ok=True)
 
 
-def library(module: str) -> bytes:
-    return Path(sys.modules[f"{module}.native"].reflines.__file__).read_bytes()
+def library() -> bytes:
+    """The library that a new session would load."""
+    invalidate_caches()
+    return Path(find_spec("reflines").origin).read_bytes()
 
 
 def use() -> Generator[float, None, None]:
@@ -75,16 +79,17 @@ def install_update_remove(driver: window.Window, host: Path, place: str, module:
     assert bpy.ops.extensions.package_install(repo_directory=place, pkg_id=NAME) == {'FINISHED'}
     assert module in bpy.context.preferences.addons
     assert not bpy.context.window_manager.reflection_lines.problem
-    assert not library(module).endswith(TAIL)
+    assert not library().endswith(TAIL)
+    assert sys.modules[f"{module}.native"].reflines is sys.modules["reflines"]  # the wheel's, under its own name
     with driver.override():
         yield from use()
     upload(NEWER, host)
     assert bpy.ops.extensions.repo_sync(repo_directory=place) == {'FINISHED'}
     assert bpy.ops.extensions.package_upgrade_all() == {'FINISHED'}
     yield 0.3
-    assert library(module).endswith(TAIL)
-    with driver.override():
-        yield from use()
+    assert library().endswith(TAIL)
+    session = bpy.context.window_manager.reflection_lines
+    assert "that of version 0.1.0" in session.problem and session.remedy == "Start Blender again.", session.problem
     assert bpy.ops.extensions.package_uninstall(repo_directory=place, pkg_id=NAME) == {'FINISHED'}
     yield 0.5
     assert module not in bpy.context.preferences.addons

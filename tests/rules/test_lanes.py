@@ -34,6 +34,11 @@ def test_a_crash_is_a_failure_with_a_name() -> None:
     assert reported("FAILED first: why", code=3).failures[0] == "first: why"
 
 
+def test_every_file_of_window_tests_runs_once() -> None:
+    files = [path for group in lanes.group_window_tests() for path in group]
+    assert sorted(files) == sorted((lanes.ROOT / "tests/ui").glob("test_*.py"))
+
+
 def test_sums_keep_the_names() -> None:
     total = sum([lanes.Counts(1, 1, 0, ("a",)), lanes.Counts(), lanes.Counts(0, 1, 0, ("b",))], lanes.Counts())
     assert total == lanes.Counts(1, 2, 0, ("a", "b")) and str(total) == "1 passed, 2 failed, 0 skipped"

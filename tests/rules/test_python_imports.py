@@ -8,7 +8,7 @@ from tree import ROOT, files, python_files
 MAY_IMPORT = {
     "bl_info": set(),  # of addon/__init__.py
     "library_copy": set(),
-    "native": {"library_copy"},
+    "native": {"bl_info", "library_copy"},
     "native_call": set(),
     "model": {"native"},
     "targets": {"native", "native_call", "model.line_curve", "model.line_handle", "model.solution"},
@@ -39,7 +39,7 @@ MAY_IMPORT = {
                      "overlay.shader", "overlay.fitted_normals", "overlay.solve_maps",
                      "overlay.limit_surface", "overlay.stripe_scene", "overlay.shown_objects", "native", "bridge",
                      "model", "state"},
-    "ui.stripe_properties": set(),
+    "ui.stripe_properties": {"model"},
     "ui.rows": set(),
     "ui.automatic_values": {"bridge"},
     "ui.tool_properties": {"bridge", "model", "ui.rows"},
@@ -54,7 +54,7 @@ MAY_IMPORT = {
     "ui.properties": {"bridge", "model", "ui.check_properties", "ui.inspection_properties", "ui.automatic_values",
                       "ui.handle_properties", "ui.light_set_properties", "ui.tool_properties", "ui.stripe_properties"},
     "ui.session_properties": {"native", "bridge", "state", "interactive", "overlay.shown_objects"},
-    "ui.panels": {"model", "ui.automatic_values", "ui.manual_links", "ui.rows"},
+    "ui.panels": {"model", "ui.automatic_values", "ui.rows"},
     "ui.stripe_presets": set(),
     "ui.stripes_panel": {"ui.panels", "ui.rows", "ui.stripe_presets"},
     "ui.divider_gizmo": {"state.compared", "overlay.legend"},

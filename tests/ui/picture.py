@@ -1,4 +1,5 @@
 """Pictures of a 3D view as arrays, and the points of a mesh behind their pixels."""
+import sys
 from collections.abc import Generator
 
 import bpy
@@ -49,11 +50,20 @@ def captured(driver: window.Window) -> Generator[float, None, np.ndarray]:
     """Linear brightness (height x width, bottom row first) of the 3D view, after the stripes were drawn."""
     pictures = []
     handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_VIEW')
-    driver.redraw()
-    yield 0.5
+    yield from drawn_at_rest(driver, pictures)
     bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
     encoded = pictures[-1][:, :, 1] / 255.0
     return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+
+
+def drawn_at_rest(driver: window.Window, pictures: list) -> Steps:
+    """Waits until the view was drawn with nothing left to fit, neither before nor after it was."""
+    draw, idle = sys.modules["reflection_lines.overlay.draw"], False
+    while not idle or draw.is_waiting():
+        idle, seen = not draw.is_waiting(), len(pictures)
+        driver.redraw()
+        while len(pictures) == seen:
+            yield 0.03
 
 
 def pixels() -> np.ndarray:

@@ -317,7 +317,7 @@ def pull_lattice(walker: Walker) -> Steps:
     if settings.warp.lattice is None:
         print("   ", walker.call("reflines.add_warp_lattice", 'EXEC_DEFAULT', True), flush=True)
     if settings.live.panel is None:
-        print("   ", walker.call("reflines.start_live_warp", 'EXEC_DEFAULT', True), flush=True)
+        print("   ", walker.call("reflines.live_warp", 'EXEC_DEFAULT', True), flush=True)
     lattice = bpy.context.scene.reflection_lines.warp.lattice
     for _ in range(walker.dice.randrange(4) if lattice is not None else 0):
         walker.dice.choice(lattice.data.points).co_deform.x += walker.dice.uniform(-0.3, 0.3)

@@ -1,9 +1,8 @@
 """Draw Highlight with the nearest line in a real window: the stroke takes the line that has to change least."""
-import bpy
 import numpy as np
 
 import window
-from pulling import Steps, applied, draw, missed, picture, session, start, taken_back
+from pulling import Steps, draw, missed, picture, session, start, taken_back
 
 STROKE = [(270 + 10 * k, 280 + 2 * k) for k in range(13)]  # pixels; it crosses lines, which run from left to right
 
@@ -43,22 +42,13 @@ def test_the_nearest_line_changes_those_below_the_stroke_less_than_the_one_at_it
     assert 1e-3 < changes[1] < 0.9 * changes[0], changes
 
 
-def test_the_status_bar_says_which_line_is_taken_and_enter_keeps_the_choice(driver: window.Window) -> Steps:
-    settings = bpy.context.scene.reflection_lines.pull
+def test_the_status_bar_says_which_line_is_taken(driver: window.Window) -> Steps:
     yield from draw_stroke(driver, 'D')
     assert session().texts[1].startswith("Drag: draw the line at its start   N: the nearest line"), session().texts
     driver.key('N')
     yield 0.2
     assert session().texts[1].startswith("Drag: draw the nearest line   N: the line at its start"), session().texts
     yield from taken_back(driver)
-    assert not settings.nearest
-    yield from draw_stroke(driver, 'D', 'N')
-    yield from applied(driver)
-    assert settings.nearest
-    yield from draw_stroke(driver, 'D')
-    assert session().nearest
-    yield from taken_back(driver)
-    settings.property_unset("nearest")
 
 
 def test_n_does_nothing_while_lines_are_pulled(driver: window.Window) -> Steps:
@@ -70,5 +60,5 @@ def test_n_does_nothing_while_lines_are_pulled(driver: window.Window) -> Steps:
 
 
 window.run(test_the_nearest_line_changes_those_below_the_stroke_less_than_the_one_at_its_start,
-           test_the_status_bar_says_which_line_is_taken_and_enter_keeps_the_choice,
+           test_the_status_bar_says_which_line_is_taken,
            test_n_does_nothing_while_lines_are_pulled)

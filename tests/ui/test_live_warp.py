@@ -33,7 +33,7 @@ def started(driver: window.Window, cells: int = 16) -> Steps:
         bpy.ops.reflines.add_warp_lattice()
         bpy.ops.object.mode_set(mode='OBJECT')
         bpy.ops.ed.undo_push(message="Lattice")
-        bpy.ops.reflines.start_live_warp('EXEC_DEFAULT', True)
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True)
     driver.move(400, 400)
     yield 0.2
     driver.key('TAB')
@@ -59,7 +59,7 @@ def grab(driver: window.Window, x: int) -> Steps:
 def warped(driver: window.Window) -> np.ndarray:
     """What Warp makes of the panel as it was at the start, after Discard."""
     with driver.override():
-        bpy.ops.reflines.discard_live_warp('EXEC_DEFAULT', True)
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='DISCARD')
         bpy.context.view_layer.objects.active = bpy.data.objects["Panel"]
         bpy.ops.reflines.warp('EXEC_DEFAULT', True)
     return positions()
@@ -178,7 +178,7 @@ def test_the_panel_follows_after_reload(driver: window.Window) -> Steps:
     yield from dragging.settled(driver)
     assert not np.array_equal(positions(), saved)
     with driver.override():
-        bpy.ops.reflines.discard_live_warp('EXEC_DEFAULT', True)
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='DISCARD')
     assert np.array_equal(positions(), before)
 
 
@@ -189,7 +189,7 @@ def test_apply_is_one_undo_step_and_the_panel_follows_on_after_it(driver: window
     yield from dragging.settled(driver)
     held = positions()
     with driver.override():
-        bpy.ops.reflines.apply_live_warp('EXEC_DEFAULT', True)
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='APPLY')
     yield from dragging.settled(driver)
     assert np.array_equal(positions(), held)
     assert bpy.context.mode == 'OBJECT' and bpy.context.scene.reflection_lines.live.panel is None
@@ -198,7 +198,7 @@ def test_apply_is_one_undo_step_and_the_panel_follows_on_after_it(driver: window
     assert bpy.context.scene.reflection_lines.live.panel == bpy.data.objects["Panel"]
     assert np.array_equal(positions(), held)
     with driver.override():
-        bpy.ops.reflines.discard_live_warp('EXEC_DEFAULT', True)
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='DISCARD')
 
 
 def test_changes_by_hand_are_told_and_not_written_over(driver: window.Window) -> Steps:
@@ -224,7 +224,7 @@ def test_changes_by_hand_are_told_and_not_written_over(driver: window.Window) ->
     assert "was changed by something else" in says()
     assert np.array_equal(positions(), changed)
     with driver.override():
-        bpy.ops.reflines.apply_live_warp('EXEC_DEFAULT', True)
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='APPLY')
     assert np.array_equal(positions(), changed)
 
 

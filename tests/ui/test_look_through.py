@@ -1,4 +1,4 @@
-"""Look Through and Camera from This View in a real window."""
+"""Look Through and Set Up from This View in a real window."""
 from collections.abc import Generator
 
 import bpy
@@ -85,7 +85,7 @@ def test_the_camera_takes_this_view_in_edit_mode(driver: window.Window) -> Steps
         scenes.edit(ob)
     yield 0.3
     with driver.override():
-        assert bpy.ops.reflines.camera_from_view() == {'FINISHED'}
+        assert bpy.ops.reflines.set_up() == {'FINISHED'}
         bpy.context.view_layer.update()
     assert np.abs(axes(driver) - np.array(settings().camera.matrix_world)[:3, :3]).max() < 1e-5
     assert ob.mode == 'EDIT'

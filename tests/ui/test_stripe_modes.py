@@ -160,7 +160,7 @@ def test_a_frozen_eye_stays_while_the_view_turns(driver: window.Window) -> Steps
     prepare(driver, ob)
     eye = perspective_view(driver, ob)
     with driver.override():
-        assert bpy.ops.reflines.freeze_eye() == {'FINISHED'}
+        bpy.context.scene.reflection_lines.stripes.eye = 'FROZEN'
     perspective_view(driver, ob, tilt=-0.4)
     sample = yield from sampled(driver, ob)
     sample.agree(expected_light(sample.theta(sample.views(eye))))
@@ -245,26 +245,6 @@ def test_a_collection(driver: window.Window) -> Steps:
     one, two = ((np.abs(shot - 0.2) < 0.01).sum() for shot in (active, picture))
     print(f"{one} pixels of the active object, {two} of the collection")
     assert 1.8 * one < two < 2.2 * one
-
-
-def test_named_setups_are_kept_and_picked(driver: window.Window) -> Steps:
-    prepare(driver, fresh_panel(driver, "Set-ups"))
-    setups = bpy.context.scene.reflection_lines.setups
-    with driver.override():
-        bpy.ops.reflines.add_stripes(name="Fine")
-        stripes().count = 111
-        bpy.ops.reflines.add_stripes(name="Coarse")
-        stripes().count, stripes().mode = 7, 'ISOPHOTE'
-        setups.index = 0
-        assert (stripes().count, stripes().mode) == (111, 'REFLECTION')
-        setups.index = 1
-        assert (stripes().count, stripes().mode) == (7, 'ISOPHOTE')
-        bpy.ops.reflines.remove_stripes()
-        assert [entry.name for entry in setups.entries] == ["Fine"]
-        assert stripes().count == 111
-        bpy.ops.reflines.remove_stripes()
-        assert not bpy.ops.reflines.remove_stripes.poll()
-    yield 0.1
 
 
 def solved_panel(driver: window.Window, name: str) -> Generator[float, None, tuple]:
@@ -400,7 +380,7 @@ def test_a_large_panel_is_drawn_at_once_and_then_better(driver: window.Window) -
 window.run(test_highlight_lines, test_isophotes, test_environment_image, test_no_image_is_no_error,
            test_this_view_in_perspective, test_a_perspective_camera_point_by_point,
            test_a_frozen_eye_stays_while_the_view_turns, test_edges_are_soft_at_any_zoom, test_only_the_selected_faces,
-           test_a_part_has_the_normals_of_the_whole, test_a_collection, test_named_setups_are_kept_and_picked,
+           test_a_part_has_the_normals_of_the_whole, test_a_collection,
            test_deviation_map, test_residual_map, test_a_map_of_a_changed_mesh_is_not_shown, test_before_the_last_solve,
            test_before_and_after_side_by_side,
            test_the_legend_has_units_and_sign, test_a_large_panel_is_drawn_at_once_and_then_better)
