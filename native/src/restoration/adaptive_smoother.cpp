@@ -25,16 +25,9 @@ constexpr double kFlawSlope = 0.04;
 constexpr double kCoherent = 0.95;
 
 // Times the typical variation around a place that counts as flawed, too, where curvature varies alike all around there
-// and in all directions, but no more than so many times a flaw's; the radius of "around there", in lengths; and the
-// ratio of geometric and arithmetic mean of squares from which on it is alike. Without the bound louvres of 6 per mille
-// of the diagonal were bent by 4 to 6 degrees, with it by 0.6 to 1.6.
-constexpr double kTypical = 3.0, kMostTypical = 2.0, kAround = 3.0, kUneven = 0.3, kEven = 0.7;
-
-// That ratio where what varies across one direction is no line of the design, but one of many waves. Of waves of 0.2
-// per mille across a dome, 6 to 12 % of its diagonal long, up to 0.98 is left without it (4-8 mesh, at 45 degrees), and
-// 0.05 to 0.15 with it (0.71 in the one worst case); single lines of the design are bent by up to 0.1 degrees more.
-// From 0.45 on rather than 0.55 the worst case is 0.17, and lines are bent by 0.3 degrees more.
-constexpr double kLoneWave = 0.55, kManyWaves = 0.95;
+// and in all directions; the radius of "around there", in lengths; and the ratio of geometric and arithmetic mean of
+// squares from which on it is alike.
+constexpr double kTypical = 3.0, kAround = 3.0, kUneven = 0.3, kEven = 0.7;
 
 // Share of a flaw's variation that counts as none, for the geometric mean.
 constexpr double kNothing = 0.05;
@@ -114,11 +107,9 @@ Vector AdaptiveSmoother::weigh(const Vector& z, double smoothing_length) const {
     const double xx = mean(t, 0), yy = mean(t, 2), xy = mean(t, 1), trace = xx + yy;
     const double coherence = trace > 0 ? (square(xx - yy) + 4.0 * square(xy)) / square(trace) : 0.0;
     const double typical = std::exp(around(t, 1));
-    const double ratio = typical / around(t, 0), alike = smoothstep(kUneven, kEven, ratio);
-    const double lone = coherence * smoothstep(kManyWaves, kLoneWave, ratio);
-    const double most = square(flaw * (1.0 - kCoherent * lone)) +
-                        std::min(square(kTypical) * typical, square(kMostTypical * flaw)) * alike *
-                            square(1.0 - coherence);
+    const double alike = smoothstep(kUneven, kEven, typical / around(t, 0));
+    const double most =
+        square(flaw * (1.0 - kCoherent * coherence)) + square(kTypical) * typical * alike * square(1.0 - coherence);
     const double weight = 1.0 / (1.0 + trace / most);
     result(t) = weight * weight * weight;  // falls faster than the stiffness of longer lengths rises
   }
