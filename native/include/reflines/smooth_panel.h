@@ -104,10 +104,10 @@ struct SmoothPanelReport {
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
   std::vector<double> seen;  // likewise: share of the region's area that its eye sees; 1 along the view
-  HealedFlaws healed;  // of a press that was not applied nothing: the worst place after it is that before
-  Vector stray;        // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
-                       // result, radians / length
-  Region region;       // of the shape at the start
+  HealedFlaws healed;        // of a press that was not applied nothing: the worst place after it is that before
+  Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
+                  // result, radians / length
+  Region region;  // of the shape at the start
   bool applied = true;      // false: some light would have become worse, and nothing was moved
   std::vector<Note> notes;  // the most important first: why nothing was moved, or else what the limit holds back
 };
