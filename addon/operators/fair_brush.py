@@ -6,8 +6,8 @@ from ..interactive import running_operators
 from ..interactive.brush_stroke import BrushStroke
 from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
-from ..solver import limited_solve, solve
-from ..solver.brush import Brush
+from ..solver import limited_solve
+from ..solver.brush import WIDEST, Brush
 from ..ui.tool_properties import BrushSettings, limit_property, lights_property
 from .solve_tool import SolveTool
 
@@ -61,7 +61,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         self.result = 'MESH'
         patch = self.gather_patch(ob)
         self.subject, self.stroke = ob.name, BrushStroke(context, ob, patch, self.border)
-        length = solve.choose_length(patch, context.scene.reflection_lines.length)
+        length = context.scene.reflection_lines.length or WIDEST * patch.diagonal
         limit = limited_solve.choose_limit(patch, SolveSettings(self.border, length, self.limit, limit_length=length))
         self.brush = Brush(0.0, self.strength, length, limit, 1 if self.lights == 'SINGLE' else 2)
 

@@ -14,6 +14,9 @@ from .formulation import Formulation, choose_formulation
 CONTEXT, FEWEST_EDGES = 0.25, 4.0  # of the radius, and mean edges: what the filter sees beyond the circle
 FEWEST_FREE = 8  # vertices within a circle that can be smoothed
 LONGEST = 2.0    # length of the filter, relative to the radius: what is longer than the circle is no flaw in it
+# That where none is given, relative to the panel's diagonal: longer than a press's, for the artist shows the flaws, and
+# the circle how wide they are. With a press's 1/14 a stroke over waves as wide as its circle took 2 % of them.
+WIDEST = 1.0 / 6.0
 TOLERANCE = 1e-3
 
 

@@ -89,6 +89,7 @@ def test_sweep_view_walks_around_the_panel(driver: window.Window) -> Steps:
             bpy.ops.reflines.sweep_view('INVOKE_DEFAULT')
         before = yield from captured(driver)
         driver.move(400, 300)
+        yield 0.2
         turned = yield from captured(driver)
         assert (np.abs(before - turned) > 0.1).sum() > 5000 and stripes.eye == 'VIEWPORT'
         driver.key(key)

@@ -146,12 +146,7 @@ def test_a_file_with_an_edge_of_too_many_faces_shows_the_modifiers_surface(drive
         scenes.edit(bpy.data.objects["Book"])
         bpy.ops.mesh.select_all(action='SELECT')
         before = scenes.fingerprint(bpy.data.objects["Book"])
-        refused = ""
-        try:
-            scenes.smooth()
-        except RuntimeError as error:
-            refused = str(error)
-        assert "20 faces of the cage share the edge" in refused
+        scenes.smooth()  # of two objects in Edit Mode the other is solved, and this one left
         assert scenes.fingerprint(bpy.data.objects["Book"]) == before
         scenes.object_mode()
 
