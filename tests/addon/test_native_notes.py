@@ -15,6 +15,7 @@ def note(kind: str, count: int = 0, before: float = 0.0, after: float = 0.0) -> 
     return SimpleNamespace(kind=kind, count=count, before=before, after=after)
 
 
+@pytest.mark.skipif(not HEADER.exists(), reason="the library's source is not beside the installed package")
 def test_every_kind_has_a_sentence() -> None:
     names = re.search(r"kNames = \{(.*?)\};", HEADER.read_text(), re.DOTALL).group(1)
     assert set(re.findall(r'"(\w+)"', names)) == set(SENTENCES)

@@ -183,7 +183,7 @@ def test_a_border_is_clamped_where_following_would_make_a_worse_place(case: str)
     bent, options = V.copy(), {}
     if "limit" in case:
         bent[:, 2] += bend(V)
-        options = {"limit": 5e-4}
+        options = {"limit": 3e-4}
     else:
         x = V[:, 0] - cut(V[:, 1])
         bent[:, 2] += 0.06 * x * np.exp(-(x / 0.15) ** 2)

@@ -397,3 +397,16 @@ def test_flutes_are_design(amplitude: float, wavelength: float, most: float) -> 
     V = np.column_stack([x, y, -0.15 * x**2 - 0.1 * y**2 + amplitude * np.cos(2 * np.pi * x / wavelength)])
     pressed, _ = press(V, F)
     assert (error(pressed, V, F) < most).all()
+
+
+@pytest.mark.parametrize(("wavelength", "most"), [(0.06, 0.1), (0.12, 0.3)])
+def test_waves_across_one_direction_are_flaws(wavelength: float, most: float) -> None:
+    """They are many, where a character line is one: without that 0.63 is left of the longer ones."""
+    plane, F = grid(40, jitter=0.25)
+    x, y = plane[:, 0] - 0.5, plane[:, 1] - 0.5
+    clean = np.column_stack([x, y, -0.12 * x**2 - 0.08 * y**2])
+    inside = np.clip((0.47 - np.abs(plane - 0.5).max(axis=1)) / 0.06, 0, 1)
+    V = clean.copy()
+    V[:, 2] += 3e-4 * np.sin(2 * np.pi * x / (1.45 * wavelength)) * inside**2 * (3 - 2 * inside)
+    pressed, _ = press(V, F)
+    assert error(pressed, clean, F).max() < most * error(V, clean, F).max()

@@ -15,7 +15,8 @@ namespace reflines {
 
 // A place is smoothed up to the lengths at which its curvature varies by no more than a flaw's does, and design stays.
 // The curvature varies as a flaw's does where it does so slowly, everywhere alike, or in all directions; as design
-// where it does strongly and at some places only, or across a direction: fillets, edges and character lines go on.
+// where it does strongly and at some places only, or across a direction in a band: fillets, edges and character lines
+// go on, and waves across a direction are many.
 class AdaptiveSmoother {
  public:
   // `field` outlives it; `length` is the size of the flaws.
