@@ -8,6 +8,7 @@ from mathutils import Vector
 from ..bridge import light_angles
 from ..interactive import drag_input, running_operators
 from ..interactive.drag_handles import Handle
+from ..interactive.sweep import Sweep
 
 HANDLES = (
     Handle("turn", "Turn", per_pixel=radians(0.3), low=-1e9, high=1e9, unit='ANGLE'),
@@ -16,7 +17,7 @@ HANDLES = (
 )
 
 
-class REFLINES_OT_sweep_light(bpy.types.Operator):
+class REFLINES_OT_sweep_light(Sweep, bpy.types.Operator):
     """Turn the light with the mouse while the stripes follow, in any mode: left and right turn it in the view camera's
 picture, the wheel tilts it"""
     bl_idname = "reflines.sweep_light"
@@ -47,10 +48,10 @@ picture, the wheel tilts it"""
             self.turn = start[0]
         if not self.properties.is_property_set("tilt"):
             self.tilt = start[1]
-        self.turn_light(context)
+        self.apply_angles(context)
         return {'FINISHED'}
 
-    def turn_light(self, context: bpy.types.Context) -> None:
+    def apply_angles(self, context: bpy.types.Context) -> None:
         settings = context.scene.reflection_lines
         light_angles.turn_light(settings.picture_camera(), settings.light, self.turn, self.tilt)
 
@@ -63,28 +64,7 @@ picture, the wheel tilts it"""
         self.values = drag_input.read_values(HANDLES, angles, context.scene)
         self.area, self.region, self.region_3d = context.area, context.region, context.region_data
         self.angle = 0.0  # of the mouse around the ring, in radians, counted on over full turns
-        self.move_mouse(context, event)
-        self.follow(context)
-        context.workspace.status_text_set(drag_input.describe_keys(self.values))
-        context.window_manager.modal_handler_add(self)
-        running_operators.note_begin(self)
-        return {'RUNNING_MODAL'}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if drag_input.cancels(event) or not self.can_go_on(context):
-            self.take_back(context)
-            return {'CANCELLED'}
-        if drag_input.navigates(event, self.values):
-            return {'PASS_THROUGH'}
-        if drag_input.keeps(event, self.values, held=self.release_confirm):
-            self.end(context)
-            return {'FINISHED'}
-        if event.type == 'MOUSEMOVE':
-            self.move_mouse(context, event)
-        else:
-            drag_input.change_values(self.values, event)
-        self.follow(context)
-        return {'RUNNING_MODAL'}
+        return self.begin_sweep(context, event)
 
     def can_go_on(self, context: bpy.types.Context) -> bool:
         """Returns whether the light is still there, can be turned, and is the one that the sweep began with."""
@@ -106,27 +86,12 @@ picture, the wheel tilts it"""
         self.angle += 0.0 if angle is None else remainder(angle - self.angle, tau)
         return self.angle
 
-    def follow(self, context: bpy.types.Context) -> None:
-        self.turn, self.tilt = self.values.values()
-        self.turn_light(context)
-        self.area.tag_redraw()  # the numbers in the sidebar too
-        self.area.header_text_set(f"{drag_input.describe_values(self.values, context.scene)}   ({self.bl_label})")
-
     def take_back(self, context: bpy.types.Context) -> None:
         """Turns the light back, where it is still there, and ends the sweep."""
         light = bpy.data.objects.get(self.light)
         if light is not None:
             light_angles.restore_transform(light, self.start)
         self.end(context)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Turns the light back when Blender exits or opens another file."""
-        self.take_back(context)
-
-    def end(self, context: bpy.types.Context) -> None:
-        running_operators.note_end(self)
-        self.area.header_text_set(None)
-        context.workspace.status_text_set(None)
 
 
 register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_sweep_light])

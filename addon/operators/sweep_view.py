@@ -9,6 +9,7 @@ from mathutils import Quaternion, Vector
 from ..bridge import scene_objects, view_and_light
 from ..interactive import drag_input, running_operators
 from ..interactive.drag_handles import Handle
+from ..interactive.sweep import Sweep
 
 TILT_LIMIT = radians(85.0)
 HANDLES = (
@@ -18,12 +19,13 @@ HANDLES = (
 KEPT = ("view_rotation", "view_location", "view_distance", "view_perspective")  # of the 3D view
 
 
-class REFLINES_OT_sweep_view(bpy.types.Operator):
+class REFLINES_OT_sweep_view(Sweep, bpy.types.Operator):
     """Walk the view around the panel with the mouse while the stripes slide over it, in any mode: left and right turn
 it about the vertical, the wheel tilts it; the lights stay where they are"""
     bl_idname = "reflines.sweep_view"
     bl_label = "Sweep View"
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
+    navigates = False
 
     turn: FloatProperty(name="Turn", subtype='ANGLE', options={'SKIP_SAVE'},
                         description="Of the view about the vertical, from where it is")
@@ -38,7 +40,7 @@ it about the vertical, the wheel tilts it; the lights stay where they are"""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         self.begin(context)
-        self.turn_view()
+        self.apply_angles(context)
         return {'FINISHED'}
 
     def begin(self, context: bpy.types.Context) -> None:
@@ -50,7 +52,7 @@ it about the vertical, the wheel tilts it; the lights stay where they are"""
         stripes = context.scene.reflection_lines.stripes
         self.eye, stripes.eye = stripes.eye, 'VIEWPORT'
 
-    def turn_view(self) -> None:
+    def apply_angles(self, _context: bpy.types.Context) -> None:
         """Turns the view around the panel's middle, by the angles from where it was."""
         if self.region_3d.view_perspective == 'CAMERA':
             self.region_3d.view_perspective = 'PERSP'
@@ -61,32 +63,7 @@ it about the vertical, the wheel tilts it; the lights stay where they are"""
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         self.begin(context)
         self.values = drag_input.read_values(HANDLES, (self.turn, self.tilt), context.scene)
-        self.values.move(event.mouse_x, precise=event.shift)
-        self.follow(context)
-        context.workspace.status_text_set(drag_input.describe_keys(self.values))
-        context.window_manager.modal_handler_add(self)
-        running_operators.note_begin(self)
-        return {'RUNNING_MODAL'}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if drag_input.cancels(event):
-            self.take_back(context)
-            return {'CANCELLED'}
-        if drag_input.keeps(event, self.values, held=False):
-            self.end(context)
-            return {'FINISHED'}
-        if event.type == 'MOUSEMOVE':
-            self.values.move(event.mouse_x, precise=event.shift)
-        else:
-            drag_input.change_values(self.values, event)
-        self.follow(context)
-        return {'RUNNING_MODAL'}
-
-    def follow(self, context: bpy.types.Context) -> None:
-        self.turn, self.tilt = self.values.values()
-        self.turn_view()
-        self.area.tag_redraw()
-        self.area.header_text_set(f"{drag_input.describe_values(self.values, context.scene)}   ({self.bl_label})")
+        return self.begin_sweep(context, event)
 
     def take_back(self, context: bpy.types.Context) -> None:
         """Turns the view back, and ends the sweep."""
@@ -94,15 +71,6 @@ it about the vertical, the wheel tilts it; the lights stay where they are"""
             setattr(self.region_3d, name, value)
         context.scene.reflection_lines.stripes.eye = self.eye
         self.end(context)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Turns the view back when Blender exits or opens another file."""
-        self.take_back(context)
-
-    def end(self, context: bpy.types.Context) -> None:
-        running_operators.note_end(self)
-        self.area.header_text_set(None)
-        context.workspace.status_text_set(None)
 
 
 register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_sweep_view])

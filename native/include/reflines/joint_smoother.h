@@ -15,12 +15,12 @@ namespace reflines {
 // what lies beside but is no panel, over gaps; see continue_over_gap. `options.around` are the faces joined with it,
 // which tell where its border is open, and the lengths of `gap` are in units of V.
 struct JointPanel {
-  Positions V;
-  Triangles F;
+  Positions V;  // #V x 3
+  Triangles F;  // #F x 3
   Vector3 view_direction, line_direction;
   SmoothPanelOptions options;
-  Positions V_beside;  // what stays, in space
-  Triangles F_beside;
+  Positions V_beside;  // #W x 3: what stays
+  Triangles F_beside;  // #G x 3
   GapOptions gap;
 };
 

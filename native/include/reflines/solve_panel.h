@@ -46,9 +46,8 @@ struct SolvePanelReport {
 // Solves for the targets from the optimizer's present heights:
 //  1. freely, and where a vertex moved beyond the limit again within it, beginning with all moves scaled to it;
 //  2. where few faces turn by more than 45 degrees (see solver/turned_faces.h), for a move along the view slides a
-//  steep
-//     face over its neighbour, again with their vertices held, as long as fewer turn so; many turn because the wanted
-//     lines do that.
+//     steep face over its neighbour, again with their vertices held, as long as fewer turn so; many turn because the
+//     wanted lines do that.
 // The optimizer has the heights of the result. A cancelled or failed solve leaves them as they were. Throws
 // InvalidInput, SolverFailure.
 SolvePanelReport solve_panel(ShapeOptimizer& optimizer, const std::vector<Target>& targets,

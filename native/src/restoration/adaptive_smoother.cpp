@@ -30,10 +30,10 @@ constexpr double kCoherent = 0.95;
 constexpr double kTypical = 3.0, kAround = 3.0, kUneven = 0.3, kEven = 0.7;
 
 // Ratio of the variance, across, of what varies across one direction and that of the disk: a line of the design is a
-// band around there, and waves, which may be flaws, spread as wide as if they were everywhere. Of
-// waves of 0.2 per mille across domes, 12 % of the diagonal long, 0.63 to 0.85 were left without it where they run
-// along the mesh, and 0.21 to 0.37 are with it; lines of the design are bent by up to 0.1 degrees more. With the ratio
-// of means alone, which is as high around a wide line, they were bent by 0.4 degrees more, and a clean door's too.
+// band around there, and waves, which may be flaws, spread as wide as if they were everywhere. Of waves
+// of 0.2 per mille across domes, 12 % of the diagonal long, 0.63 to 0.85 were left without it where they run along the
+// mesh, and 0.21 to 0.37 are with it; lines of the design are bent by up to 0.1 degrees more. With the ratio of means
+// alone, which is as high around a wide line, they were bent by 0.4 degrees more, and a clean door's too.
 constexpr double kBand = 0.7, kSpread = 1.0;
 
 // Share by which such waves count as flaws. Of 0.35, 0.6 and 1 as much is left of waves, but for short ones on one 4-8
