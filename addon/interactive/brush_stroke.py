@@ -8,13 +8,15 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ..bridge import facing, read_mesh, screen_surface, write_mesh
-from ..bridge.write_mesh import EditVertices
 from ..model.line_surface import LineState, LineSurface
 from ..model.patch import Patch
 from ..model.solution import SolveReport, Solution
+from ..read import read_mesh
 from ..solver.brush import Brush
 from ..solver.brushed_cage import take_under_brush
+from ..view import facing, screen_surface
+from ..write import write_mesh
+from ..write.write_mesh import EditVertices
 
 SPACING = 0.25  # of the brush's radius, from dab to dab
 

@@ -11,18 +11,21 @@ from typing import Protocol
 import bpy
 import numpy as np
 
-from ..bridge import read_mesh, region_faces, units, view_and_light, view_region, write_mesh
-from ..bridge.write_mesh import EditVertices
+from ..blender import units
 from ..model.gain import Gain, Healed
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
 from ..overlay import falloff_circle
+from ..read import read_mesh, region_faces
 from ..solver import live_optimizer
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
+from ..view import view_and_light, view_region
+from ..write import write_mesh
+from ..write.write_mesh import EditVertices
 from . import drag_input
 from .background_work import BackgroundWork
 from .drag_handles import DragValues, Handle

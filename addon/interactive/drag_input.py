@@ -5,7 +5,7 @@ Moves of the mouse are the operator's own. What a key changes is in drag_handles
 import bpy
 import numpy as np
 
-from ..bridge import units
+from ..blender import units
 from .drag_handles import DragValues, Handle
 
 DIGITS = {name: str(digit) for digit, word in enumerate(

@@ -3,11 +3,11 @@ from typing import Protocol
 
 import numpy as np
 
-from ..bridge import read_edges
 from ..model import line_curve
 from ..model.line_handle import LineHandle
 from ..model.line_surface import LineState, LineSurface, Place
 from ..model.patch import Patch
+from ..read import read_edges
 
 FEWEST = 3  # points of a stroke
 # Of a handle's radius, within which a line leaves its held ends. Of 1/8 to 1/2 lines pass within 1 % of the spacing; at

@@ -5,16 +5,18 @@ import bpy
 import numpy as np
 
 from .. import native
-from ..bridge import baked_keys, facing, gather, handle_keys, read_mesh, shape_keys
-from ..bridge.mesh_checks import Purpose
+from ..animation import baked_keys, handle_keys
 from ..model import bake_frames, line_run
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
+from ..read import gather, read_mesh, shape_keys
+from ..read.mesh_checks import Purpose
 from ..state import optimizer_cache, solve_history
 from ..targets import crossed
 from ..targets.line_handles import HandleBuild
+from ..view import facing
 from .line_build import LineBuild
 
 MOST_NOTES = 3

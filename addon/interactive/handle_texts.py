@@ -2,7 +2,7 @@
 import bpy
 
 from .. import native
-from ..bridge import units
+from ..blender import units
 from ..model.line_handle import Handles
 
 PULL_TEXT = "Drag: pull a line   Alt click, P: pin it   D: draw one"

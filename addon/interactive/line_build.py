@@ -4,12 +4,13 @@ from functools import partial
 import bpy
 import numpy as np
 
-from ..bridge import facing, group_weights, pinned_faces
 from ..model import line_handle
 from ..model.line_handle import Handles
 from ..model.patch import Patch
+from ..read import group_weights, pinned_faces
 from ..solver.formulation import Formulation, choose_formulation
 from ..targets.line_handles import HandleBuild, HandleTargets, SpreadFalloff
+from ..view import facing
 
 
 class LineBuild:

@@ -8,14 +8,16 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ..bridge import read_mesh, screen_surface, units
+from ..blender import units
 from ..model import line_handle, line_surface, nearest_line
 from ..model.line_handle import Handles, LineHandle
 from ..model.line_surface import LineState, LineSurface, Place
 from ..model.patch import Patch
 from ..overlay import handle_marks
 from ..overlay.handle_marks import Marks
+from ..read import read_mesh
 from ..solver.formulation import choose_formulation
+from ..view import screen_surface
 from . import drag_handles, drawn_lines, handle_texts
 from .drag import Drag, DraggedOperator
 from .drag_handles import PRECISE_FACTOR

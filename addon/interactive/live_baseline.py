@@ -8,14 +8,16 @@ from functools import partial
 import bpy
 import numpy as np
 
-from ..bridge import facing, gather, live_warp_start, view_and_light, warp_lattice
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
 from ..model.view import View
+from ..read import gather
 from ..solver.live_optimizer import BuildTarget
 from ..targets import crossed, warp
 from ..targets.warp import Warp
+from ..view import facing, view_and_light
+from ..write import live_warp_start, warp_lattice
 
 
 class BaselineChanged(Refusal):

@@ -8,10 +8,11 @@ import time
 import bpy
 import numpy as np
 
-from ..bridge import live_warp_start, read_mesh, write_mesh
 from ..model.refusal import Refusal
 from ..model.solution import Solution
+from ..read import read_mesh
 from ..targets.warp import Warp
+from ..write import live_warp_start, write_mesh
 from . import live_baseline
 from .background_work import BackgroundWork
 from .live_baseline import Baseline

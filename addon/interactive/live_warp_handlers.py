@@ -5,7 +5,7 @@ None of them works in background Blender, where no timer would take the results;
 import bpy
 from bpy.app.handlers import persistent
 
-from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
+from ..blender.app_handlers import add_app_handlers, remove_app_handlers
 from .live_warp import LiveWarp
 
 TICK_INTERVAL = 0.01  # seconds between two checks for results

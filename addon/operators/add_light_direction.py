@@ -2,7 +2,8 @@
 import bpy
 from mathutils import Matrix, Vector
 
-from ..bridge import scene_objects, view_and_light
+from ..read import scene_objects
+from ..view import view_and_light
 
 
 class REFLINES_OT_add_light_direction(bpy.types.Operator):

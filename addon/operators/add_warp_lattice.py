@@ -1,10 +1,12 @@
 """The operator Add Warp Lattice."""
 import bpy
 
-from ..bridge import facing, read_patch, region_faces, scene_objects, warp_lattice
 from ..model.refusal import Refusal
+from ..read import read_patch, region_faces, scene_objects
 from ..solver import live_optimizer
 from ..ui.tool_properties import SPLINES
+from ..view import facing
+from ..write import warp_lattice
 from .solve_tool import is_ready
 
 

@@ -1,14 +1,15 @@
 """The operator Bake Handles."""
 import bpy
 
-from ..bridge import scene_objects, view_and_light
 from ..interactive import running_operators
 from ..interactive.background_work import BackgroundWork
 from ..interactive.handle_bake import HandleBake
 from ..model.refusal import Refusal
 from ..native_call import run_now
+from ..read import scene_objects
 from ..state import optimizer_cache
 from ..ui.tool_properties import BakeSettings
+from ..view import view_and_light
 
 TICK_INTERVAL = 0.01  # seconds between two looks at the background work
 CANCEL_KEYS = {'ESC', 'RIGHTMOUSE'}

@@ -4,9 +4,10 @@ import numpy as np
 from bpy.props import FloatVectorProperty
 from mathutils import Matrix
 
-from ..bridge import light_angles, scene_objects, view_camera
 from ..model.refusal import Refusal
+from ..read import scene_objects
 from ..state import last_panels
+from ..view import light_angles, view_camera
 
 HELD_TOLERANCE = 1e-4  # of axes, and of places relative to the coordinates: matrices are of single precision
 

@@ -2,12 +2,12 @@
 import bpy
 import numpy as np
 
-from ..bridge import mesh_checks, read_checked, read_mesh, read_patch, scene_objects
-from ..bridge.mesh_checks import Purpose
 from ..model import check_table
 from ..model.check_table import TableRow
 from ..model.patch import Patch
 from ..model.refusal import Refusal
+from ..read import mesh_checks, read_checked, read_mesh, read_patch, scene_objects
+from ..read.mesh_checks import Purpose
 from ..solver import live_optimizer, panel_check
 from ..solver.panel_check import Checked
 from ..state import last_checks, solve_history

@@ -5,16 +5,16 @@ from math import pi, radians
 import bpy
 import numpy as np
 
-from ..bridge import view_and_light
-from ..bridge.read_falloff import read_falloff
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
 from ..model.refusal import Refusal
+from ..read.read_falloff import read_falloff
 from ..solver.live_optimizer import BuildTarget
 from ..targets import direction
 from ..targets.direction import Direction
 from ..targets.falloff import Falloff
 from ..ui.tool_properties import DirectionSettings
+from ..view import view_and_light
 from .dragged_tool import DraggedTool, build_radius_handle
 
 

@@ -7,8 +7,7 @@ from collections.abc import Iterable
 import bpy
 from bpy.props import BoolProperty
 
-from ..bridge import baked_keys, modifiers
-from ..bridge.read_falloff import choose_radius
+from ..animation import baked_keys
 from ..interactive import drag_input
 from ..interactive.drag import Drag
 from ..interactive.drag_handles import Handle
@@ -16,6 +15,8 @@ from ..interactive.solve_job import SolveOutcome
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import BuildCrossed, SolveSettings
+from ..read import modifiers
+from ..read.read_falloff import choose_radius
 from ..solver import solve
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..targets import crossed

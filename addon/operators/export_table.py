@@ -6,9 +6,9 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..bridge import scene_objects
 from ..model import check_table, inspection
 from ..model.refusal import Refusal
+from ..read import scene_objects
 
 TABLES = (
     ('CHECK', "Check", "The table of the last check: .csv for tables, .json for programs"),

@@ -1,11 +1,12 @@
 """Fair Brush."""
 import bpy
 
-from ..bridge import scene_objects, units
+from ..blender import units
 from ..interactive import running_operators
 from ..interactive.brush_stroke import BrushStroke
 from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
+from ..read import scene_objects
 from ..solver import limited_solve
 from ..solver.brush import WIDEST, Brush
 from ..ui.tool_properties import BrushSettings, limit_property, lights_property

@@ -5,12 +5,14 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ..bridge import dense_mesh, facing, gather, modifiers, scene_objects, units
+from ..blender import units
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
+from ..read import dense_mesh, gather, modifiers, scene_objects
 from ..state import optimizer_cache
 from ..targets.fit import Fit, Misfit
+from ..view import facing
 from .solve_tool import SolveTool
 
 

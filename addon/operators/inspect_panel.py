@@ -3,15 +3,16 @@ import bpy
 import numpy as np
 from bpy.props import FloatProperty
 
-from ..bridge import facing, gather, read_checked, read_mesh, scene_objects, view_and_light
-from ..bridge.mesh_checks import Purpose
 from ..interactive import running_operators
 from ..interactive.inspection_job import InspectionJob, InspectionOutcome, InspectionRequest
 from ..model.inspection import Inspection
 from ..model.refusal import Refusal
 from ..native_call import run_now
+from ..read import gather, read_checked, read_mesh, scene_objects
+from ..read.mesh_checks import Purpose
 from ..solver import live_optimizer, panel_inspection
 from ..solver.panel_inspection import Inspected
+from ..view import facing, view_and_light
 
 TICK_INTERVAL = 0.05  # seconds between two looks at the work
 

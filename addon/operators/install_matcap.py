@@ -2,8 +2,10 @@
 import bpy
 import numpy as np
 
-from ..bridge import matcap, scene_objects, view_and_light
 from ..model.refusal import Refusal
+from ..read import scene_objects
+from ..view import view_and_light
+from ..write import matcap
 
 
 class REFLINES_OT_install_matcap(bpy.types.Operator):

@@ -4,10 +4,11 @@ import itertools
 import bpy
 import numpy as np
 
-from ..bridge import scene_objects, view_and_light
 from ..model.inspection import VIEWS
 from ..model.light_set import find_walk
 from ..model.refusal import Refusal
+from ..read import scene_objects
+from ..view import view_and_light
 
 LIGHTS = ("light", "crossed")  # how those of a walk around are told
 

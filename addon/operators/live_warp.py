@@ -2,15 +2,15 @@
 import bpy
 from bpy.props import EnumProperty
 
-from ..bridge import (gather, live_warp_start, modifiers, read_mesh, region_faces, scene_objects, shape_keys,
-                      warp_lattice, write_mesh)
 from ..interactive import live_baseline, live_warp_handlers
 from ..interactive.live_baseline import BaselineChanged
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution
+from ..read import gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys
 from ..state import optimizer_cache, solve_history
 from ..targets import warp
+from ..write import live_warp_start, warp_lattice, write_mesh
 from .solve_tool import is_ready
 
 

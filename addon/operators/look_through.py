@@ -1,8 +1,8 @@
 """The operator Look Through."""
 import bpy
 
-from ..bridge import view_camera, view_region
 from ..state import last_looks
+from ..view import view_camera, view_region
 
 
 class REFLINES_OT_look_through(bpy.types.Operator):

@@ -5,14 +5,15 @@ from math import pi, radians
 import bpy
 import numpy as np
 
-from ..bridge import image_pixels, view_and_light
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
 from ..model.refusal import Refusal
+from ..read import image_pixels
 from ..solver.live_optimizer import BuildTarget
 from ..targets import pattern
 from ..targets.pattern import Pattern
 from ..ui.tool_properties import PatternSettings
+from ..view import view_and_light
 from .dragged_tool import DraggedTool
 
 

@@ -3,9 +3,10 @@ import bpy
 import numpy as np
 from bpy_extras.view3d_utils import region_2d_to_location_3d
 
-from ..bridge import scene_objects, view_and_light, view_region
-from ..bridge.view_region import View
 from ..interactive import drag_input, running_operators
+from ..read import scene_objects
+from ..view import view_and_light, view_region
+from ..view.view_region import View
 
 NAVIGATION = {*drag_input.NAVIGATION, *drag_input.NOTCHES}
 

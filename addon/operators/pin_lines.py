@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import BoolProperty
 
-from ..bridge import pinned_faces, scene_objects
+from ..read import pinned_faces, scene_objects
 
 
 class REFLINES_OT_pin_lines(bpy.types.Operator):

@@ -5,7 +5,6 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, IntProperty, IntVectorProperty, StringProperty
 
-from ..bridge import scene_objects
 from ..interactive import drag_input, drawn_lines
 from ..interactive.drag_handles import Handle
 from ..interactive.line_build import LineBuild
@@ -16,6 +15,7 @@ from ..model.line_handle import Handles
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution
+from ..read import scene_objects
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
 from ..ui.tool_properties import PullSettings

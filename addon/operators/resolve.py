@@ -3,9 +3,11 @@ import json
 
 import bpy
 
-from ..bridge import compat, region_faces, scene_objects, view_and_light
+from ..blender import compat
 from ..model.border import name_border
 from ..model.refusal import Refusal
+from ..read import region_faces, scene_objects
+from ..view import view_and_light
 from .solve_tool import SolveTool
 
 BRUSH = "REFLINES_OT_fair_brush"

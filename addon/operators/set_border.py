@@ -2,8 +2,8 @@
 import bpy
 from bpy.props import EnumProperty
 
-from ..bridge import border_segments, scene_objects
 from ..model.refusal import Refusal
+from ..read import border_segments, scene_objects
 from ..ui.tool_properties import BORDERS
 
 UNSET = ('unset', "As the Tool", "The selected vertices have no border of their own: that of the tool holds")

@@ -5,7 +5,7 @@ from functools import partial
 
 import bpy
 
-from ..bridge import facing, read_light_set, units
+from ..blender import units
 from ..interactive.drag_handles import Handle
 from ..model.beside import Crossing
 from ..model.gain import join_healed
@@ -23,6 +23,7 @@ from ..targets import smooth
 from ..targets.smooth import Smooth
 from ..ui import automatic_values
 from ..ui.tool_properties import SmoothSettings
+from ..view import facing, read_light_set
 from .dragged_tool import DraggedTool
 
 BESIDE_STRAIGHT = 0.01  # weight of crossed lines; see native/include/reflines/kept_target.h

@@ -5,18 +5,19 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
-from ..bridge import (facing, gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, shown_surface,
-                      unjoined_border, view_and_light, write_mesh)
-from ..bridge.mesh_checks import Purpose
 from ..model.beside import Crossing
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
+from ..read import gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, shown_surface, unjoined_border
+from ..read.mesh_checks import Purpose
 from ..solver.live_optimizer import BuildTarget
 from ..state import optimizer_cache, press_cache, solve_history
 from ..ui.properties import result_property, solve_for_property
 from ..ui.tool_properties import border_property
+from ..view import facing, view_and_light
+from ..write import write_mesh
 
 # Settings of the scene for all tools that have none of their own.
 SHARED = {"border", "solve_for", "result", "lights", "limit"}

@@ -3,7 +3,9 @@ import bpy
 from bpy.props import IntProperty
 from mathutils import Vector
 
-from ..bridge import light_angles, scene_objects, select_faces
+from ..read import scene_objects
+from ..view import light_angles
+from ..write import select_faces
 
 FRAMED = 5.0  # sizes of the spot that the view shows
 

@@ -4,11 +4,12 @@ from collections.abc import Iterable
 import bpy
 import numpy as np
 
-from ..bridge import read_mesh, scene_objects, vertex_attributes
 from ..model.refusal import Refusal
 from ..model.solution import LastSolve
+from ..read import mesh_checks, read_mesh, scene_objects
 from ..solver import solve
 from ..state import solve_history
+from ..write import vertex_attributes
 
 
 class REFLINES_OT_store_result(bpy.types.Operator):
@@ -45,7 +46,7 @@ mesh's vertices, for shaders, modifiers and other programs"""
         if read_mesh.read_shape_before(ob, solution.patch, solution.positions) is None:
             raise Refusal(f"{ob.name} is not as the last solve left it: run the tool again")
         for name in names:
-            vertex_attributes.refuse_taken_attribute(ob, name)
+            mesh_checks.refuse_taken_attribute(ob, name)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_store_result])

@@ -5,10 +5,10 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
 from mathutils import Vector
 
-from ..bridge import light_angles
 from ..interactive import drag_input, running_operators
 from ..interactive.drag_handles import Handle
 from ..interactive.sweep import Sweep
+from ..view import light_angles
 
 HANDLES = (
     Handle("turn", "Turn", per_pixel=radians(0.3), low=-1e9, high=1e9, unit='ANGLE'),

@@ -6,10 +6,11 @@ import bpy
 from bpy.props import FloatProperty
 from mathutils import Quaternion, Vector
 
-from ..bridge import scene_objects, view_and_light
 from ..interactive import drag_input, running_operators
 from ..interactive.drag_handles import Handle
 from ..interactive.sweep import Sweep
+from ..read import scene_objects
+from ..view import view_and_light
 
 TILT_LIMIT = radians(85.0)
 HANDLES = (

@@ -4,9 +4,9 @@ from math import pi, radians
 
 import bpy
 
-from ..bridge.read_falloff import read_falloff
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
+from ..read.read_falloff import read_falloff
 from ..solver.live_optimizer import BuildTarget
 from ..targets import untwist
 from ..targets.falloff import Falloff

@@ -1,7 +1,7 @@
 """The operator View of This Panel."""
 import bpy
 
-from ..bridge import scene_objects
+from ..read import scene_objects
 
 
 class REFLINES_OT_use_panel_view(bpy.types.Operator):

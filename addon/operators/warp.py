@@ -3,7 +3,6 @@ from functools import partial
 
 import bpy
 
-from ..bridge import warp_lattice
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
 from ..model.solution import Solution
@@ -11,6 +10,7 @@ from ..solver.live_optimizer import BuildTarget
 from ..targets import warp
 from ..targets.warp import Warp
 from ..ui.tool_properties import WarpSettings
+from ..write import warp_lattice
 from .dragged_tool import DraggedTool
 
 

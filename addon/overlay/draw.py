@@ -7,11 +7,12 @@ import gpu
 import numpy as np
 
 from .. import native
-from ..bridge import image_pixels, places_beside, read_mesh, shape_keys, viewport_cage, viewport_surface
-from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
+from ..blender.app_handlers import add_app_handlers, remove_app_handlers
 from ..model.solution import LastSolve
 from ..model.surface import Surface, Topology
+from ..read import image_pixels, read_mesh, shape_keys, viewport_cage, viewport_surface
 from ..state import compared, last_panels, solve_history
+from ..view import places_beside
 from . import draw_cage, legend, shader, shown_objects, solve_maps, stripe_scene, stripes
 from .fitted_normals import FIT_RINGS, FittedNormals
 from .limit_surface import LimitSurfaces

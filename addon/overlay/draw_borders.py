@@ -4,10 +4,10 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from ..bridge import border_segments
-from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
-from ..bridge.border_segments import BorderEdges
+from ..blender.app_handlers import add_app_handlers, remove_app_handlers
 from ..model import border
+from ..read import border_segments
+from ..read.border_segments import BorderEdges
 from . import surface_lines
 from .surface_lines import SurfaceLines
 

@@ -8,9 +8,9 @@ import gpu
 import numpy as np
 from mathutils import Matrix
 
-from ..bridge import read_edit_cage
 from ..model.edit_cage import EditCage
 from ..model.surface import Surface
+from ..read import read_edit_cage
 from . import stripe_scene, stripes
 
 RIM = 1.0            # pixels to each side of lines and dots

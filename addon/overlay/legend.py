@@ -7,8 +7,9 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..bridge import units, view_region
+from ..blender import units
 from ..state import compared, solve_history
+from ..view import view_region
 from . import handle_marks, shown_objects, solve_maps, stripe_scene, stripes
 
 WIDTH, HEIGHT, MARGIN, STEPS = 220.0, 12.0, 16.0, 64  # pixels at a scale of 1; and pieces of the bar

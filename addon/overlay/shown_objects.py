@@ -2,9 +2,10 @@
 import bpy
 import numpy as np
 
-from ..bridge import scene_objects, view_and_light
 from ..model.refusal import Refusal
+from ..read import scene_objects
 from ..state import last_panels, solve_history
+from ..view import view_and_light
 from . import stripe_scene, stripes
 
 MODES = {'OBJECT', 'EDIT', 'SCULPT', 'VERTEX_PAINT', 'WEIGHT_PAINT', 'TEXTURE_PAINT'}

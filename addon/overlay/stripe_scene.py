@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..bridge import view_and_light
+from ..view import view_and_light
 from . import stripes
 from .stripes import Eye, Look
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..bridge import read_mesh
-from ..bridge.app_handlers import add_app_handlers, remove_app_handlers
+from ..blender.app_handlers import add_app_handlers, remove_app_handlers
+from ..read import read_mesh
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@ from collections.abc import Iterable
 
 import bpy
 
-from ..bridge import scene_objects
+from ..read import scene_objects
 
 _names: dict[str, tuple[str, ...]] = {}  # of the meshes, by the name of the scene
 

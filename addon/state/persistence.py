@@ -4,8 +4,9 @@ undo.
 import bpy
 from bpy.app.handlers import persistent
 
-from ..bridge import read_mesh, shape_keys, solve_record
 from ..model.solution import LastSolve
+from ..read import read_mesh, shape_keys
+from ..write import solve_record
 from . import solve_history
 
 

@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import BoolProperty, FloatProperty
 
-from ..bridge import units
+from ..blender import units
 
 UNKNOWN_SHARE = 0.01  # of the object's size: what the switch turned off begins with where no run told a value
 HIDDEN = {'options': {'HIDDEN', 'SKIP_SAVE'}}  # they are other faces of a setting, which keeps the value

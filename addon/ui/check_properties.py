@@ -4,7 +4,7 @@ from collections.abc import Sequence
 import bpy
 from bpy.props import (BoolProperty, CollectionProperty, FloatProperty, IntProperty, StringProperty)
 
-from ..bridge import units
+from ..blender import units
 from ..model.check_table import TableRow
 
 NO_MARK = -1.0

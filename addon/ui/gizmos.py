@@ -6,9 +6,9 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from ..bridge import light_angles, places_beside, view_and_light, view_camera
 from ..interactive import drag
 from ..state import last_panels
+from ..view import light_angles, places_beside, view_and_light, view_camera
 
 ARROW_COLOR, LIGHT_COLOR, HIGHLIGHT = (0.35, 0.65, 1.0), (1.0, 0.7, 0.1), (1.0, 1.0, 1.0)
 RING_SCALE, ARROW_SCALE, NEEDLE_SCALE = 0.6, 0.8, 0.55  # of the size of gizmos in the preferences

@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
-from ..bridge import handle_keys
+from ..animation import handle_keys
 from ..model import kept_handles, line_handle
 from ..model.line_handle import Handles, LineHandle
 from ..model.refusal import Refusal

@@ -4,7 +4,7 @@ import numpy as np
 from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 from mathutils import Vector
 
-from ..bridge import units
+from ..blender import units
 from ..model.gain import Worse
 from ..model.inspection import Inspection, Spot
 

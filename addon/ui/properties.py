@@ -6,9 +6,11 @@ from bpy.props import (BoolProperty, EnumProperty, FloatProperty, FloatVectorPro
                        StringProperty)
 from mathutils import Vector
 
-from ..bridge import light_angles, modifiers, scene_objects, units
+from ..blender import units
 from ..model.gain import Gain, Healed, describe_stroke
 from ..model.solution import Solution
+from ..read import modifiers, scene_objects
+from ..view import light_angles
 from .automatic_values import shown_property, switch_property
 from .check_properties import ReflinesCheck, ReflinesMarks
 from .handle_properties import ReflinesHandles
@@ -232,7 +234,7 @@ class ReflinesObject(bpy.types.PropertyGroup):
                             description="That the panel was last worked on with")
     light: PointerProperty(name="Light Direction", type=bpy.types.Object,
                            description="That the panel was last worked on with")
-    last: StringProperty(name="Last Solve", description="As saved with the file, see bridge/solve_record.py",
+    last: StringProperty(name="Last Solve", description="As saved with the file, see write/solve_record.py",
                          options={'HIDDEN'})
 
     def is_cage(self) -> bool:
@@ -251,7 +253,7 @@ class ReflinesObject(bpy.types.PropertyGroup):
 
 
 class ReflinesLive(bpy.types.PropertyGroup):
-    """The scene's live warp, none where `panel` is empty; bridge/live_warp_start.py keeps where it began with the mesh.
+    """The scene's live warp, none where `panel` is empty; write/live_warp_start.py keeps where it began with the mesh.
     """
     panel: PointerProperty(type=bpy.types.Object, poll=is_mesh)
     solve_for: solve_for_property()

@@ -3,10 +3,10 @@ import bpy
 from bpy.props import PointerProperty, StringProperty
 
 from .. import native
-from ..bridge import view_camera
 from ..interactive import live_warp_handlers
 from ..overlay import shown_objects
 from ..state import solve_history
+from ..view import view_camera
 
 
 def describe_live_warp() -> str:

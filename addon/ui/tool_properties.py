@@ -8,8 +8,8 @@ from math import radians
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
-from ..bridge import falloff_curve
 from ..model.border import NAMES
+from ..read import falloff_curve
 from .rows import draw_switch
 
 CENTRES = (

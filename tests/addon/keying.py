@@ -6,7 +6,7 @@ import numpy as np
 from mathutils import Matrix
 
 import scenes
-from reflection_lines.bridge import compat
+from reflection_lines.blender import compat
 
 UP = {"start": (0.1, 0.0, 0.0), "end": (0.1, 0.09375, 0.0), "radius": 0.5, "pinned": [], "muted": False}
 LOW = {**UP, "end": (0.1, 0.0625, 0.0)}

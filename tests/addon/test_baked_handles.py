@@ -5,7 +5,7 @@ import pytest
 
 import scenes
 from keying import LOW, UP, fresh, kept, key, keyed, mirror_half, pull, resolved
-from reflection_lines.bridge import compat
+from reflection_lines.blender import compat
 
 KEY, FRAME = "Reflection Lines", "Reflection Lines Frame"
 

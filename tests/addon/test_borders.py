@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import scenes
-from reflection_lines.bridge import pinned_faces
+from reflection_lines.read import pinned_faces
 
 ROW = 17  # vertices of a row of the panel
 
@@ -80,9 +80,9 @@ def test_every_tool_obeys_the_segments(tool: str) -> None:
 
 def take_patch(ob: bpy.types.Object) -> tuple[object, object]:
     """The patch of a panel, and its view."""
-    bridge = sys.modules["reflection_lines"].bridge
-    patch = bridge.gather.gather_patch(ob, 'CAGE', 'MESH')
-    return patch, bridge.facing.read_patch_view(bpy.context.scene, patch)
+    addon = sys.modules["reflection_lines"]
+    patch = addon.read.gather.gather_patch(ob, 'CAGE', 'MESH')
+    return patch, addon.view.facing.read_patch_view(bpy.context.scene, patch)
 
 
 @pytest.mark.parametrize("levels", [0, 2])

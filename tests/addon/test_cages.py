@@ -5,7 +5,8 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from reflection_lines.bridge import compat, read_cage, viewport_cage
+from reflection_lines.blender import compat
+from reflection_lines.read import read_cage, viewport_cage
 from reflection_lines.overlay import solve_maps
 from reflection_lines.state import solve_history
 

@@ -22,9 +22,9 @@ def brushed(*, cells: int = CELLS, height=scenes.rippled, mirror_x: bool = False
     ob.data.use_mirror_x = mirror_x
     scenes.look_from_above(90.0 if mirror_x else 70.0)
     scenes.edit_inner(ob, cells)
-    bridge = modules().bridge
-    patch = bridge.gather.gather_patch(ob, 'MESH', 'MESH')
-    view = bridge.facing.read_patch_view(bpy.context.scene, patch)
+    addon = modules()
+    patch = addon.read.gather.gather_patch(ob, 'MESH', 'MESH')
+    view = addon.view.facing.read_patch_view(bpy.context.scene, patch)
     return modules().solver.brush.BrushedPatch(patch, view, "clamped")
 
 

@@ -28,9 +28,9 @@ def brushed(*, cells: int = CELLS, height=scenes.rippled, mirror_x: bool = False
 
 
 def take(ob: bpy.types.Object, border: str = "clamped") -> object:
-    bridge = modules().bridge
-    patch = bridge.gather.gather_patch(ob, 'CAGE', 'MESH')
-    view = bridge.facing.read_patch_view(bpy.context.scene, patch)
+    addon = modules()
+    patch = addon.read.gather.gather_patch(ob, 'CAGE', 'MESH')
+    view = addon.view.facing.read_patch_view(bpy.context.scene, patch)
     return modules().solver.brushed_cage.take_under_brush(patch, view, border)
 
 

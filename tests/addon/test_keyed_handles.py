@@ -8,7 +8,7 @@ import pytest
 
 import scenes
 from keying import LOW, UP, curves, fresh, kept, key, keyed, path, pull, resolved
-from reflection_lines.bridge import compat
+from reflection_lines.blender import compat
 from reflection_lines.model import line_handle
 
 CURVE = ((-0.2, 0.07, 0.0), (0.1, 0.09375, 0.0), (0.4, 0.07, 0.0))

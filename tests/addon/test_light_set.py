@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from reflection_lines import native
-from reflection_lines.bridge import facing
-from reflection_lines.bridge.read_light_set import read_light_set
+from reflection_lines.view import facing
+from reflection_lines.view.read_light_set import read_light_set
 from reflection_lines.interactive.solve_job import SolveJob, SolveRequest
 from reflection_lines.model.light_set import Blockers
 from reflection_lines.native_call import run_now

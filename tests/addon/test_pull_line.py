@@ -139,7 +139,7 @@ def test_lines_on_pinned_faces_stay(panel) -> None:
     """Those between the handle and the rim, pinned and let go again; neighbours of the pull go on."""
     near = np.array([row * 32 + column for row in range(20, 23) for column in range(12, 22)])
     before, changes = read_theta(panel), []
-    pins = sys.modules["reflection_lines.bridge.pinned_faces"]
+    pins = sys.modules["reflection_lines.read.pinned_faces"]
     for pinned in (False, True, False):
         scenes.select_faces(panel, lambda face: face in near)
         assert bpy.ops.reflines.pin_lines(unpin=not pinned) == {'FINISHED'}

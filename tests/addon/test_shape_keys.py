@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import scenes
-from reflection_lines.bridge import region_faces, shape_keys
+from reflection_lines.read import region_faces, shape_keys
 
 KEY = "Reflection Lines"
 

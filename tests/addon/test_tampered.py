@@ -10,7 +10,7 @@ import scenes
 
 persistence = sys.modules["reflection_lines.state.persistence"]
 solve_history = sys.modules["reflection_lines.state.solve_history"]
-solve_record = sys.modules["reflection_lines.bridge.solve_record"]
+solve_record = sys.modules["reflection_lines.write.solve_record"]
 
 
 @pytest.fixture
@@ -72,7 +72,7 @@ def test_re_solve_says_what_cannot_be_used(solved, run, capfd) -> None:
 
 
 def test_a_live_start_whose_size_is_text(solved) -> None:
-    live_start = sys.modules["reflection_lines.bridge.live_warp_start"]
+    live_start = sys.modules["reflection_lines.write.live_warp_start"]
     for value in ("text", [1, 2, 3], 5, 1.5):
         solved.data[live_start.SIZE] = value
         assert live_start.count_growth(solved) == (17 * 17, 16 * 16)
@@ -94,7 +94,7 @@ def test_a_lattice_whose_scale_is_no_number(solved) -> None:
 
 @pytest.mark.parametrize("size", [(65536, 16), (16, 65536), (4096, 2048), (1, 1)])
 def test_environments_of_any_shape_have_pixels(size) -> None:
-    image_pixels = sys.modules["reflection_lines.bridge.image_pixels"]
+    image_pixels = sys.modules["reflection_lines.read.image_pixels"]
     image = bpy.data.images.new("Environment", *size)
     try:
         pixels = image_pixels.read_environment(image)

@@ -2,7 +2,8 @@
 import bmesh
 import bpy
 import numpy as np
-from reflection_lines.bridge import read_mesh, read_patch, write_mesh
+from reflection_lines.read import read_mesh, read_patch
+from reflection_lines.write import write_mesh
 
 import scenes
 

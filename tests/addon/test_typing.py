@@ -1,7 +1,7 @@
 """What is typed during a drag: numbers, units and expressions, in the units of the scene, within the limits."""
 import bpy
 import pytest
-from reflection_lines.bridge import units
+from reflection_lines.blender import units
 from reflection_lines.interactive.drag_handles import DragValues, Handle
 
 LENGTH = Handle("length", "Length", per_pixel=0.01, low=1e-9, high=1e9, doubles=True, unit='LENGTH')

@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 import pytest
-from reflection_lines.bridge import warp_lattice
+from reflection_lines.write import warp_lattice
 from reflection_lines.targets import warp
 
 import scenes

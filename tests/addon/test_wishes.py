@@ -3,7 +3,7 @@ import bpy
 import numpy as np
 import pytest
 from reflection_lines import native_call
-from reflection_lines.bridge import image_pixels
+from reflection_lines.read import image_pixels
 from reflection_lines.native import reflines
 from reflection_lines.targets import direction, falloff
 

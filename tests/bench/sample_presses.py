@@ -36,8 +36,8 @@ def press(path: Path) -> None:
     if ob is None or ob.type != 'MESH':
         return
     bpy.ops.object.mode_set(mode='EDIT')
-    patch = sys.modules["reflection_lines.bridge.read_patch"].gather_mesh_patch(ob, or_all=True)
-    view = sys.modules["reflection_lines.bridge.facing"].read_patch_view(bpy.context.scene, patch)
+    patch = sys.modules["reflection_lines.read.read_patch"].gather_mesh_patch(ob, or_all=True)
+    view = sys.modules["reflection_lines.view.facing"].read_patch_view(bpy.context.scene, patch)
     V, F = read_shown(ob)
     bpy.ops.reflines.smooth('EXEC_DEFAULT', length=0.0, directional=False)
     pressed, _ = read_shown(ob)

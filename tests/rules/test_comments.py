@@ -9,9 +9,9 @@ from tree import ROOT, files
 
 # Rooms of C++ whose comments are judged; headers and sources.
 CPP_ROOMS = ("native/include/", "native/src/", "native/python/", "native/examples/")
-PYTHON_ROOMS = ("addon/bridge/", "addon/model/", "addon/targets/", "addon/solver/", "addon/state/",
-                "addon/interactive/", "addon/operators/", "addon/overlay/", "addon/ui/", "addon/native.py",
-                "addon/library_copy.py", "native/python/reflines.pyi")
+PYTHON_ROOMS = (*(f"addon/{room}/" for room in (
+    "animation", "blender", "interactive", "model", "operators", "overlay", "read", "solver", "state", "targets", "ui",
+    "view", "write")), "addon/native.py", "addon/library_copy.py", "native/python/reflines.pyi")
 
 # A sentence that begins so has no subject: "Of one worker thread.", "Whether it holds.".
 FRAGMENT = re.compile(r"(Of|For|Whether|What|Who|Where|How|Those|That|By|From|Within|At|As|Like|Likewise|Also|So|Not|"

@@ -9,7 +9,7 @@ FOREIGN = {"socket", "ssl", "http", "urllib", "ftplib", "smtplib", "requests", "
            "multiprocessing", "ctypes", "pickle", "shelve", "marshal", "dill", "runpy", "code"}
 RUNS_TEXT = {"eval", "exec", "compile", "__import__"}
 # Who may write files: name of the module -> how.
-WRITERS = {"addon/library_copy.py", "addon/bridge/matcap.py", "addon/operators/install_matcap.py",
+WRITERS = {"addon/library_copy.py", "addon/write/matcap.py", "addon/operators/install_matcap.py",
            "addon/operators/export_table.py"}
 WRITES = {"write_bytes", "write_text", "mkstemp", "makedirs", "save_render", "savez", "tofile", "copyfile"}
 
@@ -48,7 +48,7 @@ def test_no_text_is_run_and_no_object_is_unpickled() -> None:
 def test_only_the_copy_the_matcap_and_the_table_are_written() -> None:
     wrong = {file: calls(tree) & WRITES for file, tree in addon().items()
              if file not in WRITERS and calls(tree) & WRITES}
-    assert wrong.keys() <= {"addon/bridge/solve_record.py"}, wrong  # into memory, for the .blend file
+    assert wrong.keys() <= {"addon/write/solve_record.py"}, wrong  # into memory, for the .blend file
 
 
 def promises() -> list[str]:

@@ -4,6 +4,8 @@ from pathlib import Path
 
 from tree import ROOT, files, python_files
 
+# What stands between Blender and arrays.
+SCENE = ("animation", "blender", "read", "view", "write")
 # Module or package of addon/ -> what of addon/ it may import. A package may import itself, `operators` excepted.
 MAY_IMPORT = {
     "bl_info": set(),  # of addon/__init__.py
@@ -12,12 +14,16 @@ MAY_IMPORT = {
     "native_call": set(),
     "model": {"native"},
     "targets": {"native", "native_call", "model.line_curve", "model.line_handle", "model.solution"},
-    "bridge": {"native", "model", "targets"},
+    "blender": set(),
+    "animation": {"blender", "model"},
+    "read": {"blender", "animation", "native", "model", "targets"},
+    "view": {"blender", "read", "native", "model"},
+    "write": {"blender", "read", "view", "native", "model", "targets"},
     "solver": {"native", "native_call", "model", "targets"},
-    "state": {"native", "native_call", "bridge", "model", "solver"},
-    "interactive": {"native", "native_call", "model", "targets", "bridge", "solver", "state", "overlay.falloff_circle",
+    "state": {"native", "native_call", *SCENE, "model", "solver"},
+    "interactive": {"native", "native_call", "model", "targets", *SCENE, "solver", "state", "overlay.falloff_circle",
                     "overlay.handle_marks"},
-    "operators": {"native_call", "model", "targets", "bridge", "solver", "state", "interactive", "ui.properties",
+    "operators": {"native_call", "model", "targets", *SCENE, "solver", "state", "interactive", "ui.properties",
                   "ui.automatic_values", "ui.tool_properties"},
     "overlay.brush_circle": set(),
     "overlay.falloff_circle": set(),
@@ -27,38 +33,38 @@ MAY_IMPORT = {
     "overlay.fitted_normals": {"overlay.stripes", "native", "native_call", "interactive.background_work"},
     "overlay.solve_maps": {"overlay.stripes", "model"},
     "overlay.legend": {"overlay.handle_marks", "overlay.stripes", "overlay.solve_maps", "overlay.stripe_scene",
-                       "overlay.shown_objects", "bridge", "state"},
+                       "overlay.shown_objects", *SCENE, "state"},
     "overlay.limit_surface": {"native", "model"},
-    "overlay.stripe_scene": {"overlay.stripes", "bridge"},
-    "overlay.shown_objects": {"overlay.stripes", "overlay.stripe_scene", "bridge", "model", "state"},
-    "overlay.draw_cage": {"overlay.stripes", "overlay.stripe_scene", "bridge", "model"},
+    "overlay.stripe_scene": {"overlay.stripes", *SCENE},
+    "overlay.shown_objects": {"overlay.stripes", "overlay.stripe_scene", *SCENE, "model", "state"},
+    "overlay.draw_cage": {"overlay.stripes", "overlay.stripe_scene", *SCENE, "model"},
     "overlay.surface_lines": {"overlay.draw_cage"},
-    "overlay.draw_borders": {"overlay.surface_lines", "bridge", "model"},
+    "overlay.draw_borders": {"overlay.surface_lines", *SCENE, "model"},
     "overlay.draw_check": {"overlay.surface_lines", "overlay.handle_marks", "state"},
     "overlay.draw": {"overlay.stripes", "overlay.draw_cage", "overlay.legend",
                      "overlay.shader", "overlay.fitted_normals", "overlay.solve_maps",
-                     "overlay.limit_surface", "overlay.stripe_scene", "overlay.shown_objects", "native", "bridge",
+                     "overlay.limit_surface", "overlay.stripe_scene", "overlay.shown_objects", "native", *SCENE,
                      "model", "state"},
     "ui.stripe_properties": {"model"},
     "ui.rows": set(),
-    "ui.automatic_values": {"bridge"},
-    "ui.tool_properties": {"bridge", "model", "ui.rows"},
-    "ui.handle_properties": {"bridge", "model"},
+    "ui.automatic_values": {*SCENE},
+    "ui.tool_properties": {*SCENE, "model", "ui.rows"},
+    "ui.handle_properties": {*SCENE, "model"},
     "ui.handles_panel": {"model", "ui.panels"},
-    "ui.check_properties": {"bridge", "model"},
+    "ui.check_properties": {*SCENE, "model"},
     "ui.check_panel": {"ui.panels"},
-    "ui.inspection_properties": {"bridge", "model"},
+    "ui.inspection_properties": {*SCENE, "model"},
     "ui.inspection_panel": {"ui.panels"},
     "ui.light_set_properties": set(),
     "ui.light_set_panel": {"ui.panels"},
-    "ui.properties": {"bridge", "model", "ui.check_properties", "ui.inspection_properties", "ui.automatic_values",
+    "ui.properties": {*SCENE, "model", "ui.check_properties", "ui.inspection_properties", "ui.automatic_values",
                       "ui.handle_properties", "ui.light_set_properties", "ui.tool_properties", "ui.stripe_properties"},
-    "ui.session_properties": {"native", "bridge", "state", "interactive", "overlay.shown_objects"},
+    "ui.session_properties": {"native", *SCENE, "state", "interactive", "overlay.shown_objects"},
     "ui.panels": {"model", "ui.automatic_values", "ui.rows"},
     "ui.stripe_presets": set(),
     "ui.stripes_panel": {"ui.panels", "ui.rows", "ui.stripe_presets"},
     "ui.divider_gizmo": {"state.compared", "overlay.legend"},
-    "ui.gizmos": {"bridge", "interactive.drag", "state.last_panels"},
+    "ui.gizmos": {*SCENE, "interactive.drag", "state.last_panels"},
     "ui.handle_gizmos": {"model", "interactive.drag", "interactive.handle_tracing"},
     "ui.menus": set(),
     "ui.keymaps": set(),
@@ -68,12 +74,13 @@ MAY_IMPORT = {
 }
 # Registration sees everything.
 INDEXES = {"__init__"} | {f"{package}.__init__" for package in (
-    "model", "targets", "bridge", "solver", "state", "interactive", "operators", "overlay", "ui")}
+    "model", "targets", *SCENE, "solver", "state", "interactive", "operators", "overlay", "ui")}
 # What the operators that solve are made of; no operator imports another one.
 OPERATOR_BASES = {"operators.solve_tool", "operators.dragged_tool", "operators.camera_aim"}
 
 # Module from elsewhere -> the only modules of addon/ that may import it.
-WALLS = {"reflines": ("native",), "bmesh": ("bridge",), "gpu": ("overlay",), "gpu_extras": ("overlay",)}
+WALLS = {"reflines": ("native",), "bmesh": ("blender.compat", "read", "write"),
+         "gpu": ("overlay",), "gpu_extras": ("overlay",)}
 BLENDER = {"bpy", "bmesh", "gpu", "gpu_extras", "mathutils", "bpy_extras"}
 # These never meet Blender, neither by themselves nor by what they import.
 PURE = {"native", "native_call", "model", "targets", "solver", "interactive.drag_handles", "overlay.stripes",
@@ -117,7 +124,7 @@ def imported_by(module: str, tree: ast.Module) -> tuple[set[str], set[str]]:
 
 
 def row_of(name: str) -> str | None:
-    """The row of MAY_IMPORT that a dotted name falls under: `bridge.gather.gather` -> `bridge`."""
+    """The row of MAY_IMPORT that a dotted name falls under: `read.gather.gather` -> `read`."""
     rows = [row for row in MAY_IMPORT if name == row or name.startswith(row + ".")]
     return rows[0] if rows else None
 

@@ -22,7 +22,7 @@ def kept() -> bpy.types.PropertyGroup:
 def keys_of_place() -> int:
     """The number of keys of the handle's height on the screen."""
     ob = bpy.context.view_layer.objects.active
-    data, compat = ob.animation_data, sys.modules["reflection_lines"].bridge.compat
+    data, compat = ob.animation_data, sys.modules["reflection_lines"].blender.compat
     curves = compat.find_action_curves(data) if data is not None and data.action is not None else None
     curve = curves.find("reflection_lines.handles.kept[0].place", index=1) if curves is not None else None
     return 0 if curve is None else len(curve.keyframe_points)

@@ -71,7 +71,7 @@ def test_the_handle_drags_from_the_present_value_wherever_the_mouse_is(driver: w
     yield from settled(driver)
     begun = shown(driver)
     yield from window.take_picture(driver, "handle")
-    middle = sys.modules["reflection_lines"].bridge.view_region.find_view_middle(driver.area())[0] - driver.region().x
+    middle = sys.modules["reflection_lines"].view.view_region.find_view_middle(driver.area())[0] - driver.region().x
     assert 100 < middle < driver.region('UI').x - driver.region().x - 100
     driver.move(middle - 150, 300)
     yield from settled(driver)

@@ -5,7 +5,8 @@ import bpy
 import numpy as np
 
 from ..model.light_set import Blockers, LightSet, SetLight
-from . import modifiers, read_mesh, view_and_light
+from ..read import modifiers, read_mesh
+from . import view_and_light
 
 
 def read_light_set(settings: bpy.types.PropertyGroup, subjects: Sequence[bpy.types.Object]) -> LightSet | None:

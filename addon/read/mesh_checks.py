@@ -4,8 +4,9 @@ from enum import Enum, auto
 import bpy
 import numpy as np
 
+from ..animation import baked_keys
+from ..blender import compat
 from ..model.refusal import Refusal
-from . import baked_keys, compat
 
 
 class Purpose(Enum):
@@ -84,3 +85,11 @@ def refuse_broken_coordinates(name: str, vertices: np.ndarray, local: np.ndarray
     if len(broken):
         raise Refusal(f"{name} has {len(broken)} vertices in the region whose coordinates are no numbers, "
                       f"the first is {broken[0]}: delete or move them")
+
+
+def refuse_taken_attribute(ob: bpy.types.Object, name: str, kind: str = 'FLOAT') -> None:
+    """Refuses a name whose attribute holds something else than one number of this type for each vertex."""
+    found = ob.data.attributes.get(name)
+    if found is not None and (found.domain, found.data_type) != ('POINT', kind):
+        raise Refusal(f"{ob.name} has another attribute {name} ({found.domain.lower()}, {found.data_type.lower()}) "
+                      "than is to be stored there: rename or remove it")

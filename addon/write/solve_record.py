@@ -16,7 +16,7 @@ from ..model import border
 from ..model.creases import AUTOMATIC
 from ..model.patch import Patch
 from ..model.surroundings import NOTHING_AROUND
-from . import read_mesh
+from ..read import read_mesh
 
 TYPES = {name: np.dtype(kind) for name, kind in (("faces", "?"), ("index", "<i4"), ("F", "<i4"), ("local", "<f4"),
                                                  ("matrix", "<f8"), ("key", "<U64"), ("residual", "<f4"))}

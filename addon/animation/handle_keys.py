@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import bpy
 import numpy as np
 
-from . import compat
+from ..blender import compat
 
 PATH = re.compile(r"reflection_lines\.handles\.kept\[(\d{1,9})\](\..+)", re.DOTALL)
 LAST_FRAME = 2**20  # just beyond Blender's

@@ -10,7 +10,8 @@ import bpy
 import numpy as np
 
 from ..model.patch import Patch
-from . import read_mesh, shape_keys, write_mesh
+from ..read import read_mesh, shape_keys
+from . import write_mesh
 
 ATTRIBUTE = "reflines_live_start"
 LEFT, SIZE, KEY, MADE = "reflines_live_left", "reflines_live_size", "reflines_live_key", "reflines_live_made"

@@ -4,8 +4,8 @@ and coordinates so far from the object's origin that their rounding bends the li
 import bpy
 import numpy as np
 
+from ..blender import units
 from ..model.patch import Patch
-from . import units
 
 # A coordinate is off by 0.29 of the step of float32 (root mean square), which tilts a face by 0.41 of the step over its
 # edge, and turns its reflection by twice as much.

@@ -3,7 +3,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import read_mesh
+from ..read import read_mesh
 
 
 def find_faces_near(ob: bpy.types.Object, place: np.ndarray, radius: float) -> np.ndarray:

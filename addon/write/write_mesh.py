@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from ..model.patch import Patch
-from . import read_mesh, shape_keys
+from ..read import read_mesh, shape_keys
 
 # Fraction of moved vertices below which updating their normals one by one is faster than all together.
 FEW = 0.03

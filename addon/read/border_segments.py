@@ -12,7 +12,7 @@ import numpy as np
 
 from ..model import border
 from ..model.refusal import Refusal
-from . import read_mesh, vertex_attributes
+from . import mesh_checks, read_mesh
 
 ATTRIBUTE = "reflines_border"
 LARGEST = 1 + max(border.CODES.values())
@@ -61,7 +61,7 @@ def set_selected_borders(objects: Sequence[bpy.types.Object], name: str) -> list
     vertices of each object that are. Refuses before anything is set.
     """
     for ob in objects:
-        vertex_attributes.refuse_taken_attribute(ob, ATTRIBUTE, 'INT')
+        mesh_checks.refuse_taken_attribute(ob, ATTRIBUTE, 'INT')
     if not any(True for ob in objects for _ in list_chosen(bmesh.from_edit_mesh(ob.data))):
         raise Refusal("The selected faces have no rim, since they are all of a closed body: select edges or vertices "
                       "of the panel's border")

@@ -6,7 +6,8 @@ from ..model import orientation
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.view import View
-from . import read_mesh, view_and_light
+from ..read import read_mesh
+from . import view_and_light
 
 EDGE_ON = 0.2  # cosine between view and normal below which the solver counts a face as seen edge on
 SAMPLE = 256    # triangles

@@ -3,7 +3,8 @@
 import bpy
 import numpy as np
 
-from . import baked_keys, read_mesh
+from ..animation import baked_keys
+from . import read_mesh
 
 NAME = "Reflection Lines"
 

@@ -2,8 +2,9 @@
 import bpy
 import numpy as np
 
+from ..blender import compat
 from ..model.creases import Creases
-from . import compat, read_mesh
+from . import read_mesh
 
 
 def read_creases(ob: bpy.types.Object, index: np.ndarray) -> Creases:

@@ -5,8 +5,8 @@ from mathutils import Matrix
 
 from ..model.patch import Patch
 from ..model.refusal import Refusal
+from ..read import scene_objects
 from ..targets.warp import Lattice
-from . import scene_objects
 
 LIFT = 0.1  # of the panel's diagonal, towards the viewer: the lattice is to be seen before the panel
 

@@ -4,10 +4,11 @@ solved for.
 import bpy
 import numpy as np
 
+from ..blender import compat
 from ..model import cage
 from ..model.cage import Cage, CagePatch
 from ..model.refusal import Refusal
-from . import compat, modifiers, read_mesh, read_patch
+from . import modifiers, read_mesh, read_patch
 from .mesh_checks import Purpose
 
 # Levels the surface is sampled at. Shapes differ from those solved at 4 by 1.9 % of the move at 3 and 8.5 % at 2 when a

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
+from ..blender import compat
 from ..model.refusal import Refusal
-from . import compat
 
 NAME = "Reflection Lines Frame"
 OWN = re.compile(re.escape(NAME) + r" -?\d+(\.\d+)?")

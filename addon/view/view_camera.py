@@ -4,7 +4,8 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ..model.refusal import Refusal
-from . import read_patch, view_and_light
+from ..read import read_patch
+from . import view_and_light
 
 MARGIN = 1.1    # size of the picture relative to the framed points
 FURTHEST = 1e15  # coordinate: what is made of larger ones is not finite in float32

@@ -1,0 +1,1 @@
+"""Keys, F-curves and drivers of kept and of baked handles."""

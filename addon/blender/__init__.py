@@ -1,0 +1,1 @@
+"""Blender's programming interface: what differs between versions, application handlers, units."""

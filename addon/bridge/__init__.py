@@ -1,1 +1,0 @@
-"""The bridge between Blender and numpy: only modules of this package read or write mesh data."""

@@ -1,0 +1,1 @@
+"""Writes results into Blender: positions, attributes, selections, records and images."""
