@@ -46,6 +46,7 @@ class Counts:
         return f"{self.passed} passed, {self.failed} failed, {self.skipped} skipped"
 
 
+SECOND_TRIES = 3  # Blenders with window tests that are run once more; where more of them fail it is no chance
 NO_ARCHIVE = 75  # how .ci/package.py ends where Debian's archive cannot be had
 
 
@@ -187,7 +188,22 @@ def ui_lane() -> Counts:
     one with simulated events waits by turning in a loop."""
     groups = group_window_tests()
     with ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
-        return sum(pool.map(window_counts, range(len(groups)), groups), Counts())
+        found = list(pool.map(window_counts, range(len(groups)), groups))
+    return sum(try_again(found, lambda index: window_counts(index, groups[index])), Counts())
+
+
+def try_again(found: Sequence[Counts], run: Callable[[int], Counts]) -> list[Counts]:
+    """Runs the few that failed once more, alone, and names those that pass then. Real windows are slow where others
+    work beside them: of 213 window tests in three Debians one failed so, and a second run of its file was green.
+    """
+    again = [index for index, counts in enumerate(found) if counts.failed]
+    if len(again) > SECOND_TRIES:
+        return list(found)
+    second = {index: run(index) for index in again}
+    for index, counts in second.items():
+        if not counts.failed:
+            print(*(f"== unsteady, green alone: {what}" for what in found[index].failures), sep="\n", flush=True)
+    return [second.get(index, counts) for index, counts in enumerate(found)]
 
 
 def hostile_lane() -> Counts:

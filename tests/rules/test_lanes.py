@@ -42,3 +42,12 @@ def test_every_file_of_window_tests_runs_once() -> None:
 def test_sums_keep_the_names() -> None:
     total = sum([lanes.Counts(1, 1, 0, ("a",)), lanes.Counts(), lanes.Counts(0, 1, 0, ("b",))], lanes.Counts())
     assert total == lanes.Counts(1, 2, 0, ("a", "b")) and str(total) == "1 passed, 2 failed, 0 skipped"
+
+
+def test_few_failures_are_tried_again_and_named(capsys) -> None:
+    green, red = lanes.Counts(2), lanes.Counts(1, 1, 0, ("a: slow",))
+    assert lanes.try_again([green, red], lambda index: lanes.Counts(index + 1)) == [green, green]
+    assert "unsteady, green alone: a: slow" in capsys.readouterr().out
+    assert lanes.try_again([red, green], lambda index: red) == [red, green]
+    many = [red] * (lanes.SECOND_TRIES + 1)
+    assert lanes.try_again(many, lambda index: green) == many
