@@ -8,53 +8,12 @@
 #include "restoration/bump_removal.h"
 #include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
+#include "restoration/press_rules.h"
 
 namespace reflines {
 namespace {
 
-// Lengths up to which is smoothed, relative to that of the flaws, before dents are looked for and after.
-constexpr double kShortest = 0.42, kLadder[] = {0.84, 1.4, 2.1};
-
-// Length, likewise, up to which waves may be flaws, too: twice the longest of these.
-constexpr double kFurther = 4.2;
-
-// A flaw's change of slope: curvature that varies by less than this times the wave number squared counts as flawed.
-constexpr double kFlawSlope = 0.04;
-
-// Share by which that is less where curvature varies across one direction only.
-constexpr double kCoherent = 0.95;
-
-// Times the typical variation around a place that counts as flawed, too, where curvature varies alike all around there
-// and in all directions; the radius of "around there", in lengths; and the ratio of geometric and arithmetic mean of
-// squares from which on it is alike.
-constexpr double kTypical = 3.0, kAround = 3.0, kUneven = 0.3, kEven = 0.7;
-
-// Ratio of the variance, across, of what varies across one direction and that of the disk: a line of the design is a
-// band around there, and waves, which may be flaws, spread as wide as if they were everywhere. Of waves
-// of 0.2 per mille across domes, 12 % of the diagonal long, 0.63 to 0.85 were left without it where they run along the
-// mesh, and 0.21 to 0.37 are with it; lines of the design are bent by up to 0.1 degrees more. With the ratio of means
-// alone, which is as high around a wide line, they were bent by 0.4 degrees more, and a clean door's too.
-constexpr double kBand = 0.7, kSpread = 1.0;
-
-// Share by which such waves count as flaws. Of 0.35, 0.6 and 1 as much is left of waves, but for short ones on one 4-8
-// mesh (0.78, 0.65, 0.55); clean flutes with slopes of 0.06 are bent by 0.5, 1.1 and 2.5 degrees.
-constexpr double kWaves = 0.35;
-
-// Share of a flaw's variation that counts as none, for the geometric mean.
-constexpr double kNothing = 0.05;
-
 constexpr double kSmoothing = 0.4;  // of a press, for the bar of its progress
-
-// Radius of the structure tensor, relative to the length up to which is smoothed.
-constexpr double kAveraged = 0.35;
-
-// Length up to which all is smoothed before anything is measured, relative to a triangle's longest edge and, at most,
-// to the length: noise of the vertices is not to hide the surface.
-constexpr double kPresmoothed = 2.5, kMostPresmoothed = 1.0;
-
-// Weight of slopes beside heights in what is kept, relative to the length: of flawed surface, and more of design, whose
-// thin triangles would turn far with small moves of their neighbours.
-constexpr double kSlope = 0.5, kDesignSlope = 7.0;
 
 double square(double x) { return x * x; }
 
@@ -109,7 +68,7 @@ AdaptiveSmoother::AdaptiveSmoother(const HeightField& field, double length)
 // Returns the weight of the variation of curvature that keeps half of a wave of this length in flawed surface.
 double AdaptiveSmoother::stiffness(double smoothing_length) const {
   const double k = 2.0 * std::numbers::pi / smoothing_length;
-  return (1.0 + square(kSlope * length_ / smoothing_length)) / square(k * k * k);
+  return (1.0 + square(kRules.scale.slope_weight * length_ / smoothing_length)) / square(k * k * k);
 }
 
 // Returns the unit of the weights of slopes, length^2.
@@ -122,7 +81,8 @@ EdgeWeights AdaptiveSmoother::presmoothing_weights() const {
       const int other = field_.neighbors(t, i);
       const double edge =
           std::max(measure_longest_edge(field_, t), measure_longest_edge(field_, other < 0 ? t : other));
-      result(t, i) = stiffness(std::min(kPresmoothed * edge, kMostPresmoothed * length_));
+      result(t, i) =
+          stiffness(std::min(kRules.scale.presmoothed_edges * edge, kRules.scale.presmoothed_length * length_));
     }
   }
   return result;
@@ -130,23 +90,26 @@ EdgeWeights AdaptiveSmoother::presmoothing_weights() const {
 
 // Returns how far each triangle counts as flawed surface up to a length, 0 to 1, by the curvature of heights z.
 Vector AdaptiveSmoother::weigh(const Vector& z, double smoothing_length) const {
-  const double flaw = kFlawSlope * square(2.0 * std::numbers::pi / smoothing_length);
+  const double flaw = kRules.scale.flaw_slope * square(2.0 * std::numbers::pi / smoothing_length);
   const Eigen::MatrixXd tensor = variation_.read_tensors(variation_.average(variation_.read_hessians(z)));
-  const Eigen::MatrixXd mean = DiskMean(centers_, field_.area, kAveraged * smoothing_length).of_columns(tensor);
-  const Vector variation = (tensor.col(0) + tensor.col(2)).array() + square(kNothing * flaw);
+  const Eigen::MatrixXd mean =
+      DiskMean(centers_, field_.area, kRules.scale.tensor_radius * smoothing_length).of_columns(tensor);
+  const Vector variation = (tensor.col(0) + tensor.col(2)).array() + square(kRules.scale.nothing * flaw);
   const Eigen::MatrixXd around =
-      DiskMean(centers_, field_.area, kAround * length_).of_columns(take_moments(variation, centers_));
+      DiskMean(centers_, field_.area, kRules.scale.around * length_).of_columns(take_moments(variation, centers_));
   Vector result(tensor.rows());
   for (Eigen::Index t = 0; t < result.size(); ++t) {
     const double xx = mean(t, 0), yy = mean(t, 2), xy = mean(t, 1), trace = xx + yy;
     const double coherence = trace > 0 ? (square(xx - yy) + 4.0 * square(xy)) / square(trace) : 0.0;
     const double typical = std::exp(around(t, 1));
-    const double alike = smoothstep(kUneven, kEven, typical / around(t, 0));
+    const double alike = smoothstep(kRules.scale.uneven, kRules.scale.even, typical / around(t, 0));
     const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-    const double spread = measure_spread(around.row(t), {std::cos(angle), std::sin(angle)}, kAround * length_);
-    const double lone = coherence * (1.0 - kWaves * alike * smoothstep(kBand, kSpread, spread));
-    const double most =
-        square(flaw * (1.0 - kCoherent * lone)) + square(kTypical) * typical * alike * square(1.0 - coherence);
+    const double spread =
+        measure_spread(around.row(t), {std::cos(angle), std::sin(angle)}, kRules.scale.around * length_);
+    const double lone =
+        coherence * (1.0 - kRules.scale.waves * alike * smoothstep(kRules.scale.band, kRules.scale.spread, spread));
+    const double most = square(flaw * (1.0 - kRules.scale.across_one * lone)) +
+                        square(kRules.scale.typical) * typical * alike * square(1.0 - coherence);
     const double weight = 1.0 / (1.0 + trace / most);
     result(t) = weight * weight * weight;  // falls faster than the stiffness of longer lengths rises
   }
@@ -169,20 +132,21 @@ void AdaptiveSmoother::take_step(const Vector& z, double smoothing_length, Progr
 }
 
 void AdaptiveSmoother::factorize(Progress* progress) {
-  const Vector kept = square(kSlope) + square(kDesignSlope) * (1.0 - open_.array());
+  const Vector kept =
+      square(kRules.scale.slope_weight) + square(kRules.scale.design_slope_weight) * (1.0 - open_.array());
   system_.factorize(weight_, slope_unit() * kept.cwiseProduct(steepness_), progress);
 }
 
 Vector AdaptiveSmoother::adapt(const Vector& start, Progress* progress) {
   weight_ = EdgeWeights::Zero(field_.triangle_count(), 3);
   open_ = Vector::Zero(field_.triangle_count());
-  system_.factorize(presmoothing_weights(), slope_unit() * square(kSlope) * steepness_, progress);
-  take_step(system_.smooth(start), kShortest * length_, progress);
+  system_.factorize(presmoothing_weights(), slope_unit() * square(kRules.scale.slope_weight) * steepness_, progress);
+  take_step(system_.smooth(start), kRules.scale.shortest * length_, progress);
   // Smoothed so far, and no further, noise does not hide dents, and the walls of a handle's recess are still no dents.
   const BumpRemoval removal = remove_bumps(
       variation_, start, length_, [&](const Vector& z) { return system_.smooth(z); }, progress);
   bumps_ = removal.count;
-  for (const double step : kLadder) take_step(system_.smooth(removal.heights), step * length_, progress);
+  for (const double step : kRules.scale.ladder) take_step(system_.smooth(removal.heights), step * length_, progress);
   return system_.smooth(put_back_held(removal.heights));
 }
 
@@ -206,7 +170,7 @@ Vector AdaptiveSmoother::smooth_further(const Vector& z, Progress* progress) {
   const EdgeWeights weight = weight_;
   const Vector open = open_;
   further_ = true;
-  take_step(z, kFurther * length_, progress);
+  take_step(z, kRules.scale.longest * length_, progress);
   weight_ = weight;
   open_ = open;
   return system_.smooth(z);

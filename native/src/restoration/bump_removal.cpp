@@ -7,42 +7,17 @@
 
 #include "base/smoothstep.h"
 #include "restoration/centroids.h"
+#include "restoration/press_rules.h"
 
 namespace reflines {
 namespace {
-
-// Bounds relative to the length. A bump narrower than the smallest is no wider than the mesh's own facets; one wider
-// than the largest is as long as the curves of a design. One flatter than the least is not seen.
-constexpr double kSmallestRadius = 0.25, kLargestRadius = 0.63;
-constexpr double kLeastHeight = 7e-4;
-
-// Height over radius. A dent of 1.3 per mille of the diagonal, 5 % of it wide, is as steep, and of its lines four
-// degrees are off. Of 0.024, 0.05 and 0.08, on analytic panels: of ripples beside a scoop of 0.6 % of the diagonal
-// 0.24, 0.24 and 1.1 is left (1.2 with a bound of the height alone), and of dents of 1.8 per mille 0.9, 0.14 and 0.14.
-// A scoop of 0.3 % and a row of knobs are as steep as such dents, and nothing tells them from these: clean ones are
-// harmed by 0.5 and 0.8 degrees from 0.05 on.
-constexpr double kSteepness = 0.05;
-
-// The largest radius relative to the diagonal of the piece that a bump is on, one of several that were selected
-// together. A bump of 0.18 diagonals was the bow of a lamp on the bonnet of a car, selected whole: without the pull to
-// the start it went by 3 per mille of the car's diagonal. On a piece alone the length gives 0.045.
-constexpr double kLargestShare = 0.09;
-constexpr double kTooWide = 1.2;  // times that: from where on it is none at all
-
-// Share of the variation of curvature around a bump, within so many radii, that has to go with it: from none of the
-// bump to all.
-constexpr double kLeastGain = 0.1, kWholeGain = 0.35, kAround = 2.0;
-
-constexpr double kCounts = 0.5;  // least weight of a bump that is reported
-
-constexpr int kRounds = 3;
 
 double square(double x) { return x * x; }
 
 Vector largest_radii(const HeightField& field) {
   const Vector diagonal = field.piece_diagonals();
   Vector result(field.triangle_count());
-  for (int t = 0; t < result.size(); ++t) result(t) = kLargestShare * diagonal(field.piece[t]);
+  for (int t = 0; t < result.size(); ++t) result(t) = kRules.bump.largest_on_piece * diagonal(field.piece[t]);
   return result;
 }
 
@@ -83,8 +58,9 @@ class BumpGain {
     };
     for (int t = 0; t < hessian_.rows(); ++t) {
       const double squared = (centers_.row(t).transpose() - bump.center).squaredNorm();
-      if (squared >= square(kAround * bump.radius)) continue;
-      const double weight = variation_.field().area(t) * (1.0 - squared / square(kAround * bump.radius));
+      if (squared >= square(kRules.bump.gain_radius * bump.radius)) continue;
+      const double weight =
+          variation_.field().area(t) * (1.0 - squared / square(kRules.bump.gain_radius * bump.radius));
       const double before = variation_.read_variation(t, [&](int k) { return hessian_.row(k); });
       sum += weight * std::log(std::max(variation_.read_variation(t, without), kLeast) / std::max(before, kLeast));
       weights += weight;
@@ -102,8 +78,8 @@ class BumpGain {
 // Returns how much of a bump is to go, 0 to 1: none where it is wide for the piece of the surface that it is on, of
 // which it is a shape, nor where the surface around it is hardly smoother without it.
 double weigh(const Bump& bump, double largest_radius, double gain) {
-  return bump.weight * smoothstep(kTooWide, 1.0, bump.radius / largest_radius) *
-         smoothstep(kLeastGain, kWholeGain, gain);
+  return bump.weight * smoothstep(kRules.bump.too_wide, 1.0, bump.radius / largest_radius) *
+         smoothstep(kRules.bump.no_gain, kRules.bump.whole_gain, gain);
 }
 
 Vector evaluate(const Bump& bump, const PlanePositions& xy) {
@@ -116,12 +92,13 @@ Vector evaluate(const Bump& bump, const PlanePositions& xy) {
 BumpRemoval remove_bumps(const CurvatureVariation& variation, const Vector& z, double length,
                          const std::function<Vector(const Vector&)>& smooth, Progress* progress) {
   const HeightField& field = variation.field();
-  const BumpSearchOptions options{kSmallestRadius * length, kLargestRadius * length, kLeastHeight * length, kSteepness};
+  const BumpSearchOptions options{kRules.bump.smallest_radius * length, kRules.bump.largest_radius * length,
+                                  kRules.bump.least_height * length, kRules.bump.steepest};
   const PlanePositions seeds = free_vertices(field), centers = find_centroids(field.xy, field.F);
   const Vector largest = largest_radii(field);
   BumpRemoval result{z, 0};
   std::vector<Bump> removed;
-  for (int round = 0; round < kRounds && (round == 0 || !removed.empty()); ++round) {
+  for (int round = 0; round < kRules.bump.rounds && (round == 0 || !removed.empty()); ++round) {
     const HessianSamples samples{centers, field.area, variation.read_hessians(smooth(result.heights))};
     const std::vector<Bump> found = find_bumps(samples, seeds, removed, options, progress);
     removed.clear();
@@ -131,7 +108,7 @@ BumpRemoval remove_bumps(const CurvatureVariation& variation, const Vector& z, d
       if (weight == 0) continue;
       removed.push_back(bump);
       result.heights -= weight * evaluate(bump, field.xy);
-      result.count += weight > kCounts;
+      result.count += weight > kRules.bump.reported;
     }
   }
   return result;

@@ -13,26 +13,13 @@
 #include "base/smoothstep.h"
 #include "reflection/weighted_median.h"
 #include "restoration/grid_cell.h"
+#include "restoration/press_rules.h"
 
 namespace reflines {
 namespace {
 
-constexpr double kExplained = 0.42, kSure = 0.52;     // from no weight to the whole
-constexpr double kWorthRefining = 0.7;                // of that, before centre and radius are refined
-constexpr double kSeen = 1.3;                         // least heights from which on a bump has its whole weight
-constexpr double kReach = 2.5;                        // radii: the disk whose surface is looked at
-constexpr double kRim = 0.7;                          // radii: from where on samples tell of a direction
-constexpr double kCore = 1.2;                         // radii: where a bump has most of its Hessian
-constexpr double kOverlap = 1.5;                      // radii: bumps closer than this are one
-constexpr int kLeastSamples = 24;                     // three numbers each against nine of the background
-constexpr int kMostSamples = 200;                     // more only cost time
-constexpr int kSpare = 4;                             // times that, in a cell of the index
-constexpr double kScaleStep = 1.41;                   // between the radii tried; the fit is refined to 10 % from there
-constexpr double kSeedSpacing = 0.6;                  // radii
-constexpr int kRounds = 5;                            // of reweighting
-constexpr double kOutlier = 3.0;                      // medians of the misfit
-constexpr double kInliers = 0.5, kCoreInliers = 0.7;  // of the area: else the disk is no good surface with a bump
-constexpr double kSearching = 0.2, kRefining = 0.3;   // of a press, for the bar of its progress
+constexpr int kSpare = 4;                            // times most_samples, in a cell of the index
+constexpr double kSearching = 0.2, kRefining = 0.3;  // of a press, for the bar of its progress
 
 // Returns a pseudo-random number for an index (Fibonacci hashing, with the high bits first).
 std::uint32_t hash_index(int index) { return (static_cast<std::uint32_t>(index) * 2654435769U) >> 16; }
@@ -45,7 +32,7 @@ class DiskIndex {
     for (int t = 0; t < samples.area.size(); t += stride) cells_[key(samples.center.row(t))].push_back(t);
   }
 
-  // Samples within `reach` of p, ascending by cell; at most about kMostSamples, picked at random.
+  // Samples within `reach` of p, ascending by cell; at most about kRules.bump.most_samples, picked at random.
   std::vector<int> gather(const Vector2& p, double reach) const {
     std::vector<int> found;
     const auto [i, j] = key(p);
@@ -59,7 +46,7 @@ class DiskIndex {
       }
     }
     std::uint32_t stride = 1;  // a power of two: what is picked hangs on the triangle, not on the others in the disk
-    while (found.size() > stride * static_cast<size_t>(kMostSamples)) stride *= 2;
+    while (found.size() > stride * static_cast<size_t>(kRules.bump.most_samples)) stride *= 2;
     std::erase_if(found, [&](int t) { return hash_index(t) % stride != 0; });
     return found;
   }
@@ -68,7 +55,7 @@ class DiskIndex {
   // Leaves a disk, which is smaller than a cell, several times the samples that are picked of it.
   static int choose_stride(const HessianSamples& samples, double cell) {
     const double in_cell = static_cast<double>(samples.area.size()) * cell * cell / samples.area.sum();
-    return std::max(1, static_cast<int>(in_cell / (kSpare * kMostSamples)));
+    return std::max(1, static_cast<int>(in_cell / (kSpare * kRules.bump.most_samples)));
   }
 
   std::pair<int, int> key(const Vector2& p) const { return find_grid_cell(p, cell_); }
@@ -98,14 +85,17 @@ bool covers_all_directions(const Disk& disk) {
   bool octant[8] = {};
   for (Eigen::Index k = 0; k < disk.x.size(); ++k) {
     const double x = disk.x(k), y = disk.y(k);
-    if (x * x + y * y >= kRim * kRim) octant[4 * (x < 0) + 2 * (y < 0) + (std::abs(x) < std::abs(y))] = true;
+    if (x * x + y * y >= kRules.bump.rim * kRules.bump.rim)
+      octant[4 * (x < 0) + 2 * (y < 0) + (std::abs(x) < std::abs(y))] = true;
   }
   return std::all_of(octant, octant + 8, [](bool seen) { return seen; });
 }
 
 // Returns the weight of a sample, in radii from the centre: it falls to 0 at the rim, so that a fit does not jump where
 // samples enter the disk.
-double taper(double x, double y) { return std::max(1.0 - (x * x + y * y) / (kReach * kReach), 0.0); }
+double taper(double x, double y) {
+  return std::max(1.0 - (x * x + y * y) / (kRules.bump.disk * kRules.bump.disk), 0.0);
+}
 
 Disk read_disk(const HessianSamples& samples, const std::vector<int>& members, const Vector2& p, double radius) {
   Disk disk(static_cast<Eigen::Index>(members.size()));
@@ -169,23 +159,23 @@ Fit measure_bump(const Disk& disk) {
   const Fit plain = fit_bump(disk, disk.area);
   Fit robust = plain;
   Eigen::ArrayXd weight;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRules.bump.reweightings; ++round) {
     const Eigen::ArrayXd misfit = squared_misfit(disk, robust);
-    const double scale = kOutlier * kOutlier * weighted_median(misfit, disk.area) + 1e-300;
+    const double scale = kRules.bump.outlier * kRules.bump.outlier * weighted_median(misfit, disk.area) + 1e-300;
     weight = disk.area / (1.0 + misfit / scale).square();
     robust = fit_bump(disk, weight);
   }
-  const Eigen::ArrayXd core = (disk.x.square() + disk.y.square() < kCore * kCore).cast<double>();
-  const bool good =
-      weight.sum() >= kInliers * disk.area.sum() && (weight * core).sum() >= kCoreInliers * (disk.area * core).sum();
+  const Eigen::ArrayXd core = (disk.x.square() + disk.y.square() < kRules.bump.core * kRules.bump.core).cast<double>();
+  const bool good = weight.sum() >= kRules.bump.inliers * disk.area.sum() &&
+                    (weight * core).sum() >= kRules.bump.core_inliers * (disk.area * core).sum();
   return good && robust.explained > plain.explained ? robust : plain;
 }
 
 // Fits a bump at p; its `explained` is 0 where the disk cannot be judged.
 Bump measure_at(const HessianSamples& samples, const DiskIndex& index, const Vector2& p, double radius) {
-  const std::vector<int> members = index.gather(p, kReach * radius);
+  const std::vector<int> members = index.gather(p, kRules.bump.disk * radius);
   Bump result{p, radius, 0.0, 0.0, 0.0};
-  if (static_cast<int>(members.size()) < kLeastSamples) return result;
+  if (static_cast<int>(members.size()) < kRules.bump.least_samples) return result;
   const Disk disk = read_disk(samples, members, p, radius);
   if (!covers_all_directions(disk)) return result;
   const Fit found = measure_bump(disk);
@@ -274,7 +264,9 @@ PlanePositions overlapping(const PlanePositions& places, double radius, const st
   Eigen::Index count = 0;
   for (Eigen::Index k = 0; k < places.rows(); ++k) {
     const Vector2 p = places.row(k);
-    const auto overlaps = [&](const Bump& bump) { return (p - bump.center).norm() < kReach * (radius + bump.radius); };
+    const auto overlaps = [&](const Bump& bump) {
+      return (p - bump.center).norm() < kRules.bump.disk * (radius + bump.radius);
+    };
     if (std::any_of(bumps.begin(), bumps.end(), overlaps)) result.row(count++) = p;
   }
   return result.topRows(count);
@@ -288,13 +280,13 @@ bool is_seen(const Bump& bump, const BumpSearchOptions& options) {
 // Returns how surely a bump is a flaw, 0 to 1.
 double weigh(const Bump& bump, const BumpSearchOptions& options) {
   const double steepness = std::max(1.0, std::abs(bump.height) / (options.steepness * bump.radius));
-  return smoothstep(kExplained * steepness, kSure * steepness, bump.explained) *
-         smoothstep(options.least_height, kSeen * options.least_height, std::abs(bump.height));
+  return smoothstep(kRules.bump.unexplained * steepness, kRules.bump.explained * steepness, bump.explained) *
+         smoothstep(options.least_height, kRules.bump.whole_height * options.least_height, std::abs(bump.height));
 }
 
 bool is_apart(const Bump& bump, const std::vector<Bump>& others) {
   return std::none_of(others.begin(), others.end(), [&](const Bump& other) {
-    return (bump.center - other.center).norm() < kOverlap * std::max(bump.radius, other.radius);
+    return (bump.center - other.center).norm() < kRules.bump.overlap * std::max(bump.radius, other.radius);
   });
 }
 
@@ -319,7 +311,8 @@ std::vector<Candidate> search_places(const HessianSamples& samples, const DiskIn
   failure.rethrow();
   std::vector<Candidate> result;
   for (const Bump& bump : measured) {
-    if (bump.explained > kWorthRefining * kExplained && is_seen(bump, options)) result.push_back({bump, &index});
+    if (bump.explained > kRules.bump.worth_refining * kRules.bump.unexplained && is_seen(bump, options))
+      result.push_back({bump, &index});
   }
   return result;
 }
@@ -331,9 +324,10 @@ std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions
   if (progress) progress->enter(kSearching, "looking for dents");
   std::deque<DiskIndex> indexes;
   std::vector<Candidate> candidates;
-  for (double radius = options.smallest_radius; radius < 1.01 * options.largest_radius; radius *= kScaleStep) {
-    indexes.emplace_back(samples, 1.5 * kReach * radius);  // refined radii are up to 1.3 times larger
-    const PlanePositions places = overlapping(thin(seeds, kSeedSpacing * radius), radius, removed);
+  for (double radius = options.smallest_radius; radius < 1.01 * options.largest_radius;
+       radius *= kRules.bump.radius_step) {
+    indexes.emplace_back(samples, 1.5 * kRules.bump.disk * radius);  // refined radii are up to 1.3 times larger
+    const PlanePositions places = overlapping(thin(seeds, kRules.bump.seed_spacing * radius), radius, removed);
     const std::vector<Candidate> found = search_places(samples, indexes.back(), places, radius, options, progress);
     candidates.insert(candidates.end(), found.begin(), found.end());
   }
@@ -344,7 +338,7 @@ std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions
     if (progress) progress->enter(kRefining, "looking for dents");
     if (!is_apart(candidate.bump, found)) continue;
     Bump best = refine(samples, *candidate.index, options, candidate.bump);
-    if (best.explained < kExplained || !is_seen(best, options) || !is_apart(best, found)) continue;
+    if (best.explained < kRules.bump.unexplained || !is_seen(best, options) || !is_apart(best, found)) continue;
     best.weight = weigh(best, options);
     found.push_back(best);
     if (best.weight > 0) result.push_back(best);

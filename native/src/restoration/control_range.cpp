@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "restoration/press_rules.h"
 #include "solver/limited_move.h"
 
 namespace reflines {
 namespace {
 
-// Share of the limit: moves from here on are less than asked for, so that they reach it without an edge; those of 2 -
-// kSaturating and more are the limit itself.
-constexpr double kSaturating = 0.6;
-
 // Keeps a move, in units of the limit, within it by a function that is C^2, since an edge in the moves would be seen in
-// the lines.
+// the lines. Moves of twice the limit less where it begins, and more, are the limit itself.
 double saturate_share(double move) {
-  const double size = std::abs(move), t = std::clamp((size - kSaturating) / (2 * (1 - kSaturating)), 0.0, 1.0);
+  constexpr double kBegin = kRules.verdict.saturating;
+  const double size = std::abs(move), t = std::clamp((size - kBegin) / (2 * (1 - kBegin)), 0.0, 1.0);
   if (t == 0) return move;
-  return std::copysign(kSaturating + 2 * (1 - kSaturating) * t * (1 - t * t * (1 - 0.5 * t)), move);
+  return std::copysign(kBegin + 2 * (1 - kBegin) * t * (1 - t * t * (1 - 0.5 * t)), move);
 }
 
 }  // namespace

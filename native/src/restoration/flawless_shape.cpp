@@ -4,13 +4,10 @@
 #include <utility>
 
 #include "geometry/bounding_box.h"
+#include "restoration/press_rules.h"
 
 namespace reflines {
 namespace {
-
-// Height, relative to the diagonal: where vertices that stay differ by more from their partners, the move is not made
-// symmetric, which would kink the lines beside them.
-constexpr double kSymmetricHold = 1e-5;
 
 // Projects the axes of the object's space to the image plane: mirror planes are looked for across them.
 PlanePositions project_axes(const ImagePlane& frame) {
@@ -24,7 +21,7 @@ bool is_held_symmetrically(ControlledSurface& surface, const IndexVector& partne
   const Positions& C = surface.control_positions();
   const Vector z = surface.optimizer().frame().heights(C);
   const Mask free = surface.control_free();
-  const double most = kSymmetricHold * bounding_box_diagonal(C);
+  const double most = kRules.symmetry.held_difference * bounding_box_diagonal(C);
   for (Eigen::Index v = 0; v < partner.size(); ++v) {
     const bool moves = free(v) && free(partner(v));
     if (!moves && std::abs(z(v) - z(partner(v))) > most) return false;

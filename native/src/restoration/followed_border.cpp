@@ -9,6 +9,7 @@
 #include "restoration/held_border.h"
 #include "restoration/joined_mesh.h"
 #include "restoration/joined_options.h"
+#include "restoration/press_rules.h"
 #include "restoration/region_result.h"
 #include "restoration/restoration.h"
 #include "restoration/tangent_match.h"
@@ -51,10 +52,10 @@ class FollowedBorderPress : public Press {
     const double limit = alone_.report().limit;
     const ControlRange range(limit, amount.limit_share, V_.rows());
     const PressAmount joined_amount = join_amount(amount, limit, joined_.V.rows() - V_.rows());
-    const Vector turned = pad(turn(range, limit, Vector::Zero(V_.rows()), kReachBefore));
+    const Vector turned = pad(turn(range, limit, Vector::Zero(V_.rows()), kRules.border.turned_before));
     begin(turned);
     Vector move = turned + press_->find_move(begin_after(joined_amount, turned));
-    move += pad(turn(range, limit, move.head(V_.rows()), kReachAfter));
+    move += pad(turn(range, limit, move.head(V_.rows()), kRules.border.turned_after));
     const SmoothPanelResult judged = press_->judge(amount.strength * (move - turned));
     if (!judged.report.applied || has_worse_place(judged.report.healed)) return press_clamped(amount);
     return take_region({judged, V_, range, region_.optimizer().region(), alone_.report().limit}, match_,

@@ -8,18 +8,12 @@
 #include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/line_evenness.h"
+#include "restoration/press_rules.h"
 
 namespace reflines {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-// Radius of the mean, relative to the length: a flaw counts as one place, and the facets of a mesh are none.
-constexpr double kRadius = 0.35;
-
-// Degrees from which on a deviation counts, and counts whole; the share of it that has to go for the place to count as
-// healed, and as healed whole.
-constexpr double kLeast = 0.2, kWhole = 0.6, kPart = 0.3, kMost = 0.7;
 
 double mean_of(const Vector& degrees, const Vector& weight) {
   return std::sqrt(weight.dot(degrees.cwiseAbs2()) / std::max(weight.sum(), 1e-300));
@@ -55,7 +49,8 @@ HealedFlaws sum_up(const Vector& before, const Vector& after, const Vector& area
   Vector weight(area.size());
   for (Eigen::Index t = 0; t < area.size(); ++t) {
     const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
-    weight(t) = area(t) * smoothstep(kLeast, kWhole, before(t)) * smoothstep(kPart, kMost, gone);
+    weight(t) = area(t) * smoothstep(kRules.verdict.seen, kRules.verdict.seen_whole, before(t)) *
+                smoothstep(kRules.verdict.healed, kRules.verdict.healed_whole, gone);
   }
   return {weight.sum() / area.sum(), before.maxCoeff(),      after.maxCoeff(),
           mean_of(before, weight),   mean_of(after, weight), {}};
@@ -70,7 +65,8 @@ HealedFlaws measure_healed(ControlledSurface& surface, const Vector& before, con
   const int lights = optimizer.family_count();
   Eigen::MatrixXd squares(area.size(), 2 * lights);
   squares << measure_squares(surface, before, course), measure_squares(surface, after, course);
-  const DiskMean around(find_centroids(optimizer.xy(), surface.triangles()), area, kRadius * length);
+  const DiskMean around(find_centroids(optimizer.xy(), surface.triangles()), area,
+                        kRules.verdict.place_radius * length);
   const Eigen::MatrixXd degrees = around.of_columns(squares).cwiseSqrt();
   const auto at_start = degrees.leftCols(lights), at_end = degrees.rightCols(lights);
   HealedFlaws result = sum_up(at_start.rowwise().maxCoeff(), at_end.rowwise().maxCoeff(), area);

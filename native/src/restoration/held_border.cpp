@@ -5,19 +5,11 @@
 
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
+#include "restoration/press_rules.h"
 #include "restoration/restoration.h"
 
 namespace reflines {
 namespace {
-
-// The share and the degrees, both, by which lines may end less even than with a clamped border before that is taken
-// instead. Of 42 selections on seven panels and three car bodies, the presses with kCurvature and kFlow on 24 differ
-// from clamped ones: 48 presses. With 1, 2 and 5 % alone 19, 27 and 37 of them are kept, and lines stray by up to 0.07,
-// 0.16 and 0.32 degrees more; with 0.02, 0.05, 0.1 and 0.3 degrees beside the 1 %, 24, 27, 28 and 42, by up to 0.07,
-// the last by 0.27. Of eight lines round the circle 0.05 degrees are a thousandth of the distance.
-constexpr double kLessEven = 1.01, kSeen = 0.05;
-
-constexpr double kMostAdded = 2.0;  // see bound_addition
 
 ShapeOptions clamp_instead(const ShapeOptions& shape) {
   ShapeOptions result = shape;
@@ -27,7 +19,9 @@ ShapeOptions clamp_instead(const ShapeOptions& shape) {
 }
 
 // Compares two numbers in degrees.
-bool is_less_even(double one, double other) { return one > std::max(kLessEven * other, other + kSeen); }
+bool is_less_even(double one, double other) {
+  return one > std::max(kRules.border.less_even * other, other + kRules.border.less_even_degrees);
+}
 
 struct Strays {
   double one, other;  // degrees
@@ -60,11 +54,11 @@ std::optional<Vector> find_continued_move(Restoration& press, const PressAmount&
   }
 }
 
-// Returns the clamped move and as much of what continuing the curvature adds as is no larger than kMostAdded times it.
-// What lies beside the region tells how its flaws go on, and is no reason to bend a design: beside a fillet the skirt
-// of a panel went by 7 and 9 times what flaws there moved.
+// Returns the clamped move and as much of what continuing the curvature adds as is no larger than
+// kRules.border.most_added times it. What lies beside the region tells how its flaws go on, and is no reason to bend a
+// design: beside a fillet the skirt of a panel went by 7 and 9 times what flaws there moved.
 Vector bound_addition(const Vector& clamped, const Vector& continued) {
-  const double most = kMostAdded * clamped.cwiseAbs().maxCoeff();
+  const double most = kRules.border.most_added * clamped.cwiseAbs().maxCoeff();
   const double added = (continued - clamped).cwiseAbs().maxCoeff();
   if (added <= most) return continued;
   return clamped + most / added * (continued - clamped);

@@ -13,6 +13,7 @@
 #include "restoration/held_border.h"
 #include "restoration/joined_options.h"
 #include "restoration/press_notes.h"
+#include "restoration/press_rules.h"
 #include "restoration/press_setup.h"
 #include "restoration/region_result.h"
 #include "restoration/rim_spread.h"
@@ -20,11 +21,6 @@
 
 namespace reflines {
 namespace {
-
-// The factor by which flaws of a panel may be longer than when it is pressed alone. A dent across a gap is as wide for
-// the panel that cuts it as for the uncut one: of dents across the gaps of three panels 0.6 are left with 1, 0.1 with
-// 1.5 and 2; and the longer flaws are the more of the design is taken for them.
-constexpr double kMostWidened = 1.5;
 
 constexpr double kWhole = std::numeric_limits<double>::infinity();
 
@@ -76,7 +72,7 @@ JointSide::JointSide(const JointPanel& panel, const PressAmount& amount)
       joint_(Mask::Constant(V_.rows(), false)),
       still_(joint_),
       rim_(find_rim_edges(F_)) {
-  set_restoration_rules(options_, amount, kMeshProximity, shape_);
+  set_restoration_rules(options_, amount, kRules.proximity, shape_);
   options_.partner = shape_.partner;
   std::vector<int> all(rim_.rows());
   std::iota(all.begin(), all.end(), 0);
@@ -89,7 +85,7 @@ Eigen::AlignedBox3d JointSide::box() const {
 
 void JointSide::widen_flaws(double diagonal) {
   joint_options_ = options_;
-  widened_ = std::clamp(diagonal / bounding_box_diagonal(V_), 1.0, kMostWidened);
+  widened_ = std::clamp(diagonal / bounding_box_diagonal(V_), 1.0, kRules.joint.widened);
   joint_options_.flaw_size *= widened_;
 }
 
@@ -223,7 +219,7 @@ void JointSide::press(const Skin& others, const PressAmount& amount) {
 void JointSide::even(const Vector& change) {
   Vector values = Vector::Zero(joined_.V.rows());
   values.head(V_.rows()) = mirror_alike(shape_.partner, change);
-  const double reach = kReachAfter * alone_->report().length;
+  const double reach = kRules.border.turned_after * alone_->report().length;
   const Vector spread = spread_from_rim(region_->optimizer().frame().project(joined_.V), rim_, values, reach,
                                         [&](double distance) { return fade(distance / reach); });
   move_ += free_.select(spread.head(V_.rows()).array(), 0.0).matrix();

@@ -10,6 +10,7 @@
 #include "reflines/errors.h"
 #include "restoration/joint_side.h"
 #include "restoration/press_checks.h"
+#include "restoration/press_rules.h"
 #include "restoration/region_result.h"
 #include "solver/mirror_coupling.h"
 #include "solver/solve_checks.h"
@@ -17,14 +18,6 @@
 
 namespace reflines {
 namespace {
-
-constexpr double kAcross = 2.0;  // widest gaps within which the other side of a gap is looked for
-
-constexpr double kKink = 0.3;  // degrees by which one side of a gap is to turn, left by a press: no dent across it
-
-// Turns after a press. With 1 and 2, 0.33 and 0.23 degrees are left of ripples across a gap; 4 move the places where
-// these are worst instead.
-constexpr int kTurnsAfter = 2;
 
 void check(const JointPanel& panel) {
   check_press_options(panel.options, panel.V.rows());
@@ -118,7 +111,7 @@ class JointPress {
   }
 
   void turn_after() {
-    const std::vector<Turn> turns = find_turns(kReachAfter);
+    const std::vector<Turn> turns = find_turns(kRules.border.turned_after);
     for (size_t k = 0; k < sides_.size(); ++k) {
       if (is_joint(k)) sides_[k]->turn_after(turns[k].change);
     }
@@ -128,8 +121,8 @@ class JointPress {
   // has left of a dent is none.
   bool begin_turned() {
     if (is_limited()) return false;
-    const std::vector<Turn> turns = find_turns(kReachBefore);
-    const auto is_kink = [](const Turn& turn) { return turn.degrees > kKink; };
+    const std::vector<Turn> turns = find_turns(kRules.border.turned_before);
+    const auto is_kink = [](const Turn& turn) { return turn.degrees > kRules.joint.kink; };
     if (std::none_of(turns.begin(), turns.end(), is_kink)) return false;
     for (size_t k = 0; k < sides_.size(); ++k) {
       if (is_joint(k)) sides_[k]->begin_turned(is_kink(turns[k]) ? turns[k].change : 0 * turns[k].change);
@@ -147,7 +140,7 @@ class JointPress {
     Across best;
     for (size_t k = 0; k < sides_.size(); ++k) {
       if (k == own) continue;
-      const RimPlace found = sides_[k]->find_rim(sides_[own]->place(v), kAcross * sides_[own]->gap());
+      const RimPlace found = sides_[k]->find_rim(sides_[own]->place(v), kRules.joint.across * sides_[own]->gap());
       if (found.first < 0 || (best.side >= 0 && found.distance >= best.place.distance)) continue;
       best = {static_cast<int>(k), found};
     }
@@ -204,7 +197,7 @@ class JointPress {
     }
     find_moves(amounts);
     if (begin_turned()) find_moves(amounts);
-    for (int pass = 0; pass < kTurnsAfter; ++pass) turn_after();
+    for (int pass = 0; pass < kRules.joint.turns_after; ++pass) turn_after();
   }
 
   std::vector<SmoothPanelResult> press_jointly(const std::vector<PressAmount>& amounts) {

@@ -13,27 +13,20 @@
 #include "geometry/cage_symmetry.h"
 #include "restoration/designed_difference.h"
 #include "restoration/disk_mean.h"
+#include "restoration/press_rules.h"
 
 namespace reflines {
 namespace {
 
-constexpr double kPairTolerance = 1e-4, kDeepest = 3e-3;  // of the diagonal
-// Shares of the vertices with partners: from none of the evidence to all of it.
-constexpr double kUnpaired = 0.95, kPaired = 0.98;
-constexpr double kLeastAxis = 0.3;       // of an axis's length, in the image plane
-constexpr double kSameLine = 1e-7;       // of the direction, and of the diagonal: far below kPairTolerance
-constexpr double kLeastMoment = 1e-9;    // relative: a smaller one has no direction
-constexpr double kNeighbourhood = 0.56;  // of the length: over which roughness is compared
-// Roughness counts up to this many root mean squares of the difference's own: fillets are rough on both sides.
-constexpr double kRoughest = 2.0;
-constexpr double kTaper = 0.28;  // of the length: beside designed differences corrections rise from nothing
+constexpr double kSameLine = 1e-7;  // of the direction, and of the diagonal: far below kRules.symmetry.pair_tolerance
+constexpr double kLeastMoment = 1e-9;  // relative: a smaller one has no direction
 
 // Planes across which the vertices may be symmetric: those of a mirror image's moments sum (x + iy)^p, whose argument
 // is a multiple of the axis's angle, for p = 2 (the principal axes), 3 and 4 (those of a square), and across `axes`.
 std::vector<Vector2> list_normals(const PlanePositions& xy, const PlanePositions& axes) {
   std::vector<Vector2> result;
   for (Eigen::Index k = 0; k < axes.rows(); ++k) {
-    if (axes.row(k).norm() >= kLeastAxis) result.push_back(axes.row(k).normalized());
+    if (axes.row(k).norm() >= kRules.symmetry.least_axis) result.push_back(axes.row(k).normalized());
   }
   const PlanePositions centred = xy.rowwise() - xy.colwise().mean();
   for (int p = 2; p <= 4; ++p) {
@@ -65,7 +58,7 @@ Images pair_across(const PlanePositions& xy, const Vector& z, double diagonal, c
   Positions flat(xy.rows(), 3);
   flat << xy, Vector::Zero(xy.rows());
   const MirrorPlane plane{Vector3(offset * n.x(), offset * n.y(), 0), Vector3(n.x(), n.y(), 0)};
-  IndexVector partner = mirror_pairs(flat, plane, kPairTolerance * diagonal);
+  IndexVector partner = mirror_pairs(flat, plane, kRules.symmetry.pair_tolerance * diagonal);
   double found = 0, squared = 0;
   for (Eigen::Index v = 0; v < partner.size(); ++v) {
     if (partner(v) < 0) {
@@ -73,11 +66,11 @@ Images pair_across(const PlanePositions& xy, const Vector& z, double diagonal, c
       continue;
     }
     const double difference = std::abs(z(v) - z(partner(v)));
-    found += difference < kDeepest * diagonal;
+    found += difference < kRules.symmetry.deepest * diagonal;
     squared += difference * difference;
   }
   const double share = found / static_cast<double>(partner.size());
-  return {std::move(partner), smoothstep(kUnpaired, kPaired, share), squared};
+  return {std::move(partner), smoothstep(kRules.symmetry.unpaired, kRules.symmetry.paired, share), squared};
 }
 
 // The distance of each height from a quadratic least-squares fit of the vertices within two edges: an operator that
@@ -184,11 +177,13 @@ Vector correct_halves(const PlanePositions& xy, const Vector& z, const Triangles
                       double diagonal, double length, const Images& images, Mask& design) {
   const Vector difference = z - z(images.partner);
   if ((difference.array() == 0).all()) return Vector::Zero(z.size());
-  const DiskMean mean(xy, Vector::Ones(z.size()), kNeighbourhood * length);
+  const DiskMean mean(xy, Vector::Ones(z.size()), kRules.symmetry.roughness_radius * length);
   const Vector unbounded = roughness.of(difference).cwiseAbs();
-  const Vector most = kRoughest * mean.of(unbounded.cwiseAbs2()).cwiseSqrt();
-  const Mask own_design = find_designed_differences(xy, F, difference, most / kRoughest, kDeepest * diagonal, length);
-  const Vector spared = DiskMean(xy, Vector::Ones(z.size()), kTaper * length).of((!own_design).cast<double>().matrix());
+  const Vector most = kRules.symmetry.roughest * mean.of(unbounded.cwiseAbs2()).cwiseSqrt();
+  const Mask own_design = find_designed_differences(xy, F, difference, most / kRules.symmetry.roughest,
+                                                    kRules.symmetry.deepest * diagonal, length);
+  const Vector spared =
+      DiskMean(xy, Vector::Ones(z.size()), kRules.symmetry.taper * length).of((!own_design).cast<double>().matrix());
   // Bounded as that of the heights is: else the peak of a dent would count in the difference only, and a quarter of it
   // would be taken for a bump of the other side.
   const Vector own = mean.of(unbounded.cwiseMin(most).cwiseAbs2());
@@ -211,7 +206,8 @@ std::vector<MirrorPartners> pair_alike(std::vector<Images> found, const Vector& 
   std::vector<MirrorPartners> result;
   for (Images& images : found) {
     for (Eigen::Index v = 0; v < z.size(); ++v) {
-      if (std::abs(z(v) - z(images.partner(v))) >= kDeepest * diagonal) images.partner(v) = static_cast<int>(v);
+      const double difference = std::abs(z(v) - z(images.partner(v)));
+      if (difference >= kRules.symmetry.deepest * diagonal) images.partner(v) = static_cast<int>(v);
     }
     result.push_back({std::move(images.partner), images.weight});
   }

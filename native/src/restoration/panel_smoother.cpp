@@ -11,6 +11,7 @@
 #include "restoration/held_border.h"
 #include "restoration/press.h"
 #include "restoration/press_checks.h"
+#include "restoration/press_rules.h"
 #include "restoration/press_setup.h"
 #include "restoration/restoration.h"
 #include "restoration/used_vertices.h"
@@ -29,7 +30,7 @@ class MeshPress : public Press {
             const SmoothPanelOptions& options, const PressAmount& amount)
       : V_(std::move(V)), used_(find_used_vertices(F, static_cast<int>(V_.rows()))) {
     ShapeOptions shape = choose_shape(used_, options, V_.rows());
-    set_restoration_rules(options, amount, kMeshProximity, shape);
+    set_restoration_rules(options, amount, kRules.proximity, shape);
     partner_ = shape.partner;
     SmoothPanelOptions own = options;
     own.partner = partner_;
@@ -66,7 +67,7 @@ class CagePress : public Press {
   CagePress(const Cage& cage, const Positions& V, const Vector3& view, const Vector3& lines, CageOptions cage_options,
             const SmoothPanelOptions& options, const PressAmount& amount)
       : partner_(cage_options.partner) {
-    set_restoration_rules(options, amount, kCageProximity, cage_options.shape);
+    set_restoration_rules(options, amount, kRules.cage.proximity, cage_options.shape);
     surface_ = std::make_unique<CageControlledSurface>(cage, V, view, make_families(view, lines, options),
                                                        std::move(cage_options));
     press_ = std::make_unique<Restoration>(*surface_, options);

@@ -8,11 +8,6 @@
 
 namespace reflines {
 
-// Lengths over which a followed border's tangents are turned: before a press far enough that it finds nothing to heal
-// in that, and after it over less, since what a neighbour's flaws turn is not to be spread. Of a dent across the gap
-// 0.24 degrees are left so, and 0.32 with two lengths.
-inline constexpr double kReachBefore = 2.0, kReachAfter = 1.0;
-
 // Returns whether some place of the result is worse than the worst one before. Where a bent border meets one that is
 // held, the turned tangents of the one and those of the other make a curl in the corner.
 bool has_worse_place(const HealedFlaws& healed);

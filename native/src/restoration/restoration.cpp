@@ -9,20 +9,13 @@
 #include "restoration/healed_flaws.h"
 #include "restoration/line_fields.h"
 #include "restoration/press_notes.h"
+#include "restoration/press_rules.h"
 #include "solver/turned_faces.h"
 
 namespace reflines {
 namespace {
 
-constexpr int kRetries = 3;
-
 constexpr double kLongest = 1e3;  // length, relative to the diagonal: all that is longer smooths as much
-
-constexpr double kVisible = 0.32;  // degrees, root mean square: waves that are worth a word
-
-constexpr double kNoGain = 0.1, kWholeGain = 0.6;  // shares of a cage's unevenness: from none of its move to all
-
-constexpr double kWorse = 1.01;  // times its unevenness at the start: a light that is no worse to the eye
 
 double choose_length(const SmoothPanelOptions& options, const Positions& V) {
   const double diagonal = bounding_box_diagonal(V);
@@ -99,7 +92,7 @@ Vector Restoration::find_move(const PressAmount& amount) {
     field_.reset();
   }
   Vector move = make_move();
-  for (int retry = 0; retry < kRetries; ++retry) {
+  for (int retry = 0; retry < kRules.verdict.retries; ++retry) {
     const Mask turned = find_turned_by(move);
     if (!turned.any()) break;
     held_triangles_ = held_triangles_ || turned;
@@ -121,7 +114,7 @@ double Restoration::weigh_gain() {
   double gain = 0;
   for (size_t k = 0; k < before.degrees.size(); ++k)
     gain += (1.0 - after.degrees[k] / std::max(before.degrees[k], 1e-300)) / static_cast<double>(before.degrees.size());
-  gain_ = smoothstep(kNoGain, kWholeGain, gain);
+  gain_ = smoothstep(kRules.cage.no_gain, kRules.cage.whole_gain, gain);
   return *gain_;
 }
 
@@ -217,7 +210,7 @@ bool Restoration::has_longer_waves() {
   const Vector relative = field_->z + (shape_ - start_);
   const Vector further = shape_ + (smoother_->smooth_further(relative, progress()) - relative);
   const Unevenness waves = measure_unevenness(surface_, shape_, further, report_.length);
-  longer_waves_ = *std::max_element(waves.degrees.begin(), waves.degrees.end()) > kVisible;
+  longer_waves_ = *std::max_element(waves.degrees.begin(), waves.degrees.end()) > kRules.verdict.longer_waves;
   return *longer_waves_;
 }
 
@@ -242,7 +235,7 @@ SmoothPanelResult Restoration::judge(const Vector& move) {
   if (turns_faces(move)) return refuse({NoteKind::kFacesWouldTurn});
   for (size_t k = 0; k < report_.unevenness_after.size(); ++k) {
     const double before = report_.unevenness_before[k], after = report_.unevenness_after[k];
-    if (after > kWorse * before) return refuse({NoteKind::kLightWouldWorsen, 0, before, after});
+    if (after > kRules.verdict.worse * before) return refuse({NoteKind::kLightWouldWorsen, 0, before, after});
   }
   return apply(move);
 }

@@ -17,13 +17,6 @@
 
 namespace reflines {
 
-// Weight of staying near the shape without flaws (see Energy), where a limit or the border keeps a solve from it: the
-// lines hardly see a shape that is as long as the panel. Of 0, 1e5, 1e6, 1e7, with the lines of the clean panel as
-// target: 0, 0.4, 4 and 30 % left of dents, and less harm the higher. A cage has few unknowns, which drift less, and
-// each lifts much surface: of 1e6, 1e5 and 1e4, 0.61, 0.50 and 0.48 left of noise in the cage of a roof, and no clean
-// cage moves by more than 0.7 mm.
-inline constexpr double kMeshProximity = 1e6, kCageProximity = 1e4;
-
 class Restoration {
  public:
   // Keeps a reference to the surface until it is destroyed. How much of the move a press makes is not read from the

@@ -11,16 +11,11 @@
 #include "base/smoothstep.h"
 #include "geometry/height_fit.h"
 #include "geometry/mesh.h"
+#include "restoration/press_rules.h"
 #include "restoration/rim_spread.h"
 
 namespace reflines {
 namespace {
-
-// Rings of triangles on each side of a border vertex by which its slope is told. Of a kink of 3.5 degrees 0.20 are left
-// with two, and 0.33 with three.
-constexpr int kRings = 2;
-
-constexpr int kAverages = 2;  // passes along the border, which take the noise out of the slopes
 
 // The largest of r (1 - r^2)^3, the course of the change over the distance.
 constexpr double kHighest = 0.238;
@@ -47,7 +42,7 @@ void sort_unique(std::vector<int>& list) {
 // Returns the vertices of one side of a border vertex, itself among them.
 std::vector<int> gather_side(const TangentMatch& match, const Plane& plane, int v, bool inside) {
   std::vector<int> found = {v};
-  for (int ring = 0; ring < kRings; ++ring) {
+  for (int ring = 0; ring < kRules.border.slope_rings; ++ring) {
     for (const int w : std::vector<int>(found)) {
       for (int e = plane.triangles_of_vertex.begin(w); e < plane.triangles_of_vertex.end(w); ++e) {
         const int t = plane.triangles_of_vertex.items[e];
@@ -135,7 +130,7 @@ void measure_slopes(const TangentMatch& match, const Plane& plane, Rim& rim) {
 }
 
 void average_slopes(const TangentMatch& match, Rim& rim) {
-  for (int pass = 0; pass < kAverages; ++pass) {
+  for (int pass = 0; pass < kRules.border.slope_averages; ++pass) {
     Vector sum = 2 * rim.slope, weight = Vector::Constant(rim.slope.size(), 2);
     for (Eigen::Index k = 0; k < rim.edges.rows(); ++k) {
       const int a = rim.edges(k, 0), b = rim.edges(k, 1);
