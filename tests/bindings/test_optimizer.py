@@ -227,7 +227,7 @@ def test_a_mesh_whose_faces_are_not_joined_is_refused_by_the_count_of_doubled_ve
     positions, triangles = panel(8)
     apart = positions[triangles].reshape(-1, 3)
     doubled = len(apart) - len(positions)
-    with pytest.raises(reflines.InvalidInput, match=f"{doubled} vertices lie on others.*Merge by Distance"):
+    with pytest.raises(reflines.InvalidInput, match=f"{doubled} vertices lie on others.*merge them by distance"):
         made(apart, np.arange(len(apart)).reshape(-1, 3))
 
 

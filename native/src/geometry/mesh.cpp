@@ -96,7 +96,7 @@ void check_poles(const Triangles& F) {
   if (spokes.maxCoeff(&worst) <= kMostSpokes) return;
   throw InvalidInput(std::to_string(spokes(worst)) + " triangles meet at vertex " + std::to_string(worst) +
                      " of the region, more than " + std::to_string(kMostSpokes) +
-                     ": divide the large face or fan there, or deselect it.");
+                     ": divide the large face or fan there, or leave it out of the region.");
 }
 
 // Throws where a triangle is doubled: its copy meets it across all three edges, with the same third vertex.
@@ -111,7 +111,7 @@ void check_doubled(const Triangles& F, const std::vector<HalfEdge>& edges) {
   const int doubled = meetings / 3;
   if (doubled == 0) return;
   throw InvalidInput(count(doubled, "face of the region is", "faces of the region are") +
-                     " doubled (a second face on the same vertices); delete the copies, or deselect them.");
+                     " doubled (a second face on the same vertices); delete the copies, or leave them out.");
 }
 
 void check_manifold(const std::vector<HalfEdge>& edges) {
@@ -122,10 +122,8 @@ void check_manifold(const std::vector<HalfEdge>& edges) {
     bad += third && !fourth;
   }
   if (bad == 0) return;
-  throw InvalidInput(
-      count(bad, "edge of the region has", "edges of the region have") +
-      " more than two faces; find with Select > All by Trait > Non Manifold, then delete or deselect the extra "
-      "faces.");
+  throw InvalidInput(count(bad, "edge of the region has", "edges of the region have") +
+                     " more than two faces; delete the extra faces, or leave them out of the region.");
 }
 
 }  // namespace
@@ -138,7 +136,7 @@ void check_indices(const Positions& V, const Triangles& F) {
 }
 
 void check_surface(const Positions& V, const Triangles& F) {
-  if (F.rows() == 0) throw InvalidInput("The region has no face; select the faces of the panel first.");
+  if (F.rows() == 0) throw InvalidInput("The region has no face; choose the faces of the panel first.");
   check_indices(V, F);
   check_finite(V, F);
   check_area(V, F);

@@ -44,14 +44,13 @@ std::string explain_no_free_vertex(const Region& region, int faces, int doubled)
   if (doubled > 0) {
     return "No vertex of the region is free to move: " + format_face_count(faces) + ": " + std::to_string(doubled) +
            (doubled == 1 ? " vertex lies on another" : " vertices lie on others") +
-           ", so that faces that touch are not joined; use Merge by Distance first.";
+           ", so that faces that touch are not joined; merge them by distance first.";
   }
   const std::string creases = std::to_string(region.creases) + (region.creases == 1 ? " edge" : " edges");
   return "No vertex of the region is free to move (" + format_face_count(faces) + ": all vertices are held by " +
          (region.creases > 0 ? "creases (" + creases + "), " : "") +
-         "the border, silhouettes or faces turned away); select a larger region, or a border that holds less, as a "
-         "free "
-         "one" +
+         "the border, silhouettes or faces turned away); choose a larger region, or a border that holds less, as a "
+         "free one" +
          (region.creases > 0 ? ", or hold fewer creases." : ".");
 }
 
