@@ -72,10 +72,9 @@ def test_values_that_a_fixed_border_forbids_do_not_fold_the_surface() -> None:
     """A border that stays keeps the mean slope, so theta cannot rise everywhere; nothing may be bent to hide that."""
     solver = optimizer(flat, border="fixed")
     wanted = solver.theta() + 0.2
-    before = solver.score(0.3).shift
     report = solver.solve(reflines.Target(solver.field(), theta=wanted))
     assert report.converged
-    assert solver.score(0.3).shift < 2.0 * before
+    assert solver.score(0.3).shift < 0.05  # degrees: a fold makes tens of them
 
 
 def test_a_pattern_by_value_moves_each_line_to_its_place() -> None:

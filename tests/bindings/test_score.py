@@ -45,6 +45,16 @@ def test_a_deeper_flaw_shifts_the_lines_more(flaw, length) -> None:
     assert np.diff(shifts).min() > 0, shifts
 
 
+@pytest.mark.parametrize("cells", [40, 80, 160])
+def test_the_facets_of_a_mesh_are_no_flaws(cells) -> None:
+    """Waves far longer than the length are no flaws at it, on any mesh: 0.34, 0.18 and 0.09 degrees were facets."""
+    plane, F = grid(cells)
+    x, y = plane.T - 0.5
+    z = -0.15 * x**2 - 0.1 * y**2 + 0.001 * np.sin(12 * x) * np.sin(10 * y)
+    solver = reflines.ShapeOptimizer(np.column_stack([x, y, z]), F, view_direction=VIEW, line_direction=LINE)
+    assert solver.score(0.15).shift < 0.05
+
+
 def twisted(x: np.ndarray, y: np.ndarray, bend: float = BEND) -> np.ndarray:
     """A cylinder whose lines are waves: theta is about -2 z_y = 4 BEND y - 2 TWIST sin(2 pi x / WAVE)."""
     return -bend * y**2 + TWIST * y * np.sin(2 * np.pi * x / WAVE)
