@@ -73,9 +73,10 @@ class Solution:
     healed: Healed | None = None  # by an automatic press of Smooth
     fit: str = ""  # how far a cage that was fitted is from the other mesh
     longer_waves: bool = False  # that may be flaws, too, were left by it
+    verdict: np.ndarray | None = None  # #F, by it: 1 where flaws were healed, -1 where the surface was kept as design
 
     def to_last_solve(self) -> "LastSolve":
-        return LastSolve(self.patch, self.positions, self.residual)
+        return LastSolve(self.patch, self.positions, self.residual, self.verdict)
 
 
 @dataclass(frozen=True)
@@ -84,3 +85,4 @@ class LastSolve:
     patch: Patch
     positions: np.ndarray  # #V x 3, world space
     residual: np.ndarray   # #F; empty where it is not known
+    verdict: np.ndarray | None = None  # #F, see Solution; None after another tool, and after the file was loaded

@@ -218,8 +218,7 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
               solution: LastSolve | None) -> tuple[np.ndarray, ...]:
     """Builds the arrays to upload; empty for a map without a solve."""
     if settings.mode in stripe_scene.MAPS:
-        make = solve_maps.build_residual_map if settings.mode == 'RESIDUAL' else solve_maps.build_deviation_map
-        return make(solution, settings.map_range) if solution is not None else NOTHING
+        return build_map(settings, solution) if solution is not None else NOTHING
     if settings.before and solution is not None:
         cage = read_limit_surface(ob, solution) if read.normals is not None else None
         if cage is not None:  # its old limit normals; a coarse cage's own would show none of its surface's dents
@@ -230,6 +229,14 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
         shaded = _cache.fits.update_shaded(BEFORE + ob.name_full, old, read.F)
         return read.V[shaded.vertex], shaded.F, shaded.normals
     return build_shape_arrays(ob, settings, read)
+
+
+def build_map(settings: bpy.types.PropertyGroup, solution: LastSolve) -> tuple[np.ndarray, ...]:
+    """Builds the arrays of a map of the last solve."""
+    if settings.mode == 'VERDICT':
+        return solve_maps.build_verdict_map(solution)
+    make = solve_maps.build_residual_map if settings.mode == 'RESIDUAL' else solve_maps.build_deviation_map
+    return make(solution, settings.map_range)
 
 
 def build_shape_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,

@@ -16,7 +16,8 @@ WIDTH, HEIGHT, MARGIN, STEPS = 220.0, 12.0, 16.0, 64  # pixels at a scale of 1; 
 LOW, KNOB = 72.0, 9.0  # pixels at a scale of 1: height of the knob above the redo panel, and its radius
 LINE_COLOR, TAKEN_COLOR = (1.0, 1.0, 1.0, 1.0), (1.0, 0.75, 0.1, 1.0)
 FONT, SIZE = 0, 11.0
-TITLES = {'DEVIATION': "Moved by the last solve, + outwards", 'RESIDUAL': "Lines off the wanted ones"}
+TITLES = {'DEVIATION': "Moved by the last solve, + outwards", 'RESIDUAL': "Lines off the wanted ones",
+          'VERDICT': "What the last press did"}
 
 
 def find_full_value(context: bpy.types.Context, settings: bpy.types.PropertyGroup) -> float | None:
@@ -33,6 +34,8 @@ def find_full_value(context: bpy.types.Context, settings: bpy.types.PropertyGrou
 
 def describe_ends(scene: bpy.types.Scene, mode: str, full: float) -> tuple[str, str, str]:
     """Describes the values at the ends and in the middle of the bar, left, middle and right, in the scene's units."""
+    if mode == 'VERDICT':
+        return "kept as design", "as it was", "healed"
     if mode == 'DEVIATION':
         length = units.format_length(full, scene)
         return f"\u2212{length}", "0", f"+{length}"
@@ -104,7 +107,7 @@ def draw_text(text: str, x: float, y: float) -> None:
 
 def draw_bar(mode: str, left: float, low: float, scale: float) -> None:
     share = np.repeat(np.linspace(0.0, 1.0, STEPS + 1), 2)
-    colors = encode_color(stripes.compute_ramp(share, stripes.SIGNED_RAMP if mode == 'DEVIATION' else stripes.RAMP))
+    colors = encode_color(stripes.compute_ramp(share, stripes.RAMPS[mode]))
     places = np.column_stack([left + share * WIDTH * scale,
                               low + np.tile([0.0, HEIGHT * scale], STEPS + 1)]).astype(np.float32)
     shader = gpu.shader.from_builtin('SMOOTH_COLOR')

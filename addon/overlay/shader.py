@@ -1,7 +1,7 @@
 """The shader of the stripes: the solver's theta (paper, eq. 1), evaluated in every pixel."""
 import gpu
 
-from .stripes import RAMP, SIGNED_RAMP
+from .stripes import RAMPS
 
 STRUCT = """
 struct StripeData {
@@ -73,10 +73,13 @@ void main()
     color = vec4(mirrored_color(r), 1.0);
   }
   else if (mode == 4) {
-    color = vec4(ramp_color(share), 1.0);
+    color = vec4(residual_color(share), 1.0);
   }
   else if (mode == 5) {
-    color = vec4(signed_color(0.5 + 0.5 * share), 1.0);
+    color = vec4(deviation_color(0.5 + 0.5 * share), 1.0);
+  }
+  else if (mode == 6) {
+    color = vec4(verdict_color(0.5 + 0.5 * share), 1.0);
   }
   else {
     // A normal turns half as much as its reflection: twice the rate draws the stripes as densely in all three modes.
@@ -115,6 +118,6 @@ def compile_shader() -> gpu.types.GPUShader:
     info.vertex_out(between)
     info.fragment_out(0, 'VEC4', "fragColor")
     info.vertex_source(VERTEX)
-    ramps = write_ramp_source("ramp_color", RAMP) + write_ramp_source("signed_color", SIGNED_RAMP)
+    ramps = "".join(write_ramp_source(f"{mode.lower()}_color", ramp) for mode, ramp in RAMPS.items())
     info.fragment_source(BAND + ENVIRONMENT + ramps + FRAGMENT)
     return gpu.shader.create_from_info(info)

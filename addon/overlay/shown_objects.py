@@ -70,10 +70,19 @@ def explain_stripes(context: bpy.types.Context) -> str:
 def explain_solve(settings: bpy.types.PropertyGroup, shown: list[bpy.types.Object]) -> str:
     """Says why a map or the shape before is not drawn; empty where it is, or none is wanted."""
     changed = [ob.name for ob in shown if solve_history.is_changed(ob)]
-    if not changed or not stripe_scene.needs_solution(settings):
+    if not stripe_scene.needs_solution(settings):
         return ""
+    if not changed:
+        return explain_verdict(shown) if settings.mode == 'VERDICT' else ""
     what = "there is no map of it" if settings.mode in stripe_scene.MAPS else "the shape before is not shown"
     return f"{changed[0]} is no longer as its solve left it: {what}. Run the tool again"
+
+
+def explain_verdict(shown: list[bpy.types.Object]) -> str:
+    """Says why there is no verdict to draw: only a press of Smooth Lines without a length gives one."""
+    found = {ob.name: solve_history.find_last_solve(ob.name_full) for ob in shown}
+    lacking = [name for name, solution in found.items() if solution is None or solution.verdict is None]
+    return f"{lacking[0]}: there is no verdict of its last solve: press Smooth Lines" if lacking else ""
 
 
 def explain_no_object(settings: bpy.types.PropertyGroup, panels: list[bpy.types.Object]) -> str:

@@ -43,6 +43,15 @@ def build_residual_map(solution: LastSolve, full: float) -> Arrays:
     return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(scale_values(residual, full), 3)
 
 
+def build_verdict_map(solution: LastSolve) -> Arrays:
+    """Builds the map of what a press healed and what it kept as design, constant on each triangle; empty where it is
+    not known.
+    """
+    verdict = compute_values(solution, 'VERDICT')
+    V = compute_left_positions(solution)[solution.patch.F[:len(verdict)]].reshape(-1, 3)
+    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(verdict, 3)
+
+
 def build_deviation_map(solution: LastSolve, full: float) -> Arrays:
     """Builds the map of the distances that the vertices moved, positive outwards."""
     V = compute_left_positions(solution)
@@ -50,9 +59,11 @@ def build_deviation_map(solution: LastSolve, full: float) -> Arrays:
 
 
 def compute_values(solution: LastSolve, mode: str) -> np.ndarray:
-    """Computes what a map shows: the residual of each triangle, radians / length, or the distance that each vertex
-    moved, positive to the side of the normals.
+    """Computes what a map shows: the residual of each triangle, radians / length; its verdict, -1 to 1; or the distance
+    that each vertex moved, positive to the side of the normals.
     """
+    if mode == 'VERDICT':
+        return np.zeros(0) if solution.verdict is None else solution.verdict
     if mode == 'RESIDUAL':
         return solution.residual
     move = solution.positions - solution.patch.V

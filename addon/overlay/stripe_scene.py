@@ -7,7 +7,7 @@ from ..view import view_and_light
 from . import stripes
 from .stripes import Eye, Look
 
-MAPS = {'RESIDUAL', 'DEVIATION'}
+MAPS = {'RESIDUAL', 'DEVIATION', 'VERDICT'}
 
 
 def needs_solution(settings: bpy.types.PropertyGroup) -> bool:

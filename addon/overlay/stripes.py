@@ -12,12 +12,15 @@ VERTEX_SHARE, VERTEX_DEPTH = 1.875e-3, 7.5e-6
 VERTEX_RADIUS = 4.0  # pixels of Blender's dots, which face the eye
 
 # Numbers of the modes in the shader.
-MODES = {'REFLECTION': 0, 'HIGHLIGHT': 1, 'ISOPHOTE': 2, 'IMAGE': 3, 'RESIDUAL': 4, 'DEVIATION': 5}
+MODES = {'REFLECTION': 0, 'HIGHLIGHT': 1, 'ISOPHOTE': 2, 'IMAGE': 3, 'RESIDUAL': 4, 'DEVIATION': 5, 'VERDICT': 6}
 
 # Colours of the maps, linear, from 0 to the full value: dark, then cold, then warm, so that grey prints keep the order.
 RAMP = ((0.012, 0.015, 0.06), (0.05, 0.16, 0.55), (0.06, 0.55, 0.35), (0.92, 0.70, 0.10), (0.90, 0.09, 0.05))
 # The same for values with a sign: cold inwards, grey at 0, warm outwards.
 SIGNED_RAMP = ((0.02, 0.10, 0.65), (0.10, 0.35, 0.60), (0.50, 0.50, 0.50), (0.85, 0.40, 0.10), (0.75, 0.05, 0.03))
+# What was kept as design, grey where there was nothing to heal, and what was healed.
+VERDICT_RAMP = ((0.02, 0.10, 0.65), (0.20, 0.30, 0.60), (0.50, 0.50, 0.50), (0.30, 0.60, 0.20), (0.03, 0.50, 0.06))
+RAMPS = {'RESIDUAL': RAMP, 'DEVIATION': SIGNED_RAMP, 'VERDICT': VERDICT_RAMP}
 
 
 @dataclass(frozen=True)

@@ -118,7 +118,7 @@ def build_solution(formulation: Formulation, positions: np.ndarray, told: "nativ
                     kept=(*remarks.describe_marked_creases(patch), *word_notes(notes)),
                     healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after,
                                   find_worse(formulation.view, settings.light_set, told)),
-                    longer_waves=told.longer_waves)
+                    longer_waves=told.longer_waves, verdict=press.verdict)
 
 
 def find_worse(seen: View, light_set: LightSet | None, told: "native.SmoothPanelReport") -> Worse | None:

@@ -30,6 +30,7 @@ class Press:
     """The result of an automatic press of Smooth, as arrays of the patch."""
     positions: np.ndarray  # #V x 3, world space
     stray: np.ndarray      # #F, see native.SmoothPanelReport
+    verdict: np.ndarray    # #F, likewise
     told: "native.SmoothPanelReport"
     cage_move: float = 0.0  # largest move of a cage's vertices, which is more than its surface's
 
@@ -212,7 +213,7 @@ class Formulation:
 
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
         """Converts what the native smoother returns to arrays of the patch."""
-        return Press(self.read_pressed(positions), told.stray, told)
+        return Press(self.read_pressed(positions), told.stray, told.verdict, told)
 
 
 class SymmetricFormulation(Formulation):
@@ -309,7 +310,8 @@ class JoinedFormulation(Formulation):
         return self.read_own_half(positions)
 
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
-        return Press(self.read_pressed(positions), told.stray[:len(self.patch.F)], told)
+        own = len(self.patch.F)
+        return Press(self.read_pressed(positions), told.stray[:own], told.verdict[:own], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
         sign = mirror.compute_theta_sign(self.patch.mirror, self.patch.matrix, self.view.line_direction)
@@ -416,8 +418,8 @@ class CageFormulation(Formulation):
         return self.patch.V + (positions - self.patch.cage.V)[self.patch.index]
 
     def read_press(self, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
-        return Press(self.read_pressed(positions), self.spread_to_triangles(told.stray), told,
-                     told.largest_control_move)
+        return Press(self.read_pressed(positions), self.spread_to_triangles(told.stray),
+                     self.spread_to_triangles(told.verdict), told, told.largest_control_move)
 
 
 def choose_formulation(patch: Patch, view: View) -> Formulation:

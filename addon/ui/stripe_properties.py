@@ -10,6 +10,7 @@ MODES = (
     ('ISOPHOTE', "Isophotes", "Lines of equal angle between the surface's normals and the light direction"),
     ('IMAGE', "Environment Image", "An image all around the panel (as a World's Environment Texture), mirrored by it"),
     ('RESIDUAL', "Residual Map", "Where the last solve could not give the lines the wanted direction and density"),
+    ('VERDICT', "Verdict Map", "What the last press of Smooth Lines healed, and what it kept as design"),
     ('DEVIATION', "Deviation Map", "How far the last solve moved the panel, with its sign: outwards or inwards"),
 )
 EYES = (

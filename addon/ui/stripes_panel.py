@@ -5,7 +5,7 @@ from . import rows, stripe_presets
 from .panels import ReflinesPanel, draw_paragraph
 
 BANDS = {'REFLECTION', 'HIGHLIGHT', 'ISOPHOTE'}
-MAPS = {'RESIDUAL', 'DEVIATION'}
+MAPS = {'RESIDUAL', 'DEVIATION', 'VERDICT'}
 
 
 class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):

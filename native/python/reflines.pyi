@@ -248,6 +248,8 @@ class SmoothPanelReport:
     healed: HealedFlaws
     stray: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,
                                # radians / length; by area its root mean square is the first unevenness over the length
+    verdict: np.ndarray        # #F: 1 where flaws were healed, -1 where the surface counts as design and was kept, 0 where there was
+                               # nothing to heal; between them by degree
     region: Region             # of the panel as it came
     applied: bool              # False: some light would have become worse, and nothing was moved
     notes: list[Note]          # the most important first

@@ -121,6 +121,7 @@ void bind_press_report(py::module_& module) {
       .def_readonly("seen", &Told::seen)
       .def_readonly("healed", &Told::healed)
       .def_readonly("stray", &Told::stray)
+      .def_readonly("verdict", &Told::verdict)
       .def_readonly("region", &Told::region)
       .def_readonly("applied", &Told::applied)
       .def_readonly("notes", &Told::notes);

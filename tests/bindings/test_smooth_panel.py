@@ -179,6 +179,22 @@ def test_a_limit_below_the_flaw_leaves_the_lines_more_even_than_they_were(bonnet
                zip(report.unevenness_before, report.unevenness_after, strict=True))
 
 
+def test_the_verdict_tells_by_place_what_was_healed_and_what_was_kept() -> None:
+    """A dent is healed, a step of the design beside it is kept, and of the calm rest there is nothing to tell."""
+    plane, F = grid(60)
+    x, y = plane.T
+    V = np.column_stack([plane, 0.2 * (1 - (x - 0.5)**2 - (y - 0.5)**2) + 0.01 * np.tanh((x - 0.75) / 0.02)
+                         - 0.0013 * np.exp(-((x - 0.3)**2 + (y - 0.5)**2) / 0.03**2)])
+    told = reflines.smooth_panel(V, F, view_direction=PANEL_VIEW, line_direction=PANEL_LINE)[1]
+    at, area = plane[F].mean(axis=1), 0.5 / 3600
+    from_dent = np.hypot(at[:, 0] - 0.3, at[:, 1] - 0.5)
+    assert told.verdict[from_dent < 0.02].min() > 0.95 and told.verdict[abs(at[:, 0] - 0.75) < 0.02].max() < -0.95
+    assert np.abs(told.verdict[(from_dent > 0.2) & (at[:, 0] < 0.45)]).max() < 0.05
+    assert area * told.verdict.clip(0).sum() == pytest.approx(told.healed.area, abs=0.01)
+    kept = reflines.smooth_panel(V, F, strength=0.0, view_direction=PANEL_VIEW, line_direction=PANEL_LINE)[1].verdict
+    assert kept.max() <= 0 and kept.min() == told.verdict.min()
+
+
 def test_the_report_tells_of_the_region_and_where_the_lines_stray(bonnet: tuple[np.ndarray, np.ndarray]) -> None:
     V, F = bonnet
     positions, report = press(flaw_of("noise", V), F)

@@ -1,7 +1,7 @@
 """Every mode, eye and scope of the stripes in a real window: pixels against theta or the formula of the mode."""
 import sys
 from collections.abc import Callable, Generator
-from math import pi
+from math import exp, pi, tanh
 
 import bpy
 import numpy as np
@@ -286,6 +286,44 @@ def test_residual_map(driver: window.Window) -> Steps:
     Sample(picture[pixel[:, 1], pixel[:, 0]], np.ones((len(share), 3)), before).agree(light, share=0.99, spread=0.1)
 
 
+def dented_beside_a_line(x: float, y: float) -> float:
+    """A crowned panel with a dent on its left half and a character line on its right one."""
+    return (-0.15 * x * x - 0.1 * y * y - 0.003 * exp(-((x + 0.4)**2 + y * y) / 0.008)
+            + 0.02 * tanh((x - 0.5) / 0.05))
+
+
+def test_verdict_map(driver: window.Window) -> Steps:
+    """The dent is drawn as healed and the line as kept; after another tool nothing is drawn, and it is said why."""
+    cells, shown_objects = 64, sys.modules["reflection_lines"].overlay.shown_objects
+    fresh_panel(driver, "Before").hide_set(True)
+    with driver.override():
+        ob = scenes.panel("Verdict", height=dented_beside_a_line, cells=cells)
+    prepare(driver, ob)
+    with driver.override():
+        scenes.edit_inner(ob, cells)
+        scenes.smooth()
+        scenes.object_mode()
+    stripes().mode = 'VERDICT'
+    picture = yield from captured(driver)
+    yield from window.take_picture(driver, "verdict")
+    patch, verdict = (lambda last: (last.patch, last.verdict))(
+        sys.modules["reflection_lines"].state.solve_history.find_last_solve("Verdict"))
+    pixel, triangle, _ = samples(driver, scenes.world(ob)[patch.index], patch.F)
+    stripe_arrays = sys.modules["reflection_lines"].overlay.stripes
+    light = stripe_arrays.compute_ramp(0.5 + 0.5 * verdict[triangle], stripe_arrays.VERDICT_RAMP)[:, 1]
+    Sample(picture[pixel[:, 1], pixel[:, 0]], np.ones((len(triangle), 3)), scenes.world(ob)).agree(
+        light, share=0.98, spread=0.1)
+    x, y = patch.V[patch.F].mean(axis=1)[:, :2].T
+    assert verdict[np.hypot(x + 0.4, y) < 0.05].min() > 0.9 and verdict[abs(x - 0.5) < 0.03].max() < -0.9
+    with driver.override():
+        scenes.edit_inner(ob, cells)
+        scenes.smooth(length=1.0)
+        scenes.object_mode()
+    yield from captured(driver)
+    with driver.override():
+        assert "press Smooth Lines" in shown_objects.explain_solve(stripes(), [ob])
+
+
 def test_a_map_of_a_changed_mesh_is_not_shown(driver: window.Window) -> Steps:
     ob, _, _ = yield from solved_panel(driver, "Changed")
     stripes().mode, stripes().map_range = 'DEVIATION', 0.0
@@ -381,6 +419,6 @@ window.run(test_highlight_lines, test_isophotes, test_environment_image, test_no
            test_this_view_in_perspective, test_a_perspective_camera_point_by_point,
            test_a_frozen_eye_stays_while_the_view_turns, test_edges_are_soft_at_any_zoom, test_only_the_selected_faces,
            test_a_part_has_the_normals_of_the_whole, test_a_collection,
-           test_deviation_map, test_residual_map, test_a_map_of_a_changed_mesh_is_not_shown, test_before_the_last_solve,
-           test_before_and_after_side_by_side,
+           test_deviation_map, test_residual_map, test_verdict_map,
+           test_a_map_of_a_changed_mesh_is_not_shown, test_before_the_last_solve, test_before_and_after_side_by_side,
            test_the_legend_has_units_and_sign, test_a_large_panel_is_drawn_at_once_and_then_better)

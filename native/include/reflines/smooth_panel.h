@@ -105,9 +105,11 @@ struct SmoothPanelReport {
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
   std::vector<double> seen;  // likewise: share of the region's area that its eye sees; 1 along the view
   HealedFlaws healed;        // of a press that was not applied nothing: the worst place after it is that before
-  Vector stray;   // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
-                  // result, radians / length
-  Region region;  // of the shape at the start
+  Vector stray;    // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
+                   // result, radians / length
+  Vector verdict;  // #F or #faces: 1 where flaws were healed, -1 where the surface counts as design and was kept, 0
+                   // where there was nothing to heal; between them by degree
+  Region region;   // of the shape at the start
   bool applied = true;      // false: some light would have become worse, and nothing was moved
   std::vector<Note> notes;  // the most important first: why nothing was moved, or else what the limit holds back
 };

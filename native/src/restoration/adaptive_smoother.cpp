@@ -117,7 +117,8 @@ Vector AdaptiveSmoother::weigh(const Vector& z, double smoothing_length) const {
 }
 
 // Lets what counts as flawed up to a length, by the curvature of heights z (#V), be smoothed up to it from now on.
-void AdaptiveSmoother::take_step(const Vector& z, double smoothing_length, Progress* progress) {
+// Smooths further, where heights z count as flawed up to a length, and returns how far each triangle (#T) does so.
+Vector AdaptiveSmoother::take_step(const Vector& z, double smoothing_length, Progress* progress) {
   if (progress) progress->enter(kSmoothing, "smoothing the lines");
   const Vector flawed = weigh(z, smoothing_length);
   const double most = stiffness(smoothing_length);
@@ -129,6 +130,7 @@ void AdaptiveSmoother::take_step(const Vector& z, double smoothing_length, Progr
   }
   open_ = open_.cwiseMax(flawed);
   factorize(progress);
+  return flawed;
 }
 
 void AdaptiveSmoother::factorize(Progress* progress) {
@@ -146,7 +148,9 @@ Vector AdaptiveSmoother::adapt(const Vector& start, Progress* progress) {
   const BumpRemoval removal = remove_bumps(
       variation_, start, length_, [&](const Vector& z) { return system_.smooth(z); }, progress);
   bumps_ = removal.count;
-  for (const double step : kRules.scale.ladder) take_step(system_.smooth(removal.heights), step * length_, progress);
+  design_ = Vector::Ones(field_.triangle_count());
+  for (const double step : kRules.scale.ladder)
+    design_ -= take_step(system_.smooth(removal.heights), step * length_, progress) / std::size(kRules.scale.ladder);
   return system_.smooth(put_back_held(removal.heights));
 }
 

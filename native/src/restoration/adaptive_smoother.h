@@ -33,6 +33,10 @@ class AdaptiveSmoother {
 
   int bumps() const { return bumps_; }  // that the last call took out
 
+  // Returns how far each triangle (#T) counts as design since the last call of `adapt`, 0 to 1: the share of the
+  // lengths that it was not smoothed up to.
+  const Vector& design() const { return design_; }
+
   PressWork take_work() { return system_.take_work(); }  // since the last call
 
   // Returns other heights (#V) smoothed up to the lengths found last.
@@ -40,7 +44,7 @@ class AdaptiveSmoother {
 
  private:
   EdgeWeights presmoothing_weights() const;
-  void take_step(const Vector& z, double smoothing_length, Progress* progress);
+  Vector take_step(const Vector& z, double smoothing_length, Progress* progress);
   Vector weigh(const Vector& z, double smoothing_length) const;
   double stiffness(double smoothing_length) const;
   double slope_unit() const;
@@ -55,6 +59,7 @@ class AdaptiveSmoother {
   Vector steepness_;        // #T: cos^4 of the angle between normal and view
   EdgeWeights weight_;      // of the lengths found so far
   Vector open_;             // #T: how far each counts as flawed surface, 0 to 1
+  Vector design_;           // #T
   bool further_ = false;    // the last factor is that of smooth_further
   int bumps_ = 0;
 };

@@ -45,21 +45,27 @@ WorsePlace find_worse(const Eigen::MatrixXd& before, const Eigen::MatrixXd& afte
 }
 
 // Sums deviations (#F) up; `area` (#F) is that of the triangles.
-HealedFlaws sum_up(const Vector& before, const Vector& after, const Vector& area) {
-  Vector weight(area.size());
+HealedPlaces sum_up(const Vector& before, const Vector& after, const Vector& area) {
+  Vector share(area.size());
   for (Eigen::Index t = 0; t < area.size(); ++t) {
     const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
-    weight(t) = area(t) * smoothstep(kRules.verdict.seen, kRules.verdict.seen_whole, before(t)) *
-                smoothstep(kRules.verdict.healed, kRules.verdict.healed_whole, gone);
+    share(t) = smoothstep(kRules.verdict.seen, kRules.verdict.seen_whole, before(t)) *
+               smoothstep(kRules.verdict.healed, kRules.verdict.healed_whole, gone);
   }
-  return {weight.sum() / area.sum(), before.maxCoeff(),      after.maxCoeff(),
-          mean_of(before, weight),   mean_of(after, weight), {}};
+  const Vector weight = area.cwiseProduct(share);
+  return {{weight.sum() / area.sum(),
+           before.maxCoeff(),
+           after.maxCoeff(),
+           mean_of(before, weight),
+           mean_of(after, weight),
+           {}},
+          share};
 }
 
 }  // namespace
 
-HealedFlaws measure_healed(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
-                           double length) {
+HealedPlaces measure_healed(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
+                            double length) {
   ShapeOptimizer& optimizer = surface.optimizer();
   const Vector area = optimizer.area();
   const int lights = optimizer.family_count();
@@ -69,8 +75,8 @@ HealedFlaws measure_healed(ControlledSurface& surface, const Vector& before, con
                         kRules.verdict.place_radius * length);
   const Eigen::MatrixXd degrees = around.of_columns(squares).cwiseSqrt();
   const auto at_start = degrees.leftCols(lights), at_end = degrees.rightCols(lights);
-  HealedFlaws result = sum_up(at_start.rowwise().maxCoeff(), at_end.rowwise().maxCoeff(), area);
-  result.worse = find_worse(at_start, at_end, surface);
+  HealedPlaces result = sum_up(at_start.rowwise().maxCoeff(), at_end.rowwise().maxCoeff(), area);
+  result.flaws.worse = find_worse(at_start, at_end, surface);
   return result;
 }
 

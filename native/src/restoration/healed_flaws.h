@@ -7,9 +7,14 @@
 
 namespace reflines {
 
+struct HealedPlaces {
+  HealedFlaws flaws;
+  Vector share;  // #F: how far each triangle counts as healed, 0 to 1
+};
+
 // Compares how far the lines of heights `before` and `after` (#V) a press are from those of the heights `course` (#V);
 // `length` is the size of flaws. See HealedFlaws.
-HealedFlaws measure_healed(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
-                           double length);
+HealedPlaces measure_healed(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
+                            double length);
 
 }  // namespace reflines

@@ -15,7 +15,8 @@ SmoothPanelResult take_region(const JoinedResult& result, const TangentMatch& ma
                               const Vector& turned) {
   SmoothPanelResult own{result.range.apply(result.V, match.frame.z(), move), result.joined.report};
   SmoothPanelReport& report = own.report;
-  report.stray = result.joined.report.stray.head(match.triangles).eval();
+  for (Vector* values : {&report.stray, &report.verdict})  // empty in a result that was not judged
+    *values = values->head(std::min<Eigen::Index>(values->size(), match.triangles)).eval();
   report.region = result.region;
   report.limit = result.limit;
   report.largest_move = report.largest_control_move = move.cwiseAbs().maxCoeff();

@@ -227,7 +227,15 @@ void Restoration::measure_result(const Vector& end) {
   // The course of the lines is that of the shape without flaws, smoothed: what counts as design is in it, and what a
   // limit or the strength leaves of a flaw is not.
   if (!course_) course_ = smooth(shape_);
-  report_.healed = measure_healed(surface_, start_, end, *course_, report_.length);
+  HealedPlaces healed = measure_healed(surface_, start_, end, *course_, report_.length);
+  report_.healed = healed.flaws;
+  report_.verdict = tell_places(healed.share);
+}
+
+// Returns SmoothPanelReport::verdict for shares (#F) by which triangles were healed.
+Vector Restoration::tell_places(const Vector& healed) const {
+  const Vector gone = surface_.gather_faces(healed), kept = surface_.gather_faces(smoother_->design());
+  return gone.array() - (1.0 - gone.array()) * kept.array();
 }
 
 SmoothPanelResult Restoration::judge(const Vector& move) {
@@ -252,7 +260,10 @@ SmoothPanelResult Restoration::apply(const Vector& move) {
 
 SmoothPanelResult Restoration::refuse(const Note& reason) {
   report_.applied = false;
-  if (amount_.judged) report_.stray = measure_start().stray;
+  if (amount_.judged) {
+    report_.stray = measure_start().stray;
+    report_.verdict = tell_places(Vector::Zero(surface_.triangles().rows()));
+  }
   report_.healed = {.worst_before = report_.healed.worst_before, .worst_after = report_.healed.worst_before};
   report_.notes.push_back(reason);
   report_.work = take_work();

@@ -66,6 +66,7 @@ class Restoration {
   bool has_longer_waves();
   double weigh_gain();
   void measure_result(const Vector& end);
+  Vector tell_places(const Vector& healed) const;
   SmoothPanelResult apply(const Vector& move);
   SmoothPanelResult refuse(const Note& reason);
 
