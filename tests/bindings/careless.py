@@ -71,6 +71,8 @@ class Outcome:
     before: tuple[float, ...] = ()  # unevenness of the lights, degrees
     after: tuple[float, ...] = ()
     shift: tuple[float, ...] = ()   # of the lines in the result, degrees
+    healed: float = 0.0             # share of the area
+    worst: tuple[float, float] = (0.0, 0.0)  # deviation of the lines before and after, degrees
 
     @property
     def is_harmless(self) -> bool:
@@ -147,4 +149,10 @@ def press(selection: Selection, **options: object) -> Outcome:
     cosine = (unit_normals(V, F) * unit_normals(positions, F)).sum(axis=1)
     return Outcome(selection.name, len(F), "", float(np.linalg.norm(positions - V, axis=1).max()), told.limit,
                    int((cosine < TURNED).sum()), tuple(told.unevenness_before), tuple(told.unevenness_after),
-                   tuple(score.shift for score in told.score_after))
+                   tuple(score.shift for score in told.score_after), told.healed.area,
+                   (told.healed.worst_before, told.healed.worst_after))
+
+
+@lru_cache
+def press_by_default(selection: Selection) -> Outcome:
+    return press(selection)
