@@ -21,7 +21,7 @@ NAMES = (
     "model.surroundings",
     "model.line_handle", "model.kept_handles", "model.bake_frames", "model.line_run", "model.nearest_line",
     "model.line_surface", "model.patch", "model.cage",
-    "model.solution", "model.surface", "model.triangulation", "model.view", "model.light_set",
+    "model.view", "model.light_set", "model.solution", "model.surface", "model.triangulation",
     "targets.falloff", "targets.crossed", "targets.direction", "targets.fit", "targets.mirror_target",
     "targets.pattern", "targets.smooth", "targets.untwist", "targets.warp", "targets.line_handles",
     "blender.app_handlers", "blender.compat", "blender.units",

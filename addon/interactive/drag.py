@@ -13,6 +13,7 @@ import numpy as np
 
 from ..blender import units
 from ..model.gain import Gain, Healed
+from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -47,6 +48,7 @@ class DraggedOperator(Protocol):
     def choose_automatic(self, name: str, patch: Patch) -> float: ...
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]: ...
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings: ...
+    def read_judges(self, context: bpy.types.Context) -> LightSet | None: ...
     def read_falloff(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Falloff | None: ...
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget: ...
     def choose_press(self) -> AutomaticSmooth | None: ...
@@ -134,6 +136,9 @@ class Drag:
         wanted = [(self.tool.build_target(context, ob, patch), self.tool.read_solve_settings(context.scene))
                   for ob, patch in zip(objects, self.patches, strict=True)]
         builds, settings = zip(*wanted, strict=True)
+        if final:
+            judges = self.tool.read_judges(context)
+            settings = tuple(replace(each, judges=judges) for each in settings)
         self.request = SolveRequest(builds, settings, final, press=self.tool.choose_press())
         falloff = self.tool.read_falloff(context, objects[0], self.patches[0])
         self.circle_points = (falloff_circle.sample_circle(falloff.centre, falloff.radius, self.frame)

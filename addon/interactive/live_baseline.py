@@ -2,7 +2,7 @@
 
 All of it is saved with the file and undone with it, and the shape of the mesh follows from it alone.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import bpy
@@ -16,7 +16,7 @@ from ..read import gather
 from ..solver.live_optimizer import BuildTarget
 from ..targets import crossed, warp
 from ..targets.warp import Warp
-from ..view import facing, view_and_light
+from ..view import facing, read_light_set, view_and_light
 from ..write import live_warp_start, warp_lattice
 
 
@@ -108,6 +108,12 @@ def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
     keeps_crossed = settings.lights == 'CROSSED' and settings.warp.fit != 'VALUE'
     return SolveSettings(settings.border, settings.length, settings.limit,
                          build_crossed=crossed.build_kept_target if keeps_crossed else None)
+
+
+def read_final_settings(scene: bpy.types.Scene) -> SolveSettings:
+    """Reads likewise what the solve of the shape at rest needs, which the scene's set of lights judges."""
+    judges = read_light_set.read_light_set(scene.reflection_lines, [find_subject(scene)])
+    return replace(read_solve_settings(scene), judges=judges)
 
 
 def read_operator_settings(scene: bpy.types.Scene) -> dict[str, str | float]:

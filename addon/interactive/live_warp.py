@@ -83,8 +83,8 @@ class LiveWarp:
         elif self.request.final:
             self.job.progress.cancel()  # a long solve whose result is out of date
         self.solution, self.needs_final = None, False
-        settings = live_baseline.read_solve_settings(scene)
-        self.request = SolveRequest((live_baseline.bind_target(self.warp),), (settings,), final)
+        read_settings = live_baseline.read_final_settings if final else live_baseline.read_solve_settings
+        self.request = SolveRequest((live_baseline.bind_target(self.warp),), (read_settings(scene),), final)
         self.work.submit(self.request)
 
     def advance(self, scene: bpy.types.Scene) -> bool:

@@ -19,13 +19,14 @@ def describe_stroke(before: float, after: float) -> str:
 
 @dataclass(frozen=True)
 class Worse:
-    """The place where a press made lines worse by most, in one of its lights, in world space."""
+    """The place where a solve made lines worse by most, in one light from one view, in world space."""
     light: str           # its name, as in "worse in ..."
     line: tuple[float, float, float]   # direction of its lines
     place: tuple[float, float, float]
     size: float          # of the flaws that were looked for
     before: float        # degrees that lines are off their course there
     after: float
+    eye: tuple[float, float, float] | None = None  # direction to the viewer; None: along the view camera
 
     def describe(self) -> str:
         """Says how much worse lines became, and in which light."""
@@ -38,7 +39,6 @@ class Healed:
     area: float          # share of the region, 0 to 1
     worst_before: float  # degrees that lines are off their course at the worst place
     worst_after: float
-    worse: Worse | None = None
 
     def describe(self) -> str:
         """Says where flaws went, and how far the worst lines were and are off their course."""

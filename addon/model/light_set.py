@@ -1,10 +1,11 @@
 """A set of lights for one press, each with the view that sees it."""
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import native
+from .gain import Worse
 from .patch import Patch
 from .refusal import Refusal
 from .view import View
@@ -26,13 +27,19 @@ class SetLight:
     def find_eye(self, center: np.ndarray) -> np.ndarray:
         """Returns the unit direction to the viewer from a region around this centre; refuses where it shows no lines.
         """
-        eye = np.array(self.eye) - center if self.is_place else np.array(self.eye)
-        eye = eye / max(float(np.linalg.norm(eye)), 1e-300)
-        line = np.array(self.line)
-        if np.linalg.norm(np.cross(eye, line)) < PARALLEL * np.linalg.norm(line):
+        if self.is_parallel(center):
             raise Refusal(f"The light {self.name} of the set is parallel to its view, so it shows no lines: turn one, "
                           "or mute it")
-        return eye
+        return self.look_from(center)
+
+    def look_from(self, center: np.ndarray) -> np.ndarray:
+        eye = np.array(self.eye) - center if self.is_place else np.array(self.eye)
+        return eye / max(float(np.linalg.norm(eye)), 1e-300)
+
+    def is_parallel(self, center: np.ndarray) -> bool:
+        """Returns whether the light shows no lines of a region around this centre."""
+        line = np.array(self.line)
+        return bool(np.linalg.norm(np.cross(self.look_from(center), line)) < PARALLEL * np.linalg.norm(line))
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,9 +74,22 @@ class LightSet:
         return native.reflines.LightSet(np.array([light.line for light in self.lights]), eyes,
                                         weight=[light.weight for light in self.lights], blockers=beside)
 
-    def name_light(self, index: int) -> tuple[str, Direction]:
-        """Returns the name of a light and the direction of its lines."""
-        return self.lights[index].name, self.lights[index].line
+    def leave_parallel(self, center: np.ndarray) -> "LightSet | None":
+        """Returns the set without the lights that show no lines of a region around this centre; None where none is
+        left.
+        """
+        lights = tuple(light for light in self.lights if not light.is_parallel(center))
+        return replace(self, lights=lights) if lights else None
+
+    def tell_worse(self, worse: "native.WorsePlace", center: np.ndarray, size: float) -> Worse | None:
+        """Tells of the place that became worse in a light of the set, seen from a region around this centre; None where
+        there is none.
+        """
+        if worse.light < 0:
+            return None
+        light = self.lights[worse.light]
+        return Worse(light.name, light.line, tuple(worse.place.tolist()), size, worse.before, worse.after,
+                     tuple(light.look_from(center).tolist()))
 
     def describe(self, seen: Sequence[float], before: Sequence[float], after: Sequence[float], *,
                  applied: bool) -> tuple[str, ...]:

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
-from .gain import Healed
+from .gain import Healed, Worse
+from .light_set import LightSet
 from .patch import Patch
 
 
@@ -21,6 +22,7 @@ class SolveSettings:
     limit_length: float = 0.0  # the length that an automatic limit is a share of; 0: the patch's diagonal
     explains_share: bool = True  # whether a small share of the target that was reached is worth a word
     build_crossed: BuildCrossed | None = None  # of the lines that cross the wanted ones; None leaves them to themselves
+    judges: LightSet | None = None  # lights that take no part, but tell what became worse in them
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,7 @@ class Solution:
     automatic_limit: float = 0.0  # what the limit 0 stood for, world units; 0 where it is not known
     kept: tuple[str, ...] = ()  # what of the region was left as it is, and why
     healed: Healed | None = None  # by an automatic press of Smooth
+    worse: Worse | None = None    # what became worse, in the lights of the press or of the scene's set
     fit: str = ""  # how far a cage that was fitted is from the other mesh
     longer_waves: bool = False  # that may be flaws, too, were left by it
     verdict: np.ndarray | None = None  # #F, by it: 1 where flaws were healed, -1 where the surface was kept as design

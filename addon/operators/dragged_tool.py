@@ -91,6 +91,7 @@ class DraggedTool(SolveTool):
         in_view = context.area is not None and context.area.type == 'VIEW_3D'
         if not in_view or not self.follow_mouse and not takes_long(context):
             return self.execute(context)
+        self.known_set = ()
         context.view_layer.update()
         self.copy_settings(context.scene)
         try:

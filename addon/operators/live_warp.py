@@ -59,7 +59,7 @@ class LiveWarpEnd:
             return live.solution
         wanted, baseline = live_baseline.read_warp(scene), live_baseline.read_baseline(scene, ob)
         live_warp_handlers.end_live_warp(scene)
-        settings = live_baseline.read_solve_settings(scene)
+        settings = live_baseline.read_final_settings(scene)
         solution = optimizer_cache.solve_with_cache(baseline.patch, baseline.view, settings,
                                                     live_baseline.bind_target(wanted))
         optimizer_cache.drop_surplus({ob.name})

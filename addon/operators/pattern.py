@@ -35,6 +35,9 @@ What no surface can show is left over: see the colour map of the residual"""
         return (Handle("strength", "Strength", per_pixel=1e-3, low=-pi, high=pi, unit='ANGLE'),
                 Handle("angle", "Rotation", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE'))
 
+    def read_judges(self, _context: bpy.types.Context) -> None:
+        """Returns none: an image wants lines that are not even."""
+
     def keeps_crossed(self) -> bool:
         """Returns false: one light draws an image, and much less of it is reached where crossed lines are kept."""
         return False

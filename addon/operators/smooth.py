@@ -23,7 +23,7 @@ from ..targets import smooth
 from ..targets.smooth import Smooth
 from ..ui import automatic_values
 from ..ui.tool_properties import SmoothSettings
-from ..view import facing, read_light_set
+from ..view import facing
 from .dragged_tool import DraggedTool
 
 BESIDE_STRAIGHT = 0.01  # weight of crossed lines; see native/include/reflines/kept_target.h
@@ -85,7 +85,11 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         return not self.length and not self.directional
 
     def choose_press(self) -> AutomaticSmooth | None:
-        return replace(self.choose_settings(), light_set=self.read_lights()) if self.is_automatic() else None
+        if not self.is_automatic():
+            return None
+        chosen = self.read_lights()
+        judges = self.read_judges(bpy.context) if chosen is None else None  # those of a press judge it already
+        return replace(self.choose_settings(), light_set=chosen, judges=judges)
 
     def choose_settings(self) -> AutomaticSmooth:
         lights = "single" if self.lights == 'SINGLE' else "crossed"
@@ -96,8 +100,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         """Reads the set of lights; None where another choice is made, or none of them can be used."""
         if self.lights != 'SET':
             return None
-        context = bpy.context
-        return read_light_set.read_light_set(context.scene.reflection_lines, self.find_subjects(context))
+        return self.read_set(bpy.context)
 
     def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
         """Returns what is wrong with the set of lights, where it is asked for."""

@@ -1,11 +1,13 @@
 """The base of operators that solve: when they can run, gathering, applying, and reporting to the artist."""
 from collections.abc import Sequence
+from dataclasses import replace
 
 import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
 from ..model.beside import Crossing
+from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -16,7 +18,7 @@ from ..solver.live_optimizer import BuildTarget
 from ..state import optimizer_cache, press_cache, solve_history
 from ..ui.properties import result_property, solve_for_property
 from ..ui.tool_properties import border_property
-from ..view import facing, view_and_light
+from ..view import facing, read_light_set, view_and_light
 from ..write import write_mesh
 
 # Settings of the scene for all tools that have none of their own.
@@ -43,6 +45,7 @@ class SolveTool:
 
     # Whether the buttons are grey where there are no faces to work on. A press in the view would go unheard then.
     needs_faces = True
+    known_set: tuple[LightSet | None, ...] = ()  # once it was read
 
     border: border_property()
     solve_for: solve_for_property(options={'SKIP_SAVE'})
@@ -89,6 +92,7 @@ class SolveTool:
         return name != "solve_for" or (ob is not None and ob.type == 'MESH' and ob.reflection_lines.is_cage())
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        self.known_set = ()
         context.view_layer.update()  # scripts may have set transforms that are not evaluated yet
         self.copy_settings(context.scene)
         subjects = []
@@ -143,9 +147,20 @@ class SolveTool:
 
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         build = self.build_target(context, ob, patch)
-        settings = self.read_solve_settings(context.scene)
+        settings = replace(self.read_solve_settings(context.scene), judges=self.read_judges(context))
         seen = facing.read_patch_view(context.scene, patch)
         return optimizer_cache.solve_with_cache(patch, seen, settings, build)
+
+    def read_judges(self, context: bpy.types.Context) -> LightSet | None:
+        """Returns the scene's set of lights, which judges what the tool makes; None where there is none."""
+        return self.read_set(context)
+
+    def read_set(self, context: bpy.types.Context) -> LightSet | None:
+        """Returns the scene's set of lights, read once in a run or drag: what may hide a panel is all of its mesh."""
+        if not self.known_set:
+            found = read_light_set.read_light_set(context.scene.reflection_lines, self.find_subjects(context))
+            self.known_set = (found,)
+        return self.known_set[0]
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
         return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), reach=self.choose_reach(),

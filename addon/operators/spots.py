@@ -1,4 +1,6 @@
 """The operator Next Spot, which shows the worst spots of an inspection."""
+from math import radians
+
 import bpy
 from bpy.props import IntProperty
 from mathutils import Vector
@@ -8,6 +10,7 @@ from ..view import light_angles
 from ..write import select_faces
 
 FRAMED = 5.0  # sizes of the spot that the view shows
+ELSEWHERE = radians(2.0)  # from the view camera's direction
 
 
 def has_spots(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
@@ -38,15 +41,28 @@ def look_at_spot(context: bpy.types.Context, ob: bpy.types.Object, spot: bpy.typ
     region_3d = getattr(context.space_data, "region_3d", None)
     if region_3d is not None:
         frame_spot(region_3d, camera, spot)
+        if is_seen_from_elsewhere(camera, spot):
+            settings.stripes.eye = 'VIEWPORT'
+
+
+def is_seen_from_elsewhere(camera: bpy.types.Object | None, spot: bpy.types.PropertyGroup) -> bool:
+    """Returns whether a spot shows from another direction than the view camera's."""
+    if camera is None or not any(spot.eye):
+        return False
+    return (camera.matrix_world.to_quaternion() @ Vector((0.0, 0.0, 1.0))).angle(spot.eye) > ELSEWHERE
 
 
 def frame_spot(region_3d: bpy.types.RegionView3D, camera: bpy.types.Object | None, spot: bpy.types.PropertyGroup,
                ) -> None:
-    """Looks at a spot in the direction of the view camera, for which the stripes are drawn."""
+    """Looks at a spot in the direction of the view camera, for which the stripes are drawn, or from where it shows."""
     if region_3d.view_perspective == 'CAMERA':
         region_3d.view_perspective = 'ORTHO'
     if camera is not None:
-        region_3d.view_rotation = camera.matrix_world.to_quaternion()
+        rotation = camera.matrix_world.to_quaternion()
+        if is_seen_from_elsewhere(camera, spot):
+            region_3d.view_perspective = 'ORTHO'
+            rotation = (rotation @ Vector((0.0, 0.0, 1.0))).rotation_difference(spot.eye) @ rotation
+        region_3d.view_rotation = rotation
     region_3d.view_location = spot.find_place().tolist()
     region_3d.view_distance = FRAMED * spot.size
 
@@ -84,8 +100,8 @@ are selected"""
 
 
 class REFLINES_OT_show_worse(bpy.types.Operator):
-    """Look at the place that the last press made worse: the view frames it, the light turns to the one in which it is
-worse, and its faces are selected"""
+    """Look at the place that the last run made worse: the view frames it from where it shows, the light turns to the
+one in which it is worse, and its faces are selected"""
     bl_idname = "reflines.show_worse"
     bl_label = "Show Worse Place"
     bl_options = {'REGISTER', 'UNDO'}
@@ -93,7 +109,7 @@ worse, and its faces are selected"""
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         ob = scene_objects.read_active_object(context)
-        cls.poll_message_set("Make a panel active on which a press of Smooth Lines made a place worse")
+        cls.poll_message_set("Make a panel active on which a tool made a place worse")
         return ob is not None and ob.type == 'MESH' and ob.reflection_lines.report.worse != ""
 
     def execute(self, context: bpy.types.Context) -> set[str]:

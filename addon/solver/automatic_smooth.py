@@ -29,12 +29,18 @@ class AutomaticSmooth:
     flaw_size: float = 1.0      # of the automatic length
     fair_border: bool = False   # the border moves, too; see native/include/reflines/smooth_panel.h
     light_set: LightSet | None = None  # takes the place of `lights`
+    judges: LightSet | None = None     # lights that take no part, but tell what became worse in them
 
     def choose_flaws(self, patch: Patch) -> dict[str, "str | bool | float | native.LightSet | None"]:
         """Returns what tells flaws from design, as arguments of the native smoother of a patch."""
         light_set = None if self.light_set is None else self.light_set.build_argument(patch)
+        judges = self.find_judges(patch)
         return {"lights": self.lights, "light_set": light_set, "symmetric": self.symmetric,
-                "flaw_size": self.flaw_size}
+                "judges": None if judges is None else judges.build_argument(patch), "flaw_size": self.flaw_size}
+
+    def find_judges(self, patch: Patch) -> LightSet | None:
+        """Returns the lights that judge a patch: those that show lines."""
+        return None if self.judges is None else self.judges.leave_parallel(patch.center)
 
     def choose_reach(self) -> float:
         """Returns how far beside the region faces are needed, in diagonals of the region."""
@@ -116,19 +122,26 @@ def build_solution(formulation: Formulation, positions: np.ndarray, told: "nativ
                     automatic_limit=0.0 if settings.limit else told.limit, cage_move=press.cage_move,
                     turn_before=turns[0], turn_after=turns[1],
                     kept=(*remarks.describe_marked_creases(patch), *word_notes(notes)),
-                    healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after,
-                                  find_worse(formulation.view, settings.light_set, told)),
-                    longer_waves=told.longer_waves, verdict=press.verdict)
+                    healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after),
+                    worse=find_worse(formulation, settings, told), longer_waves=told.longer_waves,
+                    verdict=press.verdict)
 
 
-def find_worse(seen: View, light_set: LightSet | None, told: "native.SmoothPanelReport") -> Worse | None:
-    """Finds the place that a press made worse, with the light that shows it; None where there is none."""
-    worse = told.healed.worse
-    if worse.light < 0:
-        return None
-    crossed = ("the crossed light" if worse.light else "the light", tuple(seen.both_directions[worse.light].tolist()))
-    name, line = crossed if light_set is None else light_set.name_light(worse.light)
-    return Worse(name, line, tuple(worse.place.tolist()), told.length, worse.before, worse.after)
+def find_worse(formulation: Formulation, settings: AutomaticSmooth,
+               told: "native.SmoothPanelReport") -> Worse | None:
+    """Finds the place that a press made worse by most, in its own lights or those that judge it; None where there is
+    none.
+    """
+    worse, length, judges = told.healed.worse, told.length, settings.find_judges(formulation.patch)
+    center = formulation.patch.center
+    if settings.light_set is not None:
+        return settings.light_set.tell_worse(worse, center, length)
+    own = (None if worse.light < 0 else
+           Worse("the crossed light" if worse.light else "the light",
+                 tuple(formulation.view.both_directions[worse.light].tolist()), tuple(worse.place.tolist()), length,
+                 worse.before, worse.after))
+    elsewhere = None if judges is None else judges.tell_worse(told.healed.worse_for_judges, center, length)
+    return max(filter(None, (own, elsewhere)), key=lambda each: each.after - each.before, default=None)
 
 
 def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:

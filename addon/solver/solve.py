@@ -2,6 +2,8 @@
 import numpy as np
 
 from .. import native
+from ..model.gain import Worse
+from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.solution import LastSolve, Solution, SolveReport, SolveSettings
 from ..native_call import call
@@ -46,6 +48,7 @@ async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: 
     limit, formulation = choose_limit(live.patch, settings), choose_formulation(live.patch, live.view)
     told = await call(native.reflines.solve_panel, optimizer, wanted.targets, length=length, limit=limit,
                       limit_share=await choose_shares(live), around=choose_rim(live, formulation), progress=progress)
+    worse = await judge(live, settings.judges, progress)
     left = told.residual_after if wanted.is_plain else await wanted.measure(optimizer)
     lacking = told.residual_before if wanted.is_plain else lacking
     report = build_report(told)
@@ -62,8 +65,20 @@ async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: 
                      *remarks.describe_turned_faces(told.turned_faces)),
                     choose_length(live.patch, 0.0), choose_remedy(live.border, short=short, bent=bend > 0.0),
                     formulation.measure_cage_move(optimizer), automatic_limit=0.0 if settings.limit else limit,
-                    turn_before=told.score_before.turn, turn_after=told.score_after.turn,
+                    turn_before=told.score_before.turn, turn_after=told.score_after.turn, worse=worse,
                     kept=(*word_notes(optimizer.region.notes), *remarks.describe_held_faces(told.held_faces)))
+
+
+async def judge(live: LiveOptimizer, judges: LightSet | None, progress: "native.Progress | None") -> Worse | None:
+    """Finds what the last solve made worse in lights that took no part; None where there is nothing, or no such light.
+    """
+    shown = None if judges is None else judges.leave_parallel(live.patch.center)
+    if shown is None:
+        return None
+    length = choose_length(live.patch, 0.0)
+    found = await call(native.reflines.judge_solve, live.optimizer, lights=shown.build_argument(live.patch),
+                       length=length, progress=progress)
+    return shown.tell_worse(found, live.patch.center, length)
 
 
 def build_report(told: "native.SolvePanelReport") -> SolveReport:

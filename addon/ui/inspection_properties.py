@@ -18,11 +18,14 @@ class ReflinesSpot(bpy.types.PropertyGroup):
     view: StringProperty(name="View")
     light: IntProperty(name="Light")
     line: FloatVectorProperty(name="Light Direction", subtype='XYZ')
+    eye: FloatVectorProperty(name="Seen From", subtype='XYZ', description="Direction to the viewer; 0: along the view "
+                             "camera")
 
     def keep_worse(self, worse: Worse) -> None:
-        """Keeps the place that a press made worse; what flaw is there is not known."""
+        """Keeps the place that a solve made worse; what flaw is there is not known."""
         self.place = self.id_data.matrix_world.inverted() @ Vector(worse.place)
         self.size, self.degrees, self.height, self.view, self.line = worse.size, worse.after, 0.0, "", worse.line
+        self.eye = worse.eye or (0.0, 0.0, 0.0)
 
     def find_place(self) -> np.ndarray:
         """Returns the place in world space."""

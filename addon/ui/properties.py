@@ -114,7 +114,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
         if healed is not None:
             self.healed_area, self.worst_before, self.worst_after = (healed.area, healed.worst_before,
                                                                      healed.worst_after)
-        worse = healed.worse if healed is not None else None
+        worse = solution.worse
         self.worse = worse.describe() if worse is not None else ""
         if worse is not None:
             self.worse_spot.keep_worse(worse)

@@ -8,10 +8,12 @@
 
 #include "python/array_arguments.h"
 #include "python/bind.h"
+#include "python/exclusive_use.h"
 #include "python/eyes.h"
 #include "python/index_arrays.h"
 #include "python/native_call.h"
 #include "reflines/errors.h"
+#include "reflines/judge_change.h"
 
 namespace py = pybind11;
 
@@ -34,6 +36,19 @@ py::object inspect(const Positions& V, const Indices& F, const Positions& views,
   options.progress = std::move(progress);
   const Triangles triangles = triangles_of(F);
   return run_native([=] { return inspect_panel(V, triangles, views, lines, options); });
+}
+
+py::object judge(const Positions& before, const Positions& after, const Indices& F, const Vector3& view_direction,
+                 const LightSet& lights, double length, const std::shared_ptr<Progress>& progress) {
+  const Triangles triangles = triangles_of(F);
+  return run_native([=] { return judge_change(before, after, triangles, view_direction, lights, length, progress); });
+}
+
+py::object judge_solve(const ShapeOptimizer& optimizer, const LightSet& lights, double length,
+                       const std::shared_ptr<Progress>& progress) {
+  return call_native(optimizer, ExclusiveUse::Use::kReads, [&optimizer, lights, length, progress] {
+    return judge_change(optimizer, lights, length, progress);
+  });
 }
 
 }  // namespace
@@ -66,6 +81,10 @@ void bind_inspect_panel(py::module_& module) {
              py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
              py::arg("noise_floor") = defaults.noise_floor, py::arg("most_spots") = defaults.most_spots,
              py::arg("maps") = defaults.keep_maps, py::arg("blockers") = py::none(), py::arg("progress") = py::none());
+  module.def("judge_change", &judge, py::arg("before"), py::arg("after"), py::arg("F"), py::kw_only(),
+             py::arg("view_direction"), py::arg("lights"), py::arg("length"), py::arg("progress") = py::none());
+  module.def("judge_solve", &judge_solve, py::arg("optimizer"), py::kw_only(), py::arg("lights"), py::arg("length"),
+             py::arg("progress") = py::none());
   module.def(
       "walk_around",
       [](const Vector3& view, const Vector3& line, const Vector3& up) {

@@ -26,11 +26,11 @@ JointPanel make_panel(const Positions& V, const Indices& F, const Vector3& view_
                       const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
                       const std::optional<Indices>& partner, const Around& around,
                       const std::optional<Indices>& face_of_triangle, const std::string& lights,
-                      const std::optional<LightSet>& set, const std::optional<double>& length, double flaw_size,
-                      bool symmetric, const Around& beside, const std::optional<double>& gap,
-                      const std::optional<double>& reach) {
+                      const std::optional<LightSet>& set, const std::optional<LightSet>& judges,
+                      const std::optional<double>& length, double flaw_size, bool symmetric, const Around& beside,
+                      const std::optional<double>& gap, const std::optional<double>& reach) {
   JointPanel panel{V, triangles_of(F), view_direction, line_direction,
-                   options_of(lights, set, length, flaw_size, symmetric)};
+                   options_of(lights, set, judges, length, flaw_size, symmetric)};
   panel.options.border = border_codes(border, V.rows());
   if (fixed) panel.options.held = *fixed;
   if (partner) panel.options.partner = index_vector(*partner);
@@ -75,9 +75,10 @@ void bind_joint_smoother(py::module_& module) {
       .def(py::init(&make_panel), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
            py::arg("line_direction"), py::arg("border") = "follow", py::arg("fixed") = py::none(),
            py::arg("partner") = py::none(), py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
-           py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("length") = py::none(),
-           py::arg("flaw_size") = defaults.flaw_size, py::arg("symmetric") = defaults.symmetric,
-           py::arg("beside") = py::none(), py::arg("gap") = py::none(), py::arg("reach") = py::none());
+           py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("judges") = py::none(),
+           py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
+           py::arg("symmetric") = defaults.symmetric, py::arg("beside") = py::none(), py::arg("gap") = py::none(),
+           py::arg("reach") = py::none());
   py::class_<JointSmoother>(module, "JointSmoother", py::module_local())
       .def(py::init(construct(&prepare_smoother)), py::arg("panels"))
       .def_static("create", create(&prepare_smoother), py::arg("panels"))

@@ -27,10 +27,12 @@ PressAmount amount_of(double strength, const std::optional<double>& limit, const
 }
 
 SmoothPanelOptions options_of(const std::string& lights, const std::optional<LightSet>& set,
-                              const std::optional<double>& length, double flaw_size, bool symmetric) {
+                              const std::optional<LightSet>& judges, const std::optional<double>& length,
+                              double flaw_size, bool symmetric) {
   SmoothPanelOptions options;
   options.lights = find_named(kLights, lights, "choice of lights");
   if (set) options.set = *set;
+  if (judges) options.judges = *judges;
   options.length = given(length, "The length");
   options.flaw_size = flaw_size;
   options.symmetric = symmetric;

@@ -20,6 +20,7 @@ PressAmount amount_of(double strength, const std::optional<double>& limit, const
                       std::shared_ptr<Progress> progress);
 
 SmoothPanelOptions options_of(const std::string& lights, const std::optional<LightSet>& set,
-                              const std::optional<double>& length, double flaw_size, bool symmetric);
+                              const std::optional<LightSet>& judges, const std::optional<double>& length,
+                              double flaw_size, bool symmetric);
 
 }  // namespace reflines

@@ -220,6 +220,7 @@ class HealedFlaws:
     mean_before: float   # likewise, root mean square over the healed area
     mean_after: float
     worse: WorsePlace
+    worse_for_judges: WorsePlace  # likewise among the judges, lights with eyes that take no part in the press
 
 class PressWork:
     """The work of a press, whose time it is: that of its smoother and its solves together."""
@@ -270,13 +271,13 @@ class PanelSmoother:
                  border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                  around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
                  fair_border: np.ndarray | None = None, lights: Literal["crossed", "single"] = "crossed",
-                 light_set: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> None: ...
+                 light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> None: ...
     @staticmethod
     def create(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
                fair_border: np.ndarray | None = None, lights: Literal["crossed", "single"] = "crossed",
-               light_set: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother:
+               light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother:
         """Builds one as the constructor does; `start` runs it in the background."""
     @staticmethod
     def create_for_cage(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
@@ -286,7 +287,7 @@ class PanelSmoother:
                         image_of: np.ndarray | None = None, level: int = 2, scheme: Scheme = "catmull_clark",
                         boundary: Boundary = "all", creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                         corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit_surface: bool = True,
-                        lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, length: float | None = None,
+                        lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None,
                         flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother: ...
     def press(self, *, strength: float = 1.0, limit: float | None = None, limit_share: np.ndarray | None = None,
               progress: Progress | None = None, judged: bool = True) -> tuple[np.ndarray, SmoothPanelReport]:
@@ -329,7 +330,7 @@ class JointPanel:
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                  border: Border | np.ndarray = "follow", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                  around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
-                 lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None,
+                 lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, judges: LightSet | None = None,
                  length: float | None = None, flaw_size: float = 1.0,
                  symmetric: bool = True, beside: tuple[np.ndarray, np.ndarray] | None = None, gap: float | None = None,
                  reach: float | None = None) -> None: ...
@@ -358,6 +359,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  fair_border: np.ndarray | None = None,             # #V bool: border vertices that move, too, see below
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
                  light_set: LightSet | None = None,                 # takes the place of these and of line_direction
+                 judges: LightSet | None = None,                    # take no part; see HealedFlaws.worse_for_judges
                  length: float | None = None,                       # size of the flaws; None: the diagonal / 14 times flaw_size
                  flaw_size: float = 1.0,
                  strength: float = 1.0,                             # share of the move that is made, 0 to 1
@@ -386,7 +388,7 @@ def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np
                       boundary: Boundary = "all", creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
                       corners: np.ndarray = ..., corner_sharpness: np.ndarray = ...,
                       limit_surface: bool = True,          # Subdivision's `limit`
-                      lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, length: float | None = None,
+                      lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None,
                       flaw_size: float = 1.0, strength: float = 1.0,
                       limit: float | None = None,          # largest move along the view, of the cage and so of its surface
                       limit_share: np.ndarray | None = None,  # #V x 2, of the cage
@@ -495,6 +497,14 @@ def inspect_panel(V: np.ndarray, F: np.ndarray, views: np.ndarray, lines: np.nda
     the first the panel is a height field) in light lines of the directions `lines` (#lights x 3), and where its worst places are.
     Nothing is solved or moved. Triangles that are hidden from a view or seen at a grazing angle have no weight there. Raises
     InvalidInput, SolverFailure, Cancelled."""
+
+def judge_change(before: np.ndarray, after: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], lights: LightSet,
+                 length: float, progress: Progress | None = None) -> WorsePlace:
+    """Finds where lines of the panel F (#F x 3) became worse by most in one of the lights, each with an eye, between positions
+    (#V x 3) that differ along the view: see native/include/reflines/judge_change.h. Raises InvalidInput, SolverFailure, Cancelled."""
+
+def judge_solve(optimizer: ShapeOptimizer, *, lights: LightSet, length: float, progress: Progress | None = None) -> WorsePlace:
+    """Judges likewise what an optimizer's solves have changed."""
 
 def walk_around(view_direction: Sequence[float], line_direction: Sequence[float],
                 up: Sequence[float] = ...) -> tuple[np.ndarray, np.ndarray]:

@@ -28,8 +28,9 @@ BuildSmoother prepare_smoother(const Positions& V, const Indices& F, const Vecto
                                const std::optional<Indices>& partner, const Around& around,
                                const std::optional<Indices>& face_of_triangle, const std::optional<Mask>& fair_border,
                                const std::string& lights, const std::optional<LightSet>& set,
-                               const std::optional<double>& length, double flaw_size, bool symmetric) {
-  SmoothPanelOptions options = options_of(lights, set, length, flaw_size, symmetric);
+                               const std::optional<LightSet>& judges, const std::optional<double>& length,
+                               double flaw_size, bool symmetric) {
+  SmoothPanelOptions options = options_of(lights, set, judges, length, flaw_size, symmetric);
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
   if (partner) options.partner = index_vector(*partner);
@@ -49,14 +50,14 @@ BuildSmoother prepare_cage_smoother(const Positions& V, const Indices& face_offs
                                     const std::string& boundary, const Indices& creases,
                                     const Numbers& crease_sharpness, const Indices& corners,
                                     const Numbers& corner_sharpness, bool limit_surface, const std::string& lights,
-                                    const std::optional<LightSet>& set, const std::optional<double>& length,
-                                    double flaw_size, bool symmetric) {
+                                    const std::optional<LightSet>& set, const std::optional<LightSet>& judges,
+                                    const std::optional<double>& length, double flaw_size, bool symmetric) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
   CageOptions cage_options = cage_options_of(region, border, V.rows(), fixed, partner);
   if (image_of) cage_options.image_of = index_vector(*image_of);
   cage_options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
-  return [=, options = options_of(lights, set, length, flaw_size, symmetric)] {
+  return [=, options = options_of(lights, set, judges, length, flaw_size, symmetric)] {
     return std::make_unique<PanelSmoother>(cage, V, view_direction, line_direction, cage_options, options);
   };
 }
@@ -98,7 +99,8 @@ void bind_press_report(py::module_& module) {
       .def_readonly("worst_after", &HealedFlaws::worst_after)
       .def_readonly("mean_before", &HealedFlaws::mean_before)
       .def_readonly("mean_after", &HealedFlaws::mean_after)
-      .def_readonly("worse", &HealedFlaws::worse);
+      .def_readonly("worse", &HealedFlaws::worse)
+      .def_readonly("worse_for_judges", &HealedFlaws::worse_for_judges);
   py::class_<PressWork>(module, "PressWork", py::module_local())
       .def_readonly("factorizations", &PressWork::factorizations)
       .def_readonly("solves", &PressWork::solves);
@@ -146,7 +148,7 @@ void bind_smooth_panel(py::module_& module) {
            py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
            py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
            py::arg("fair_border") = py::none(), py::arg("lights") = "crossed", py::arg("light_set") = py::none(),
-           py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
+           py::arg("judges") = py::none(), py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
            py::arg("symmetric") = defaults.symmetric);
   };
   const SubdivisionOptions subdivision;
@@ -157,8 +159,9 @@ void bind_smooth_panel(py::module_& module) {
            py::arg("level") = subdivision.level, py::arg("scheme") = "catmull_clark", py::arg("boundary") = "all",
            py::arg("creases") = Indices(), py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
            py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
-           py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("length") = py::none(),
-           py::arg("flaw_size") = defaults.flaw_size, py::arg("symmetric") = defaults.symmetric);
+           py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("judges") = py::none(),
+           py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
+           py::arg("symmetric") = defaults.symmetric);
   };
   define_mesh([&](const auto&... own) {
     smoother.def(py::init(construct(&prepare_smoother)), own...);

@@ -16,6 +16,7 @@ from reflection_lines.solver.automatic_smooth import AutomaticSmooth
 from reflection_lines.state import solve_history
 
 import scenes
+from keying import pull
 
 CELLS = 40
 
@@ -178,9 +179,7 @@ def test_a_light_that_is_parallel_to_its_view_is_refused_by_name() -> None:
 
 
 def test_the_place_that_became_worse_is_told_and_shown() -> None:
-    ob = scenes.panel(height=lambda x, y: scenes.crown(x, y) + 3.0 * (dented(x, y) - scenes.crown(x, y)), cells=60)
-    scenes.look_from_above()
-    scenes.edit_inner(ob, 60)
+    ob = make_deep_dent()
     add_light()
     settings().light_set.find_active().name = "Its light"
     press(limit=0.0008)
@@ -197,6 +196,63 @@ def test_the_place_that_became_worse_is_told_and_shown() -> None:
     assert 0 < sum(face.select for face in ob.data.polygons) < 200
     press(strength=0.0)
     assert not report.worse and not bpy.ops.reflines.show_worse.poll()
+
+
+def look_for_worse(ob: bpy.types.Object, name: str) -> None:
+    """What became worse is said of a light of the set, and the place is looked at from there."""
+    report, worse = ob.reflection_lines.report, ob.reflection_lines.report.worse_spot
+    entry = next(each for each in settings().light_set.entries if each.name == name)
+    assert f"; one place worse in {name}: " in report.headline()
+    assert np.allclose(worse.eye, entry.eye, atol=1e-6) and np.allclose(worse.line, entry.line, atol=1e-6)
+    assert bpy.ops.reflines.show_worse('EXEC_DEFAULT', True) == {'FINISHED'}
+    bpy.context.view_layer.update()
+    assert np.allclose(np.array(settings().light.matrix_world)[:3, 2], entry.line, atol=1e-5)
+
+
+def read_worst_light(ob: bpy.types.Object) -> str:
+    return ob.reflection_lines.report.worse.removeprefix("one place worse in ").split(": ")[0]
+
+
+def leave_to_the_left(entries: bpy.types.bpy_prop_collection) -> None:
+    """Mutes all lights but those that are seen from the panel's left."""
+    for entry in entries:
+        entry.muted = not entry.name.startswith("Its left")
+
+
+def make_deep_dent(cells: int = 60) -> bpy.types.Object:
+    ob = scenes.panel(height=lambda x, y: scenes.crown(x, y) + 3.0 * (dented(x, y) - scenes.crown(x, y)), cells=cells)
+    scenes.look_from_above()
+    scenes.edit_inner(ob, cells)
+    return ob
+
+
+def test_a_press_in_crossed_lights_is_judged_by_the_set() -> None:
+    """A limit leaves an edge round the dent, which is worse from its left than in the press's own lights."""
+    ob = make_deep_dent()
+    leave_to_the_left(walk())
+    assert bpy.ops.reflines.smooth('EXEC_DEFAULT', True, limit=0.0008) == {'FINISHED'}
+    assert read_worst_light(ob).startswith("Its left")
+    look_for_worse(ob, read_worst_light(ob))
+    while len(settings().light_set.entries):
+        bpy.ops.reflines.remove_set_light('EXEC_DEFAULT', True)
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert "one place worse in the" in ob.reflection_lines.report.headline()
+
+
+@pytest.mark.parametrize("kind", ["mesh", "cage", "mirrored"])
+def test_what_another_tool_made_worse_is_told(kind: str) -> None:
+    """A line that is pulled far within a small circle is bent there, and so are those of other lights."""
+    ob = make_panel()
+    leave_to_the_left(walk())
+    along = next(entry for entry in settings().light_set.entries if not entry.muted)
+    settings().light_set.entries.add().name = "Along"  # shows no lines, and so judges nothing
+    settings().light_set.entries[-1].keeps_directions = True
+    settings().light_set.entries[-1].eye = settings().light_set.entries[-1].line = along.eye
+    if kind != "mesh":
+        ob.modifiers.new("Modifier", {"cage": 'SUBSURF', "mirrored": 'MIRROR'}[kind])
+    handle = {"start": (0.3, 0.1, 0.0), "end": (0.3, 0.2, 0.0), "radius": 0.2, "pinned": [], "muted": False}
+    assert pull(handle) == {'FINISHED'}
+    look_for_worse(ob, read_worst_light(ob))
 
 
 def test_the_choice_is_that_of_the_sidebar_and_the_set_is_emptied() -> None:

@@ -85,6 +85,62 @@ def test_the_place_that_became_worse_is_told_with_its_light():
     assert press(V, F, limit=0.1)[1].healed.worse.light == -1
 
 
+def test_lights_that_took_no_part_judge_a_press():
+    """A limit leaves an edge round the dent, which is told with the light that shows it most; the press stays as it is.
+    """
+    V, F = grid(dented(depth=0.004), 60)
+    plain, own = press(V, F, limit=6e-4)
+    positions, report = press(V, F, limit=6e-4, judges=walk())
+    worse = report.healed.worse_for_judges
+    there = F[np.linalg.norm(V[F].mean(1) - worse.place, axis=1) < 0.35 * report.length]
+    assert np.array_equal(plain, positions) and own.healed.worse_for_judges.light == -1
+    assert worse.after - worse.before >= report.healed.worse.after - report.healed.worse.before
+    gains = [measure(positions, there, *pair) - measure(V, there, *pair) for pair in PAIRS]
+    assert gains[worse.light] > 0.9 * max(gains) > 0.5
+    assert press(V, F, limit=0.1, judges=walk())[1].healed.worse_for_judges.light == -1
+
+
+def test_what_a_change_made_worse_is_found_and_what_it_healed_is_not():
+    V, F = grid(clean, 60)
+    bent = V.copy()
+    bent[:, 2] -= 0.001 * np.exp(-((V[:, 0] - 0.3)**2 + V[:, 1]**2) / 0.1**2)
+    judged = {"view_direction": VIEW, "lights": walk(), "length": 0.2}
+    worse = reflines.judge_change(V, bent, F, **judged)
+    there = F[np.linalg.norm(V[F].mean(1) - worse.place, axis=1) < 0.07]
+    assert np.linalg.norm(worse.place[:2] - (0.3, 0.0)) < 0.1 and worse.before < 0.01
+    assert 0.6 < worse.after / measure(bent, there, *PAIRS[worse.light]) < 1.1
+    assert reflines.judge_change(bent, V, F, **judged).light == -1
+    behind = reflines.LightSet([LIGHT], [-VIEW])
+    assert reflines.judge_change(V, bent, F, **{**judged, "lights": behind}).light == -1
+
+
+def test_what_an_optimizer_solved_for_is_judged_as_its_positions_are():
+    V, F = grid(clean, CELLS)
+    optimizer = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LIGHT)
+    target = reflines.smooth(optimizer, length=0.3)
+    target.gradient = target.gradient + np.where(np.linalg.norm(V[F].mean(1)[:, :2], axis=1) < 0.2, 1.0, 0.0)[:, None]
+    optimizer.solve([target])
+    found = reflines.judge_solve(optimizer, lights=walk(), length=0.2)
+    same = reflines.judge_change(V, optimizer.positions, F, view_direction=VIEW, lights=walk(), length=0.2)
+    assert found.light == same.light >= 0 and found.after == pytest.approx(same.after)
+
+
+@pytest.mark.parametrize(("changed", "sentence"), [
+    ({"length": 0.0}, "must be a positive length"), ({"lights": reflines.LightSet([LIGHT])}, "need eye directions"),
+    ({"after": np.zeros((3, 3))}, "one for each vertex"), ({"lights": reflines.LightSet([VIEW], [VIEW])}, "parallel"),
+])
+def test_changes_that_cannot_be_judged_get_a_sentence(changed: dict, sentence: str):
+    V, F = grid(clean, 20)
+    asked = {"before": V, "after": V, "F": F, "view_direction": VIEW, "lights": walk(), "length": 0.2, **changed}
+    with pytest.raises(reflines.InvalidInput, match=sentence):
+        reflines.judge_change(**asked)
+
+
+def test_judges_without_eyes_get_a_sentence():
+    with pytest.raises(reflines.InvalidInput, match="Lights that judge a press need eye directions"):
+        press(*grid(dented(), 20), judges=reflines.LightSet([LIGHT]))
+
+
 def test_an_eye_that_sees_nothing_is_told_of_and_judges_nothing():
     V, F = grid(dented(), CELLS)
     positions, report = press(V, F, reflines.LightSet([LIGHT, LIGHT], [VIEW, -VIEW]))

@@ -48,6 +48,7 @@ struct SmoothPanelOptions {
   Mask fair_border;
   Lights lights = Lights::kCrossed;
   LightSet set;            // or none; where it exists it takes the place of the light lines given and of `lights`
+  LightSet judges;         // or none: lights with eyes that take no part; see HealedFlaws::worse_for_judges
   double length = 0.0;     // size of the flaws, in units of V; 0: kAutomaticLength times the diagonal and flaw_size
   double flaw_size = 1.0;  // see length; above 0
   double strength = 1.0;   // share of the move that is made, 0 to 1
@@ -77,6 +78,7 @@ struct HealedFlaws {
   double worst_before = 0.0, worst_after = 0.0;  // deviation of the worst place of the region
   double mean_before = 0.0, mean_after = 0.0;    // likewise, root mean square over the healed area
   WorsePlace worse;
+  WorsePlace worse_for_judges;  // likewise, among SmoothPanelOptions::judges
 };
 
 // Counts the work of a press, whose time these are: that of its smoother and of its solves together.

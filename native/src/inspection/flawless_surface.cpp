@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "inspection/line_deviation.h"
 #include "inspection/local_surface.h"
 #include "restoration/adaptive_smoother.h"
+#include "restoration/triangle_slopes.h"
 
 namespace reflines {
 namespace {
@@ -46,8 +46,8 @@ FlawlessSurface find_flawless_surface(const HeightField& field, double length, P
   const Vector smoothed = field.z - smooth_by_place(field, length, progress);
   if (progress) progress->enter(kFitting, "fitting the surface around each place");
   const Vector fitted = field.z - fit_local_surface(field, kDisk * length, progress);
-  FlawlessSurface result{find_slopes(field, field.z), smoothed.binaryExpr(fitted, &agree)};
-  const PlaneVectors one = find_slopes(field, smoothed), other = find_slopes(field, fitted);
+  FlawlessSurface result{find_slopes(field.xy, field.F, field.z), smoothed.binaryExpr(fitted, &agree)};
+  const PlaneVectors one = find_slopes(field.xy, field.F, smoothed), other = find_slopes(field.xy, field.F, fitted);
   for (Eigen::Index t = 0; t < one.rows(); ++t) {
     const double share = one.row(t).dot(other.row(t)) / std::max(one.row(t).squaredNorm(), 1e-300);
     result.slopes.row(t) -= std::clamp(share, 0.0, kAtMost) * one.row(t);

@@ -17,9 +17,6 @@ struct LineDeviation {
   Eigen::MatrixXf maps;     // #T x #views #lights, or nothing
 };
 
-// Returns the slopes (#T x 2) of heights z (#V).
-PlaneVectors find_slopes(const HeightField& field, const Vector& z);
-
 // Compares lines pair by pair, so that the memory needed does not grow with the number of lights and views.
 class DeviationSum {
  public:
@@ -34,7 +31,6 @@ class DeviationSum {
 
  private:
   void keep_map(const Eigen::MatrixXd& mean);
-  Vector measure(const Vector3& view, const Vector3& line, const Vector& weight) const;
 
   const HeightField& field_;
   const ImagePlane& frame_;

@@ -9,6 +9,9 @@
 #include "restoration/disk_mean.h"
 #include "restoration/line_evenness.h"
 #include "restoration/press_rules.h"
+#include "restoration/triangle_slopes.h"
+#include "restoration/worse_place.h"
+#include "solver/families.h"
 
 namespace reflines {
 namespace {
@@ -62,10 +65,21 @@ HealedPlaces sum_up(const Vector& before, const Vector& after, const Vector& are
           share};
 }
 
+WorsePlace judge(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
+                 const DiskMean& around, const LightSet& judges) {
+  const ShapeOptimizer& optimizer = surface.optimizer();
+  const Triangles& F = surface.triangles();
+  const Families lights = make_families(surface.positions(), F, optimizer.frame(), judges.line_directions, judges.eyes);
+  const auto slopes = [&](const Vector& z) { return find_slopes(optimizer.xy(), F, z); };
+  const PlaneVectors flawless = slopes(course);
+  return find_worse_place(lights, {slopes(before), flawless, slopes(after), flawless}, around, surface.positions(), F,
+                          kWorsened);
+}
+
 }  // namespace
 
 HealedPlaces measure_healed(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
-                            double length) {
+                            double length, const LightSet& judges) {
   ShapeOptimizer& optimizer = surface.optimizer();
   const Vector area = optimizer.area();
   const int lights = optimizer.family_count();
@@ -77,6 +91,7 @@ HealedPlaces measure_healed(ControlledSurface& surface, const Vector& before, co
   const auto at_start = degrees.leftCols(lights), at_end = degrees.rightCols(lights);
   HealedPlaces result = sum_up(at_start.rowwise().maxCoeff(), at_end.rowwise().maxCoeff(), area);
   result.flaws.worse = find_worse(at_start, at_end, surface);
+  if (judges.exist()) result.flaws.worse_for_judges = judge(surface, before, after, course, around, judges);
   return result;
 }
 

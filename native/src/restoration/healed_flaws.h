@@ -13,8 +13,8 @@ struct HealedPlaces {
 };
 
 // Compares how far the lines of heights `before` and `after` (#V) a press are from those of the heights `course` (#V);
-// `length` is the size of flaws. See HealedFlaws.
+// `length` is the size of flaws, and `judges` are lights that took no part. See HealedFlaws.
 HealedPlaces measure_healed(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,
-                            double length);
+                            double length, const LightSet& judges);
 
 }  // namespace reflines

@@ -63,6 +63,8 @@ void check_press_options(const SmoothPanelOptions& options, Eigen::Index vertex_
   check_mask(options.held, "held", vertex_count);
   check_mask(options.fair_border, "fair border", vertex_count);
   check_set(options.set);
+  const bool blind = options.judges.exist() && !options.judges.eyes.exist();
+  require(!blind, "Lights that judge a press need eye directions; give one for each.");
 }
 
 }  // namespace reflines

@@ -227,7 +227,7 @@ void Restoration::measure_result(const Vector& end) {
   // The course of the lines is that of the shape without flaws, smoothed: what counts as design is in it, and what a
   // limit or the strength leaves of a flaw is not.
   if (!course_) course_ = smooth(shape_);
-  HealedPlaces healed = measure_healed(surface_, start_, end, *course_, report_.length);
+  HealedPlaces healed = measure_healed(surface_, start_, end, *course_, report_.length, options_.judges);
   report_.healed = healed.flaws;
   report_.verdict = tell_places(healed.share);
 }

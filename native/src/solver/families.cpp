@@ -71,11 +71,6 @@ std::vector<Vector> weigh_eyes(const Positions& V, const Triangles& F, const Eye
                                        : weigh_sight(scene.V, scene.F, scene.region, unit));
     eye.push_back(unit);
   }
-  if (std::all_of(result.begin(), result.end(), [](const Vector& sight) { return sight.isZero(0); })) {
-    throw InvalidInput(
-        "No eye direction sees the region: it is turned away from all of them, seen at a grazing angle or hidden; turn "
-        "one of them.");
-  }
   return result;
 }
 
@@ -102,6 +97,11 @@ Families make_families(const Positions& V, const Triangles& F, const ImagePlane&
   result.lines.emplace_back(frame, frame.z(), frame.x());
   if (eyes.exist()) result.sight = weigh_eyes(V, F, eyes);
   return result;
+}
+
+bool see_nothing(const Families& families) {
+  return !families.sight.empty() &&
+         std::all_of(families.sight.begin(), families.sight.end(), [](const Vector& sight) { return sight.isZero(0); });
 }
 
 }  // namespace reflines

@@ -22,8 +22,11 @@ struct Families {
 ImagePlane choose_frame(const Vector3& view_direction, const std::vector<Vector3>& line_directions, const Eyes& eyes);
 
 // Makes the families for a region V (#V x 3), F (#F x 3). Throws InvalidInput for eyes that do not fit, a family whose
-// lines are parallel to its eye, and eyes of which none sees the region.
+// lines are parallel to its eye.
 Families make_families(const Positions& V, const Triangles& F, const ImagePlane& frame,
                        const std::vector<Vector3>& line_directions, const Eyes& eyes);
+
+// Returns whether there are eyes, and none sees the region.
+bool see_nothing(const Families& families);
 
 }  // namespace reflines

@@ -81,6 +81,11 @@ ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vec
   hold_partners(partner_, field);
   if (kind_ == SurfaceKind::kSubdivided) free_unknowns_ = couple_vertices(options.B, options.start, field);
   const Families families = make_families(V, F, frame(), line_directions, options.eyes);
+  if (see_nothing(families)) {
+    throw InvalidInput(
+        "No eye direction sees the region: it is turned away from all of them, seen at a grazing angle or hidden; turn "
+        "one of them.");
+  }
   sight_ = families.sight;
   region_ = describe_region(field, face_of_triangle_, boundary.hold_creases);
   feature_length_ = kFeatureLength * field.diagonal();

@@ -1,0 +1,21 @@
+// Finds where a surface got worse in lights that took no part in its solve, each seen by an eye of its own.
+#pragma once
+
+#include "reflines/smooth_panel.h"
+#include "reflines/types.h"
+#include "restoration/disk_mean.h"
+#include "solver/families.h"
+
+namespace reflines {
+
+// The slopes of a surface before and after a solve, and those that each would have without flaws: #F x 2 each.
+struct ChangedSlopes {
+  PlaneVectors before, course_before, after, course_after;
+};
+
+// Returns the place (by V, #V x 3, and F, #F x 3) where lines got worse by most in one of the lights: by at least
+// `least` degrees, means `around` each place, and off their course by kWorst or more.
+WorsePlace find_worse_place(const Families& lights, const ChangedSlopes& slopes, const DiskMean& around,
+                            const Positions& V, const Triangles& F, double least);
+
+}  // namespace reflines
