@@ -84,7 +84,7 @@ class HandleBake:
         except Refusal as refusal:
             raise Refusal(f"Frame {self.frame:g}: {refusal}") from refusal
         settings = SolveSettings(run.border, scene.reflection_lines.length, run.limit,
-                                 build_crossed=crossed.build_kept_target if run.lights == 'CROSSED' else None)
+                                 build_crossed=crossed.build_kept_target if run.lights != 'SINGLE' else None)
         return FrameRequest(patch, seen, settings, build)
 
     async def solve(self, request: FrameRequest) -> Solution | Refusal:

@@ -105,7 +105,7 @@ def bind_target(wanted: Warp) -> BuildTarget:
 def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
     """Reads the settings of the solve from the scene."""
     settings = scene.reflection_lines
-    keeps_crossed = settings.lights == 'CROSSED' and settings.warp.fit != 'VALUE'
+    keeps_crossed = settings.lights != 'SINGLE' and settings.warp.fit != 'VALUE'
     return SolveSettings(settings.border, settings.length, settings.limit,
                          build_crossed=crossed.build_kept_target if keeps_crossed else None)
 

@@ -8,7 +8,7 @@ from .. import native
 from .gain import Worse
 from .patch import Patch
 from .refusal import Refusal
-from .view import View
+from .view import Families, View
 
 PARALLEL = 1e-3    # sine of the angle between a light and its view below which no lines are seen
 LEAST_SEEN = 0.05  # share of the region: a view that sees less of it does not tell of it
@@ -67,12 +67,17 @@ class LightSet:
     lights: tuple[SetLight, ...]
     blockers: tuple[Blockers, ...] = ()
 
-    def build_argument(self, patch: Patch) -> "native.LightSet":
-        """Builds what the native press of a patch takes."""
+    def build_families(self, patch: Patch) -> Families:
+        """Builds the lights as a solve of a patch takes them."""
         eyes = np.array([light.find_eye(patch.center) for light in self.lights])
         beside = join([each.leave_out(patch) for each in self.blockers]) if self.blockers else None
-        return native.reflines.LightSet(np.array([light.line for light in self.lights]), eyes,
-                                        weight=[light.weight for light in self.lights], blockers=beside)
+        return Families(np.array([light.line for light in self.lights]), eyes,
+                        np.array([light.weight for light in self.lights]), beside)
+
+    def build_argument(self, patch: Patch) -> "native.LightSet":
+        """Builds what the native press of a patch takes."""
+        built = self.build_families(patch)
+        return native.reflines.LightSet(built.lines, built.eyes, weight=built.weight.tolist(), blockers=built.blockers)
 
     def leave_parallel(self, center: np.ndarray) -> "LightSet | None":
         """Returns the set without the lights that show no lines of a region around this centre; None where none is

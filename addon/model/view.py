@@ -5,12 +5,34 @@ import numpy as np
 
 
 @dataclass(frozen=True)
+class Families:
+    """Lights that a solve is for, each seen by an eye of its own, in world space."""
+    lines: np.ndarray   # #lights x 3, along the line lights
+    eyes: np.ndarray    # #lights x 3, unit vectors to the viewers
+    weight: np.ndarray  # #lights
+    blockers: tuple[np.ndarray, np.ndarray] | None  # V, F of what may hide the surface
+
+    def same(self, other: "Families | None") -> bool:
+        if other is None or (self.blockers is None) != (other.blockers is None):
+            return False
+        pairs = [(getattr(self, name), getattr(other, name)) for name in ("lines", "eyes", "weight")]
+        pairs += zip(self.blockers, other.blockers, strict=True) if self.blockers is not None else []
+        return all(np.array_equal(*pair) for pair in pairs)
+
+
+@dataclass(frozen=True)
 class View:
     """The directions that define the reflection function: unit vectors in world space."""
     view_direction: np.ndarray  # 3, from the surface towards the viewer
     line_direction: np.ndarray  # 3, along the line lights
+    families: Families | None = None  # take the place of the light and the crossed one
 
     @property
     def both_directions(self) -> np.ndarray:
         """The directions of the line lights and of those that cross them in the image plane: 2 x 3."""
         return np.stack([self.line_direction, np.cross(self.view_direction, self.line_direction)])
+
+    def same(self, other: "View") -> bool:
+        alike = other.families is None if self.families is None else self.families.same(other.families)
+        return (alike and np.array_equal(self.view_direction, other.view_direction)
+                and np.array_equal(self.line_direction, other.line_direction))

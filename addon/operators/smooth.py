@@ -23,7 +23,6 @@ from ..targets import smooth
 from ..targets.smooth import Smooth
 from ..ui import automatic_values
 from ..ui.tool_properties import SmoothSettings
-from ..view import facing
 from .dragged_tool import DraggedTool
 
 BESIDE_STRAIGHT = 0.01  # weight of crossed lines; see native/include/reflines/kept_target.h
@@ -66,7 +65,25 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         length = self.filter_length = solve.choose_length(patch, self.length)
         if self.follow_mouse and not self.length and self.directional:
             self.length = length  # a drag smooths by the length that it shows; the redo panel and Re-solve repeat that
-        return partial(smooth.build_smooth_target, settings=Smooth(length, self.strength, self.directional))
+        settings, chosen = Smooth(length, self.strength, self.directional), self.read_solved_set()
+        if chosen is None:
+            return partial(smooth.build_smooth_target, settings=settings)
+        return partial(smooth.build_smooth_targets, settings=settings,
+                       weights=[light.weight for light in chosen.lights])
+
+    def read_solved_set(self) -> LightSet | None:
+        """Reads the set of lights that lines are smoothed in by a length; None where there is none. Straight lines are
+        asked for by one light alone.
+        """
+        return None if self.directional or self.is_automatic() else self.read_lights()
+
+    def read_view(self, context: bpy.types.Context, patch: Patch) -> View:
+        seen, chosen = super().read_view(context, patch), self.read_solved_set()
+        return seen if chosen is None else replace(seen, families=chosen.build_families(patch))
+
+    def keeps_crossed(self) -> bool:
+        """Returns whether the crossed lines are smoothed, too: the lights of a set take their place."""
+        return super().keeps_crossed() and self.read_solved_set() is None
 
     def choose_crossed(self) -> BuildCrossed:
         """Returns the builder of the target for the crossed lines: smoothed as well. Beside straight lines, which are
@@ -104,8 +121,10 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
 
     def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
         """Returns what is wrong with the set of lights, where it is asked for."""
-        if self.lights != 'SET' or not self.is_automatic():
+        if self.lights != 'SET':
             return ()
+        if self.directional:
+            return ("Along the Lines is for the light alone: the set only judged it",)
         chosen = bpy.context.scene.reflection_lines.light_set
         if any(entry.is_used() for entry in chosen.entries):
             return chosen.describe_problems()
@@ -177,7 +196,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         if not self.is_automatic():
             return super().solve_patch(context, ob, patch)
         settings = self.choose_press()
-        seen = facing.read_patch_view(context.scene, patch)
+        seen = self.read_view(context, patch)
         return run_now(press_cache.smooth_with_cache(patch, seen, self.border, settings))
 
 

@@ -121,7 +121,11 @@ class SolveTool:
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
         """Gathers the patches of the objects, each with its view."""
         patches = [self.gather_patch(ob) for ob in subjects]
-        return [(patch, facing.read_patch_view(context.scene, patch)) for patch in patches]
+        return [(patch, self.read_view(context, patch)) for patch in patches]
+
+    def read_view(self, context: bpy.types.Context, patch: Patch) -> View:
+        """Reads the view and the light that a patch is solved for."""
+        return facing.read_patch_view(context.scene, patch)
 
     def tell_of_all(self, solutions: Sequence[Solution]) -> None:
         """Reports what concerns all objects of a run together, after what concerns each."""
@@ -148,8 +152,7 @@ class SolveTool:
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         build = self.build_target(context, ob, patch)
         settings = replace(self.read_solve_settings(context.scene), judges=self.read_judges(context))
-        seen = facing.read_patch_view(context.scene, patch)
-        return optimizer_cache.solve_with_cache(patch, seen, settings, build)
+        return optimizer_cache.solve_with_cache(patch, self.read_view(context, patch), settings, build)
 
     def read_judges(self, context: bpy.types.Context) -> LightSet | None:
         """Returns the scene's set of lights, which judges what the tool makes; None where there is none."""

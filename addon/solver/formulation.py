@@ -63,9 +63,15 @@ class Formulation:
         """Returns these signs for handles that are followed without targets, and so need both halves."""
         return self.image_sign
 
-    def choose_directions(self) -> dict[str, np.ndarray]:
-        """Returns the directions as arguments of the native constructors: the lines', and those that cross them."""
-        return {"view_direction": self.view.view_direction, "line_direction": self.view.both_directions}
+    def choose_directions(self) -> "dict[str, np.ndarray | tuple[np.ndarray, np.ndarray] | None]":
+        """Returns the directions as arguments of the native constructors: the lines', and those that cross them, or those
+        of a set of lights with their eyes.
+        """
+        families = self.view.families
+        if families is None:
+            return {"view_direction": self.view.view_direction, "line_direction": self.view.both_directions}
+        return {"view_direction": self.view.view_direction, "line_direction": families.lines,
+                "eye_directions": families.eyes, "blockers": families.blockers}
 
     def choose_press_directions(self) -> dict[str, np.ndarray]:
         """Returns the directions as arguments of the native presses, which add the crossed lines themselves."""
@@ -314,6 +320,10 @@ class JoinedFormulation(Formulation):
         return Press(self.read_pressed(positions), told.stray[:own], told.verdict[:own], told)
 
     def complete_target(self, wanted: "native.Target") -> "native.Target":
+        """Returns the target of both halves. An eye of its own sees no half as the other: then there are both already.
+        """
+        if self.view.families is not None:
+            return wanted
         sign = mirror.compute_theta_sign(self.patch.mirror, self.patch.matrix, self.view.line_direction)
         return mirror_target.mirror_target(wanted, sign)
 

@@ -27,10 +27,7 @@ class LiveOptimizer:
 
     def suits(self, patch: Patch, view: View, border: str) -> bool:
         """Returns whether the optimizer serves this patch, view and border."""
-        return (self.border == border
-                and np.array_equal(self.view.view_direction, view.view_direction)
-                and np.array_equal(self.view.line_direction, view.line_direction)
-                and self.patch.same(patch))
+        return self.border == border and self.view.same(view) and self.patch.same(patch)
 
 
 async def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Progress | None" = None, *,

@@ -50,7 +50,8 @@ LIGHTS = (
     ('CROSSED', "Crossed", "The light and the same turned by 90 degrees in the camera's picture: what one of them does "
      "not show cannot pay for the other"),
     ('SINGLE', "This Light", "Only the light as it is"),
-    ('SET', "The Set", "In Smooth with the automatic length the set's lights, each with its own view; else crossed"),
+    ('SET', "The Set", "In Smooth the set's lights, each with its own view, but for Along the Lines; other tools keep "
+     "the crossed lines, and the set judges what they make"),
 )
 LAST_FRAME = 1048574  # of Blender
 SAVED = {'options': {'SKIP_SAVE'}}

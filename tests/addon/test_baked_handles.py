@@ -55,6 +55,15 @@ def test_a_bake_has_in_each_frame_the_shape_of_re_solve_and_runs_evenly_between(
     assert np.abs(played(panel, -5) - shapes[1]).max() < 2e-7 > np.abs(played(panel, 50) - shapes[11]).max()
 
 
+def test_a_bake_with_the_lights_of_the_set_has_the_shapes_of_re_solve(panel) -> None:
+    """They keep the crossed lines, as with crossed lights."""
+    bpy.context.scene.reflection_lines.lights = 'SET'
+    keyed(panel)
+    shape = resolved(5)
+    assert bake(step=4) == {'FINISHED'}
+    assert np.abs(played(panel, 5) - shape).max() < 2e-7
+
+
 @pytest.mark.parametrize("kind", ("cage", "mirror", "Mirror X"))
 def test_cages_and_mirrored_panels_are_baked(panel, kind: str) -> None:
     x = 0.6

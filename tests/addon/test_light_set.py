@@ -114,6 +114,92 @@ def test_the_background_press_takes_the_set() -> None:
     assert np.array_equal(outcome.solutions[0].positions, found.positions)
 
 
+@pytest.mark.parametrize("kind", ["mesh", "cage", "mirrored"])
+def test_a_drag_of_the_strength_shows_what_the_press_with_the_set_gives(kind: str) -> None:
+    ob = make_panel()
+    walk()
+    if kind != "mesh":
+        ob.modifiers.new("Modifier", {"cage": 'SUBSURF', "mirrored": 'MIRROR'}[kind])
+    press(strength=0.5)
+    found = solve_history.find_last_solve(ob.name)
+    asked = AutomaticSmooth("crossed", 1.0, True, light_set=read_light_set(settings(), [ob]))
+    job = SolveJob([found.patch], [facing.read_patch_view(bpy.context.scene, found.patch)], "clamped")
+    shown = [run_now(job.run(SolveRequest((), (), press=replace(asked, strength=strength))))
+             for strength in (1.0, 0.5)]
+    assert np.array_equal(shown[1].positions[0], found.positions) and not shown[1].refusal
+    assert np.abs(shown[0].positions[0] - found.positions).max() > 1e-4
+
+
+@pytest.mark.parametrize("given", [{"limit": 0.001}, {"length": 0.4}])
+def test_re_solve_takes_the_set_as_it_is_now(given: dict) -> None:
+    ob = make_panel()
+    entries = walk()
+    press(**given)
+    for entry in entries:
+        entry.muted = entry.name != "Above, crossed"
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    again = scenes.positions(ob)
+    press(anew=True, **given)
+    assert np.array_equal(scenes.positions(ob), again)
+    for entry in entries:
+        entry.muted = False
+    press(anew=True, **given)
+    assert not np.array_equal(scenes.positions(ob), again)
+
+
+def smooth_by_length(V: np.ndarray, F: np.ndarray, **options: object) -> np.ndarray:
+    """What the native module makes of lines that are smoothed by a length in all lights of the set."""
+    found = read_light_set(settings(), [])
+    eyes, lines = (np.array([getattr(light, name) for light in found.lights]) for name in ("eye", "line"))
+    optimizer = native.reflines.ShapeOptimizer(V, F, view_direction=(0.0, 0.0, 1.0), line_direction=lines,
+                                               eye_directions=eyes, **options)
+    optimizer.solve([native.reflines.smooth(optimizer, length=0.4, family=k) for k in range(len(lines))])
+    return optimizer.positions
+
+
+def test_a_given_length_smooths_the_lines_of_the_set() -> None:
+    ob = make_panel()
+    walk()
+    press(length=0.4, limit=1.0)
+    found = solve_history.find_last_solve(ob.name)
+    assert np.abs(found.positions - smooth_by_length(found.patch.V, found.patch.F)).max() < 1e-7
+    assert np.abs(found.positions - found.patch.V).max() > 0.001
+    bpy.ops.reflines.smooth('EXEC_DEFAULT', True, length=0.4, limit=1.0, lights='CROSSED', anew=True)
+    assert np.abs(solve_history.find_last_solve(ob.name).positions - found.positions).max() > 1e-5
+
+
+@pytest.mark.parametrize("kind", ["cage", "mirrored"])
+def test_a_given_length_smooths_cages_and_both_halves_for_the_set(kind: str) -> None:
+    """An eye on one side sees the halves differently: both are smoothed as it sees them, and move alike."""
+    ob = make_panel()
+    walk()
+    ob.modifiers.new("Modifier", {"cage": 'SUBSURF', "mirrored": 'MIRROR'}[kind])
+    press(length=0.4, limit=1.0)
+    report = ob.reflection_lines.report
+    assert report.termination == "converged" and report.residual_after < 0.2 * report.residual_before
+
+
+def test_a_light_of_weight_0_is_no_light() -> None:
+    ob = make_panel()
+    entries = walk()
+    press(length=0.4)
+    of_all = scenes.positions(ob)
+    for entry in entries:
+        entry.weight = 0.0 if entry.name.endswith("crossed") else 1.0
+    press(length=0.4, anew=True)
+    assert not np.array_equal(scenes.positions(ob), of_all)
+
+
+def test_straight_lines_are_for_one_light_and_say_so() -> None:
+    ob = make_panel()
+    walk()
+    press(directional=True, length=0.4)
+    assert "Along the Lines is for the light alone" in ob.reflection_lines.report.notes
+    alone = scenes.positions(ob)
+    bpy.ops.reflines.smooth('EXEC_DEFAULT', True, directional=True, length=0.4, lights='CROSSED', anew=True)
+    assert np.array_equal(scenes.positions(ob), alone)
+
+
 def test_faces_beside_the_region_hide_it_from_a_view() -> None:
     """A roof over the panel, of the same mesh, leaves nothing to see from above."""
     ob = make_panel()

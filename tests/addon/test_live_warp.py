@@ -47,7 +47,10 @@ def warped() -> np.ndarray:
     return shape
 
 
-def test_apply_makes_what_warp_makes(panel) -> None:
+@pytest.mark.parametrize("lights", ['CROSSED', 'SET'])
+def test_apply_makes_what_warp_makes(panel, lights) -> None:
+    bpy.context.scene.reflection_lines.lights = lights
+    bpy.ops.reflines.walk_around()
     start()
     pull()
     end("apply")
