@@ -17,9 +17,14 @@ class Spot:
     size: float     # diameter, world units
     degrees: float  # that its lines deviate by, in the light and from the view that show it best
     height: float   # of the flaw, world units: negative of a dent
-    view: str       # one of VIEWS
-    light: int      # of the walk around, from 0
-    line: tuple[float, float, float]  # direction of the light that shows it best in the view
+    view: str       # one of VIEWS, or the name of a light of the scene's set
+    light: int      # of the walk around or of the set, from 0
+    line: tuple[float, float, float]  # direction of the light that shows it best in the view camera's view, or of the set
+    eye: tuple[float, float, float] | None = None  # direction to the viewer in the set; None: along the view camera
+
+    def tell_where(self) -> str:
+        """Tells where it is seen best."""
+        return f"from {self.view}" if self.eye is None else f"in {self.view}"
 
 
 @dataclass(frozen=True)
@@ -27,15 +32,14 @@ class Inspection:
     """An inspection in all lights from all views."""
     spots: tuple[Spot, ...]  # the worst first
     mean: float              # degrees, over all lights and views
-    worst_view: str          # one of VIEWS
-    worst_light: int         # from 0
-    unseen: tuple[str, ...]  # the views that see next to nothing of the panel
+    worst: str               # where lines are least even, as "from its left" or "in Its left, light"
+    unseen: tuple[str, ...]  # the views or lights that see next to nothing of the panel
 
 
 def format_csv(spots: Sequence[Spot]) -> str:
     """Formats the spots as comma-separated values with a header, the worst first; lengths in Blender units."""
     text = io.StringIO()
-    names = [each.name for each in fields(Spot) if each.name not in {"place", "line"}]
+    names = [each.name for each in fields(Spot) if each.name not in {"place", "line", "eye"}]
     writer = csv.DictWriter(text, ["number", "x", "y", "z", *names], lineterminator="\n")
     writer.writeheader()
     for number, spot in enumerate(spots, 1):

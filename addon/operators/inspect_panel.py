@@ -1,7 +1,7 @@
 """The operator Inspect."""
 import bpy
 import numpy as np
-from bpy.props import FloatProperty
+from bpy.props import EnumProperty, FloatProperty
 
 from ..interactive import running_operators
 from ..interactive.inspection_job import InspectionJob, InspectionOutcome, InspectionRequest
@@ -12,18 +12,24 @@ from ..read import gather, read_checked, read_mesh, scene_objects
 from ..read.mesh_checks import Purpose
 from ..solver import live_optimizer, panel_inspection
 from ..solver.panel_inspection import Inspected
-from ..view import facing, view_and_light
+from ..view import facing, read_light_set, view_and_light
 
 TICK_INTERVAL = 0.05  # seconds between two looks at the work
+LIGHTS = (
+    ('WALK', "Walk Around", "The light in eight turns, from five views around the panel"),
+    ('SET', "The Set", "The lights of the scene's set, each with its own view"),
+)
 
 
 class REFLINES_OT_inspect(bpy.types.Operator):
-    """Find the panel's worst spots: how even its lines are in eight lights from five views around it. Nothing is
-changed; Esc cancels"""
+    """Find the panel's worst spots: how even its lines are in eight lights from five views around it, or in the lights of
+the set. Nothing is changed; Esc cancels"""
     bl_idname = "reflines.inspect"
     bl_label = "Inspect"
     bl_options = {'REGISTER', 'UNDO'}
 
+    lights: EnumProperty(name="Lights", items=LIGHTS, default='WALK', options={'SKIP_SAVE'},
+                         description="In which lights and from where the panel is looked at")
     flaw_size: FloatProperty(name="Flaw Size", default=1.0, min=0.1, max=10.0, description="Size of the flaws to look "
                              "for, relative to the automatic one, which is a 14th of the panel's diagonal")
     noise_floor: FloatProperty(name="Noise Floor", default=0.1, min=0.01, max=45.0,
@@ -59,7 +65,10 @@ changed; Esc cancels"""
         with live_optimizer.convert_native_errors(patch):
             surface = read_checked.read_checked_surface(ob, patch, patch.V)
         up = view_and_light.read_camera_axes(settings.camera)[1]
-        wanted = Inspected(surface, facing.read_patch_view(context.scene, patch), up)
+        light_set = read_light_set.read_light_set(settings, [ob]) if self.lights == 'SET' else None
+        if self.lights == 'SET' and light_set is None:
+            raise Refusal("The set has no light that can be used: add one, or walk around")
+        wanted = Inspected(surface, facing.read_patch_view(context.scene, patch), up, patch.center, light_set)
         return InspectionRequest(patch, wanted, self.flaw_size, self.noise_floor)
 
     def store(self, ob: bpy.types.Object, found: Inspection) -> None:

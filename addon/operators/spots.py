@@ -25,7 +25,7 @@ def show_spot(context: bpy.types.Context, ob: bpy.types.Object, index: int) -> s
     stored.active = index
     spot = stored.spots[index]
     look_at_spot(context, ob, spot)
-    return f"Spot {index + 1} of {len(stored.spots)}: {spot.describe()}, seen best from {spot.view}"
+    return f"Spot {index + 1} of {len(stored.spots)}: {spot.describe()}, seen best {spot.to_spot().tell_where()}"
 
 
 def look_at_spot(context: bpy.types.Context, ob: bpy.types.Object, spot: bpy.types.PropertyGroup) -> None:

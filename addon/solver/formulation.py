@@ -64,8 +64,8 @@ class Formulation:
         return self.image_sign
 
     def choose_directions(self) -> "dict[str, np.ndarray | tuple[np.ndarray, np.ndarray] | None]":
-        """Returns the directions as arguments of the native constructors: the lines', and those that cross them, or those
-        of a set of lights with their eyes.
+        """Returns the directions as arguments of the native constructors: the lines', and those that cross them, or
+        those of a set of lights with their eyes.
         """
         families = self.view.families
         if families is None:

@@ -14,6 +14,8 @@ class VIEW3D_PT_reflines_inspection(ReflinesPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         layout.operator("reflines.inspect", icon='VIEWZOOM')
+        if any(entry.is_used() for entry in context.scene.reflection_lines.light_set.entries):
+            layout.operator("reflines.inspect", text="Inspect in the Set").lights = 'SET'
         ob = context.view_layer.objects.active
         if ob is not None and ob.type == 'MESH' and ob.reflection_lines.inspection.summary:
             self.draw_spots(layout, context, ob.reflection_lines.inspection)

@@ -33,7 +33,7 @@ class ReflinesSpot(bpy.types.PropertyGroup):
 
     def to_spot(self) -> Spot:
         return Spot(tuple(self.find_place().tolist()), self.size, self.degrees, self.height, self.view, self.light,
-                    tuple(self.line))
+                    tuple(self.line), tuple(self.eye) if any(self.eye) else None)
 
     def describe(self) -> str:
         """Describes the spot in the scene's units."""
@@ -61,10 +61,11 @@ class ReflinesInspection(bpy.types.PropertyGroup):
             for name in ("size", "degrees", "height", "view", "light", "line"):
                 setattr(stored, name, getattr(spot, name))
             stored.place = inverse[:3, :3] @ spot.place + inverse[:3, 3]
+            stored.eye = spot.eye or (0.0, 0.0, 0.0)
         self.active = -1
         count = f"{len(found.spots)} spots" if len(found.spots) != 1 else "1 spot"
         places = count if found.spots else f"No place deviates by {noise_floor:.2g}\u00b0"
-        self.summary = f"{places}; mean {found.mean:.2g}\u00b0, most from {found.worst_view}"
+        self.summary = f"{places}; mean {found.mean:.2g}\u00b0, most {found.worst}"
         self.unseen = f"Not seen from {', '.join(found.unseen)}: no weight there" if found.unseen else ""
 
 

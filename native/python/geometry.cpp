@@ -14,6 +14,7 @@
 #include "reflection/reflection_function.h"
 #include "reflines/errors.h"
 #include "reflines/image_plane.h"
+#include "reflines/rasterize.h"
 
 namespace py = pybind11;
 
@@ -101,6 +102,16 @@ void bind_geometry(py::module_& module) {
       py::arg("normals"), py::arg("view_direction"), py::arg("line_direction"));
   module.def("crease_edges", &creases, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("angle") = kCreaseAngle);
   module.def("split_at_creases", &split, py::arg("V"), py::arg("F"), py::kw_only(), py::arg("angle") = kCreaseAngle);
+  module.def(
+      "rasterize",
+      [](const Positions& points, const Indices& F, int width, int height) {
+        return run_native(
+            [points, triangles = triangles_of(F), width, height] {
+              return rasterize(points, triangles, width, height);
+            },
+            [](const Raster& found) { return py::make_tuple(found.triangle, found.second, found.third); });
+      },
+      py::arg("points"), py::arg("F"), py::kw_only(), py::arg("width"), py::arg("height"));
   py::class_<NormalFit> fit(module, "NormalFit", py::module_local());
   const auto define = [&](const auto&... arguments) {
     fit.def(py::init(construct(&prepare_fit)), arguments...);

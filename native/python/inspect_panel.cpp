@@ -20,10 +20,13 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
+using Pairs = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
 py::object inspect(const Positions& V, const Indices& F, const Positions& views, const Positions& lines,
                    const std::optional<double>& length, double flaw_size, double noise_floor, int most_spots, bool maps,
-                   const Blockers& blockers, std::shared_ptr<Progress> progress) {
+                   const Blockers& blockers, const std::optional<Pairs>& pairs, std::shared_ptr<Progress> progress) {
   InspectOptions options;
+  if (pairs) options.pairs = *pairs;
   if (length && !(*length > 0)) throw InvalidInput("The length must be a positive length, or None for automatic.");
   options.length = length.value_or(0.0);
   options.flaw_size = flaw_size;
@@ -80,7 +83,8 @@ void bind_inspect_panel(py::module_& module) {
   module.def("inspect_panel", &inspect, py::arg("V"), py::arg("F"), py::arg("views"), py::arg("lines"), py::kw_only(),
              py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
              py::arg("noise_floor") = defaults.noise_floor, py::arg("most_spots") = defaults.most_spots,
-             py::arg("maps") = defaults.keep_maps, py::arg("blockers") = py::none(), py::arg("progress") = py::none());
+             py::arg("maps") = defaults.keep_maps, py::arg("blockers") = py::none(), py::arg("pairs") = py::none(),
+             py::arg("progress") = py::none());
   module.def("judge_change", &judge, py::arg("before"), py::arg("after"), py::arg("F"), py::kw_only(),
              py::arg("view_direction"), py::arg("lights"), py::arg("length"), py::arg("progress") = py::none());
   module.def("judge_solve", &judge_solve, py::arg("optimizer"), py::kw_only(), py::arg("lights"), py::arg("length"),

@@ -492,6 +492,7 @@ def inspect_panel(V: np.ndarray, F: np.ndarray, views: np.ndarray, lines: np.nda
                   noise_floor: float = 0.1,        # degrees: places that deviate by less are no spots
                   most_spots: int = 100, maps: bool = False,
                   blockers: tuple[np.ndarray, np.ndarray] | None = None,  # V, F of what may hide the panel beside itself
+                  pairs: np.ndarray | None = None,  # #views x #lights, bool: those that are looked at; None: all
                   progress: Progress | None = None) -> PanelInspection:
     """Tells how even the lines of a panel V (#V x 3), F (#F x 3) are from `views` (#views x 3, from the surface to the viewer; along
     the first the panel is a height field) in light lines of the directions `lines` (#lights x 3), and where its worst places are.
@@ -650,6 +651,10 @@ def match_dense(optimizer: ShapeOptimizer, dense: ShapeOptimizer, *, family: int
 
 def crease_edges(V: np.ndarray, F: np.ndarray, *, angle: float = 0.5236) -> np.ndarray:
     """Returns the edges (#E x 2) that crease_rule "automatic" finds. Raises InvalidInput for arrays that are no surface."""
+
+def rasterize(points: np.ndarray, F: np.ndarray, *, width: int, height: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Draws triangles F (#F x 3) of points (#V x 3: pixels to the right and down, and nearness to the viewer). Returns for each
+    pixel (height x width) the triangle that is seen, or -1, and the weights of its second and third corner. Raises InvalidInput."""
 
 def split_at_creases(V: np.ndarray, F: np.ndarray, *, angle: float = 0.5236) -> tuple[np.ndarray, np.ndarray]:
     """Returns (F, vertex): the same triangles (#F x 3) of vertices that are split where edges bend by more than `angle`

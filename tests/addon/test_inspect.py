@@ -85,6 +85,27 @@ def test_places_follow_the_object() -> None:
         assert np.allclose(stored.find_place(), place, atol=1e-5)
 
 
+def test_the_set_is_inspected_in_its_own_lights() -> None:
+    """The same dents, each with the light of the set that shows it best, from where it does."""
+    ob = make_panel()
+    with pytest.raises(RuntimeError, match="The set has no light that can be used"):
+        bpy.ops.reflines.inspect('EXEC_DEFAULT', True, lights='SET')
+    bpy.ops.reflines.walk_around()
+    entries = bpy.context.scene.reflection_lines.light_set.entries
+    of_all = inspect(ob)
+    degrees = of_all.spots[0].degrees
+    for entry in entries:
+        entry.muted = not entry.name.startswith("Above")
+    found = inspect(ob, lights='SET')
+    assert len(found.spots) == 2 and "most in Above, " in found.summary
+    spot = found.spots[0]
+    assert spot.view.startswith("Above") and spot.degrees < degrees and spot.height == pytest.approx(-0.002, rel=0.3)
+    assert np.allclose(spot.eye, entries[spot.view].eye) and np.allclose(spot.line, entries[spot.view].line)
+    assert bpy.ops.reflines.show_spot('EXEC_DEFAULT', True, index=0) == {'FINISHED'}
+    entries[spot.view].eye = (0.0, 0.0, -1.0)
+    assert f"Not seen from {spot.view}" in inspect(ob, lights='SET').unseen
+
+
 def test_spots_are_written_to_a_table(tmp_path: Path) -> None:
     found = inspect(make_panel())
     file = tmp_path / "spots.csv"
@@ -110,7 +131,7 @@ def test_unusable_input_gets_one_sentence() -> None:
 
 class Settings:
     """The settings of the operator, without Blender's."""
-    flaw_size, noise_floor = 1.0, 0.1
+    lights, flaw_size, noise_floor = 'WALK', 1.0, 0.1
 
 
 def begin_job(ob: bpy.types.Object) -> InspectionJob:

@@ -124,6 +124,24 @@ def test_maps_are_the_differences_of_theta_by_normals() -> None:
     assert np.allclose(found.maps.max(axis=1), found.deviation, atol=1e-5)
 
 
+def test_only_the_pairs_that_are_asked_for_are_looked_at() -> None:
+    V, F = lift(dome)
+    dented, *_ = plant(V, F, 1)
+    pairs = np.zeros((5, 8), dtype=bool)
+    pairs[1, 2] = pairs[4, 6] = True
+    of_all = reflines.inspect_panel(dented, F, VIEWS, LINES, maps=True)
+    found = reflines.inspect_panel(dented, F, VIEWS, LINES, maps=True, pairs=pairs)
+    asked = pairs.ravel()
+    assert np.allclose(found.maps[:, asked], of_all.maps[:, asked], atol=1e-5) and not found.maps[:, ~asked].any()
+    assert np.allclose(found.deviation, of_all.maps[:, asked].max(axis=1), atol=1e-5)
+    assert found.mean == pytest.approx(of_all.degrees[pairs].mean())
+    assert {(spot.view, spot.light) for spot in found.spots} <= {(1, 2), (4, 6)}
+    with pytest.raises(reflines.InvalidInput, match="need a row for each of the 5 views"):
+        reflines.inspect_panel(dented, F, VIEWS, LINES, pairs=pairs[:2])
+    along = np.array([UP, LIGHT])  # a light along the first view, which is not asked for there
+    assert reflines.inspect_panel(dented, F, VIEWS[:2], along, pairs=[[False, True], [True, True]]).mean > 0.0
+
+
 def test_what_hides_the_panel_takes_its_weight() -> None:
     """A plate over its left half, seen from above and from its left."""
     V, F = lift(dome, 40)

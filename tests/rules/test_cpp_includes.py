@@ -10,7 +10,7 @@ ROOTS = ("native/include", "native/src", "native")
 # The room whose words a public header states; the others of native/include are words that every room uses.
 PUBLIC = {
     "image_plane": "geometry", "cage": "geometry", "subdivision": "geometry",
-    "gap_continuation": "geometry",
+    "gap_continuation": "geometry", "rasterize": "geometry",
     "mirror_pairs": "geometry",
     "line_score": "reflection", "target": "reflection", "region_field": "reflection", "smooth_target": "reflection",
     "uniform_target": "targets", "kept_target": "targets", "warp_target": "targets", "pattern_target": "targets",

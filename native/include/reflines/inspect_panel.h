@@ -17,6 +17,8 @@ struct InspectOptions {
   double noise_floor = 0.1;  // degrees: places that deviate by less are no spots
   int most_spots = 100;
   bool keep_maps = false;  // see PanelInspection::maps
+  // #views x #lights, or nothing for all: the pairs of a view and a light that are looked at.
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> pairs;
   // These surfaces, #B x 3 each, or none, may hide the panel from a view, as its own triangles may.
   Positions blocker_vertices;
   Triangles blockers;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "geometry/bounding_box.h"
 #include "geometry/height_field.h"
@@ -16,6 +17,7 @@
 #include "inspection/peaks.h"
 #include "reflines/errors.h"
 #include "restoration/used_vertices.h"
+#include "solver/families.h"
 #include "threads/abandonable_work.h"
 
 namespace reflines {
@@ -38,11 +40,18 @@ void check_directions(const Positions& directions, const std::string& name) {
 }
 
 // Throws where a light is parallel to a view, with the names of both.
-void check_pairs(const Positions& views, const Positions& lines) {
+void check_pairs(const Positions& views, const Positions& lines, const InspectOptions& options) {
   check_directions(views, "view");
   check_directions(lines, "light");
+  const auto& pairs = options.pairs;
+  if (pairs.size() > 0 && (pairs.rows() != views.rows() || pairs.cols() != lines.rows() || !pairs.any())) {
+    throw InvalidInput("The pairs that are looked at need a row for each of the " + std::to_string(views.rows()) +
+                       " views and a column for each of the " + std::to_string(lines.rows()) +
+                       " lights, and one of them at least.");
+  }
   for (Eigen::Index k = 0; k < views.rows(); ++k) {
     for (Eigen::Index l = 0; l < lines.rows(); ++l) {
+      if (pairs.size() > 0 && !pairs(k, l)) continue;
       try {
         const ImagePlane plane(views.row(k), lines.row(l));
       } catch (const InvalidInput&) {
@@ -51,6 +60,12 @@ void check_pairs(const Positions& views, const Positions& lines) {
       }
     }
   }
+}
+
+std::vector<Vector3> rows_of(const Positions& points) {
+  std::vector<Vector3> result;
+  for (Eigen::Index k = 0; k < points.rows(); ++k) result.emplace_back(points.row(k));
+  return result;
 }
 
 void check_options(const InspectOptions& options) {
@@ -101,7 +116,11 @@ LineDeviation look_around(const Scene& scene, const HeightField& field, const Im
     const double done = static_cast<double>(k) / static_cast<double>(views.rows());
     if (options.progress) options.progress->enter(kLooking + (1 - kLooking) * done, "looking from each view");
     const Vector3 view = views.row(k).transpose().stableNormalized();
-    sum.add_view(view, lines, weigh_sight(scene.V, scene.F, field.source, view));
+    const Eigen::ArrayX<bool> counts = options.pairs.size() > 0 ? Eigen::ArrayX<bool>(options.pairs.row(k).transpose())
+                                                                : Eigen::ArrayX<bool>::Constant(lines.rows(), true);
+    const bool looks = counts.any();
+    sum.add_view(view, lines, counts,
+                 looks ? weigh_sight(scene.V, scene.F, field.source, view) : Vector(Vector::Zero(field.area.size())));
   }
   return sum.result();
 }
@@ -127,13 +146,16 @@ WorstSpot make_spot(const Peak& peak, const Scene& scene, const HeightField& fie
   return spot;
 }
 
-// Fills in what is told of all lights and views together.
-void sum_up(PanelInspection& result) {
-  const double views = (result.seen.array() > 0).count();
-  if (views == 0) return;
-  result.mean = result.degrees.sum() / (views * static_cast<double>(result.degrees.cols()));
-  result.degrees.rowwise().mean().maxCoeff(&result.worst_view);
-  result.degrees.colwise().mean().maxCoeff(&result.worst_light);
+// Fills in what is told of all lights and views together: of the pairs that are looked at, from views that see it.
+void sum_up(PanelInspection& result, const InspectOptions& options) {
+  Eigen::ArrayXXd counts = Eigen::ArrayXXd::Ones(result.degrees.rows(), result.degrees.cols());
+  if (options.pairs.size() > 0) counts = options.pairs.cast<double>();
+  counts.colwise() *= (result.seen.array() > 0).cast<double>();
+  if (counts.sum() == 0) return;
+  const Eigen::ArrayXXd degrees = result.degrees.array() * counts;
+  result.mean = degrees.sum() / counts.sum();
+  (degrees.rowwise().sum() / counts.rowwise().sum().max(1.0)).maxCoeff(&result.worst_view);
+  (degrees.colwise().sum() / counts.colwise().sum().max(1.0)).maxCoeff(&result.worst_light);
 }
 
 // Spreads the deviations of a field's triangles over those of the panel.
@@ -155,7 +177,8 @@ PanelInspection inspect(const Positions& V, const Triangles& F, const Positions&
                         const InspectOptions& options) {
   const UsedVertices used = find_used_vertices(F, static_cast<int>(V.rows()));
   const Scene scene = make_scene(V, used, options);
-  const ImagePlane frame(views.row(0), lines.row(0));
+  const std::vector<Vector3> axes = rows_of(lines);
+  const ImagePlane frame = choose_frame(views.row(0), axes, {.directions = axes});
   const HeightField field = make_field(scene, frame);
   PanelInspection result;
   const double diagonal = bounding_box_diagonal(scene.panel_vertices());
@@ -171,7 +194,7 @@ PanelInspection inspect(const Positions& V, const Triangles& F, const Positions&
     if (static_cast<int>(result.spots.size()) == options.most_spots) break;
     result.spots.push_back(make_spot(peak, scene, field, deviation, flawless.flaws, frame.z()));
   }
-  sum_up(result);
+  sum_up(result, options);
   return result;
 }
 
@@ -180,7 +203,7 @@ PanelInspection inspect(const Positions& V, const Triangles& F, const Positions&
 PanelInspection inspect_panel(const Positions& V, const Triangles& F, const Positions& views, const Positions& lines,
                               const InspectOptions& options) {
   check_options(options);
-  check_pairs(views, lines);
+  check_pairs(views, lines, options);
   check_surface(V, F);
   const auto result = std::make_shared<PanelInspection>();
   run_abandonable(options.progress.get(), [=] { *result = inspect(V, F, views, lines, options); });

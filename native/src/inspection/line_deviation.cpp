@@ -23,15 +23,16 @@ DeviationSum::DeviationSum(const HeightField& field, const ImagePlane& frame, Pl
   result_.view = result_.light = result_.front_light = IndexVector::Zero(field.triangle_count());
 }
 
-void DeviationSum::add_view(const Vector3& view, const Positions& lines, const Vector& weight) {
+void DeviationSum::add_view(const Vector3& view, const Positions& lines, const Eigen::ArrayX<bool>& counts,
+                            const Vector& weight) {
   const Eigen::Index row = result_.degrees.rows();
   result_.degrees.conservativeResize(row + 1, lines.rows());
   result_.seen.conservativeResize(row + 1);
   const double seen = weight.dot(field_.area);
   result_.seen(row) = seen / field_.area.sum();
-  Eigen::MatrixXd squares(field_.triangle_count(), lines.rows());
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(field_.triangle_count(), lines.rows());
   for (Eigen::Index k = 0; k < lines.rows(); ++k)
-    squares.col(k) = measure_departure({frame_, view, lines.row(k)}, slope_, course_slope_, weight);
+    if (counts(k)) squares.col(k) = measure_departure({frame_, view, lines.row(k)}, slope_, course_slope_, weight);
   result_.degrees.row(row) = (field_.area.transpose() * squares / std::max(seen, 1e-300)).cwiseSqrt();
   const Eigen::MatrixXd mean = around_.of_columns(squares);
   if (keeps_maps_) keep_map(mean);

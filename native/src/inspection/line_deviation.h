@@ -24,8 +24,9 @@ class DeviationSum {
   // The field and the frame outlive this.
   DeviationSum(const HeightField& field, const ImagePlane& frame, PlaneVectors course, double radius, bool keeps_maps);
 
-  // Adds a view, in all lights (#lights x 3); `weight` (#T) says how well it sees each triangle, 0 to 1.
-  void add_view(const Vector3& view, const Positions& lines, const Vector& weight);
+  // Adds a view, in those of the lights (#lights x 3) that count (#lights); `weight` (#T) says how well it sees each
+  // triangle, 0 to 1.
+  void add_view(const Vector3& view, const Positions& lines, const Eigen::ArrayX<bool>& counts, const Vector& weight);
 
   const LineDeviation& result() const { return result_; }
 
