@@ -19,7 +19,7 @@ class Spot:
     height: float   # of the flaw, world units: negative of a dent
     view: str       # one of VIEWS, or the name of a light of the scene's set
     light: int      # of the walk around or of the set, from 0
-    line: tuple[float, float, float]  # direction of the light that shows it best in the view camera's view, or of the set
+    line: tuple[float, float, float]  # direction of the light that shows it best along the view camera, or in the set
     eye: tuple[float, float, float] | None = None  # direction to the viewer in the set; None: along the view camera
 
     def tell_where(self) -> str:

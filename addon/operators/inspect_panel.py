@@ -22,8 +22,8 @@ LIGHTS = (
 
 
 class REFLINES_OT_inspect(bpy.types.Operator):
-    """Find the panel's worst spots: how even its lines are in eight lights from five views around it, or in the lights of
-the set. Nothing is changed; Esc cancels"""
+    """Find the panel's worst spots: how even its lines are in eight lights from five views around it, or in the lights
+of the set. Nothing is changed; Esc cancels"""
     bl_idname = "reflines.inspect"
     bl_label = "Inspect"
     bl_options = {'REGISTER', 'UNDO'}

@@ -25,6 +25,7 @@ class VIEW3D_PT_reflines_inspection(ReflinesPanel, bpy.types.Panel):
         draw_paragraph(layout, context, inspection.summary, 'VIEWZOOM' if len(inspection.spots) else 'CHECKMARK')
         if inspection.unseen:
             draw_paragraph(layout, context, inspection.unseen, 'INFO')
+        layout.operator("reflines.export_sheet", icon='IMAGE_DATA')
         if not len(inspection.spots):
             return
         column = layout.column(align=True)

@@ -17,7 +17,8 @@ CHANGING = {
     "direction": {"density": 2.0, "axis": 'ALONG', "centre": 'EVERYWHERE'}, "direction of most lines": {"density": 1e6},
     "direction as set": {}, "untwist": {"angle": 0.5}, "warp": {}, "warp by place": {"fit": 'VALUE'}, "pattern": {},
     "pattern by place": {"fit": 'VALUE', "blur": 0.0}, "pull_line": {"handles": PULL}, "fit": {}, "check": {},
-    "inspect": {}, "show_spot": {}, "show_worse": {}, "show_spot of none": {"index": 10**6},
+    "inspect": {}, "inspect in the set": {"lights": 'SET'}, "show_spot": {}, "show_worse": {},
+    "show_spot of none": {"index": 10**6},
     "set_border": {"border": 'fixed'}, "pin_lines": {}, "resolve": {}, "bake_handles": {},
     "smooth into a key": {"result": 'SHAPE_KEY'}, "smooth for the set": {"lights": 'SET'},
 }

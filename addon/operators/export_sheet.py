@@ -1,0 +1,92 @@
+"""The operator Export Sheet."""
+from functools import partial
+from pathlib import Path
+
+import bpy
+import numpy as np
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ..blender import units
+from ..model import panel_picture
+from ..model.canvas import Canvas
+from ..model.panel_picture import Looked, Pictured
+from ..model.refusal import Refusal
+from ..model.sheet import HEIGHT, PICTURE, WIDTH, Sheet, draw_sheet
+from ..read import gather, read_checked, scene_objects
+from ..read.mesh_checks import Purpose
+from ..read.text_outlines import TextReader
+from ..solver import live_optimizer
+from ..view import facing, view_and_light
+from ..write.png import encode_png
+
+ROOM = 1.12  # of the picture to the panel's extent
+
+
+class REFLINES_OT_export_sheet(ExportHelper, bpy.types.Operator):
+    """Write the last inspection as one page for others: the panel with its stripes and numbered spots, a table, and the
+worst spots from near, each in the light that shows it"""
+    bl_idname = "reflines.export_sheet"
+    bl_label = "Export Sheet"
+
+    filename_ext = ".png"
+    filter_glob: StringProperty(default="*.png", options={'HIDDEN'})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        ob = scene_objects.read_active_object(context)
+        if ob is None or ob.type != 'MESH' or not ob.reflection_lines.inspection.summary:
+            cls.poll_message_set("Make a panel active that was inspected")
+            return False
+        obstacle = view_and_light.find_obstacle(context.scene)
+        cls.poll_message_set(obstacle)
+        return not obstacle
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
+        try:
+            pixels = draw(build_sheet(context, ob))
+            path.write_bytes(encode_png(pixels))
+        except (Refusal, OSError) as error:
+            self.report({'ERROR'}, str(error))
+            return {'CANCELLED'}
+        self.report({'INFO'}, f"{ob.name}: sheet written to {path.name}")
+        return {'FINISHED'}
+
+
+def draw(sheet: Sheet) -> np.ndarray:
+    """Draws the sheet: height x width x 3, uint8."""
+    with TextReader() as reader:
+        canvas = Canvas(WIDTH, HEIGHT, lambda text: (lambda read: (read.V, read.F))(reader.read(text)))
+        draw_sheet(sheet, canvas)
+    return canvas.to_bytes()
+
+
+def build_sheet(context: bpy.types.Context, ob: bpy.types.Object) -> Sheet:
+    """Reads what the sheet tells of the last inspection, and the panel as it is now."""
+    context.view_layer.update()
+    settings, stored = context.scene.reflection_lines, ob.reflection_lines.inspection
+    patch = gather.gather_patch(ob, settings.solve_for, 'MESH', or_all=True, purpose=Purpose.READ)
+    with live_optimizer.convert_native_errors(patch):
+        surface = read_checked.read_checked_surface(ob, patch, patch.V)
+        shown = panel_picture.cut_surface(surface.after, surface.F, surface.region)
+    seen = facing.read_patch_view(context.scene, patch)
+    right = np.cross(view_and_light.read_camera_axes(settings.camera)[1], seen.view_direction)
+    right /= np.linalg.norm(right)
+    looked = frame(shown, Looked(right, np.cross(seen.view_direction, right), seen.view_direction, patch.center, 1.0,
+                                 seen.line_direction, settings.stripes.count))
+    return Sheet(ob.name, f"{stored.summary}.", stored.unseen, [spot.to_spot() for spot in stored.spots], shown, looked,
+                 partial(units.format_length, scene=context.scene, precision=2))
+
+
+def frame(shown: Pictured, looked: Looked) -> Looked:
+    """Returns the view with all of the panel in the picture."""
+    panel = shown.V[np.unique(shown.F[shown.region])]
+    x, y = panel @ looked.right, panel @ looked.up
+    middle = (0.5 * (x.min() + x.max()) * looked.right + 0.5 * (y.min() + y.max()) * looked.up
+              + (looked.center @ looked.eye) * looked.eye)
+    width = ROOM * max(np.ptp(x), np.ptp(y) * PICTURE[0] / PICTURE[1])
+    return Looked(looked.right, looked.up, looked.eye, middle, float(width), looked.line, looked.count)
+
+
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_export_sheet])

@@ -1,0 +1,38 @@
+"""Outlines of text in Blender's own font, as triangles."""
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+NAME = "Reflection Lines Text"
+
+
+@dataclass(frozen=True)
+class Outlines:
+    """The letters of a text of size 1, in a plane."""
+    V: np.ndarray  # #V x 2: to the right and up from the beginning of the base line
+    F: np.ndarray  # #F x 3
+
+
+class TextReader:
+    """Reads one text after another; what it needs in the file is there between `with` and its end only."""
+
+    def __enter__(self) -> "TextReader":
+        self.curve = bpy.data.curves.new(NAME, 'FONT')
+        self.curve.fill_mode = 'FRONT'
+        self.ob = bpy.data.objects.new(NAME, self.curve)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        bpy.data.objects.remove(self.ob)
+        bpy.data.curves.remove(self.curve)
+
+    def read(self, text: str) -> Outlines:
+        self.curve.body = text
+        mesh = self.ob.to_mesh()
+        mesh.calc_loop_triangles()
+        V, F = np.zeros((len(mesh.vertices), 3), dtype=np.float32), np.zeros((len(mesh.loop_triangles), 3), np.int32)
+        mesh.vertices.foreach_get("co", V.ravel())
+        mesh.loop_triangles.foreach_get("vertices", F.ravel())
+        self.ob.to_mesh_clear()
+        return Outlines(V[:, :2].astype(np.float64), F)
