@@ -49,15 +49,24 @@ def turn_to(looked: Looked, eye: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def cut_surface(V: np.ndarray, F: np.ndarray, region: np.ndarray) -> Pictured:
-    """Prepares a surface: its panel with fitted normals, as the stripes of the window have them."""
-    own, inside = native.reflines.split_at_creases(V, F[region], angle=CREASE)
-    beside, outside = native.reflines.split_at_creases(V, F[~region], angle=CREASE) if not region.all() else (
-        np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64))
-    points = V[inside]
+    """Prepares a surface: its panel with fitted normals, as the stripes of the window have them. What lies beside it at
+    places that are no numbers is left out.
+    """
+    points, own = split(V, F[region])
+    around, beside = split(V, F[~region & np.isfinite(V).all(axis=1)[F].all(axis=1)])
     fitted = native.reflines.NormalFit(points, own).normals(points)
-    return Pictured(np.concatenate([points, V[outside]]), np.concatenate([own, beside + len(points)]),
-                    np.concatenate([fitted, average_normals(V[outside], beside)]),
+    return Pictured(np.concatenate([points, around]), np.concatenate([own, beside + len(points)]),
+                    np.concatenate([fitted, average_normals(around, beside)]),
                     np.arange(len(own) + len(beside)) < len(own))
+
+
+def split(V: np.ndarray, F: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the vertices and the triangles of a surface that is cut open, without vertices in none of them."""
+    if not len(F):
+        return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
+    used, corners = np.unique(F, return_inverse=True)
+    cut, vertex = native.reflines.split_at_creases(V[used], corners.reshape(-1, 3), angle=CREASE)
+    return V[used[vertex]], cut
 
 
 def average_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:

@@ -45,7 +45,7 @@ worst spots from near, each in the light that shows it"""
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
         try:
-            pixels = draw(build_sheet(context, ob))
+            pixels = draw(context, ob)
             path.write_bytes(encode_png(pixels))
         except (Refusal, OSError) as error:
             self.report({'ERROR'}, str(error))
@@ -54,10 +54,11 @@ worst spots from near, each in the light that shows it"""
         return {'FINISHED'}
 
 
-def draw(sheet: Sheet) -> np.ndarray:
+def draw(context: bpy.types.Context, ob: bpy.types.Object) -> np.ndarray:
     """Draws the sheet: height x width x 3, uint8."""
+    sheet = build_sheet(context, ob)
     with TextReader() as reader:
-        canvas = Canvas(WIDTH, HEIGHT, lambda text: (lambda read: (read.V, read.F))(reader.read(text)))
+        canvas = Canvas(WIDTH, HEIGHT, reader.read)
         draw_sheet(sheet, canvas)
     return canvas.to_bytes()
 

@@ -1,17 +1,8 @@
 """Outlines of text in Blender's own font, as triangles."""
-from dataclasses import dataclass
-
 import bpy
 import numpy as np
 
 NAME = "Reflection Lines Text"
-
-
-@dataclass(frozen=True)
-class Outlines:
-    """The letters of a text of size 1, in a plane."""
-    V: np.ndarray  # #V x 2: to the right and up from the beginning of the base line
-    F: np.ndarray  # #F x 3
 
 
 class TextReader:
@@ -27,7 +18,10 @@ class TextReader:
         bpy.data.objects.remove(self.ob)
         bpy.data.curves.remove(self.curve)
 
-    def read(self, text: str) -> Outlines:
+    def read(self, text: str) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the letters of a text of size 1: vertices (#V x 2, to the right and up from the beginning of the base
+        line) and triangles (#F x 3).
+        """
         self.curve.body = text
         mesh = self.ob.to_mesh()
         mesh.calc_loop_triangles()
@@ -35,4 +29,4 @@ class TextReader:
         mesh.vertices.foreach_get("co", V.ravel())
         mesh.loop_triangles.foreach_get("vertices", F.ravel())
         self.ob.to_mesh_clear()
-        return Outlines(V[:, :2].astype(np.float64), F)
+        return V[:, :2].astype(np.float64), F

@@ -80,6 +80,13 @@ def test_another_eye_turns_the_picture_no_further_than_needed() -> None:
     assert np.allclose(np.cross(right, up), -z)
 
 
+def test_vertices_nowhere_and_faces_beside_keep_no_panel_from_its_sheet() -> None:
+    far, loose = (1e3, 0.0, 0.0), (np.nan,) * 3
+    V = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), far, loose])
+    shown = panel_picture.cut_surface(V, np.array([[0, 1, 2], [0, 2, 3], [0, 1, 4]]), np.array([True, False, False]))
+    assert shown.region.tolist() == [True, False] and np.isfinite(shown.V).all() and np.isfinite(shown.normals).all()
+
+
 def test_a_clean_panel_has_a_sheet_and_what_cannot_be_written_is_told(tmp_path: Path) -> None:
     ob = make_panel(scenes.crown)
     assert not bpy.ops.reflines.export_sheet.poll()
