@@ -8,16 +8,14 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..blender import units
-from ..model import panel_picture
+from ..interactive import read_picture
 from ..model.canvas import Canvas
 from ..model.panel_picture import Looked, Pictured
 from ..model.refusal import Refusal
 from ..model.sheet import HEIGHT, PICTURE, WIDTH, Sheet, draw_sheet
-from ..read import gather, read_checked, scene_objects
-from ..read.mesh_checks import Purpose
+from ..read import scene_objects
 from ..read.text_outlines import TextReader
-from ..solver import live_optimizer
-from ..view import facing, view_and_light
+from ..view import view_and_light
 from ..write.png import encode_png
 
 ROOM = 1.12  # of the picture to the panel's extent
@@ -65,19 +63,10 @@ def draw(context: bpy.types.Context, ob: bpy.types.Object) -> np.ndarray:
 
 def build_sheet(context: bpy.types.Context, ob: bpy.types.Object) -> Sheet:
     """Reads what the sheet tells of the last inspection, and the panel as it is now."""
-    context.view_layer.update()
-    settings, stored = context.scene.reflection_lines, ob.reflection_lines.inspection
-    patch = gather.gather_patch(ob, settings.solve_for, 'MESH', or_all=True, purpose=Purpose.READ)
-    with live_optimizer.convert_native_errors(patch):
-        surface = read_checked.read_checked_surface(ob, patch, patch.V)
-        shown = panel_picture.cut_surface(surface.after, surface.F, surface.region)
-    seen = facing.read_patch_view(context.scene, patch)
-    right = np.cross(view_and_light.read_camera_axes(settings.camera)[1], seen.view_direction)
-    right /= np.linalg.norm(right)
-    looked = frame(shown, Looked(right, np.cross(seen.view_direction, right), seen.view_direction, patch.center, 1.0,
-                                 seen.line_direction, settings.stripes.count))
-    return Sheet(ob.name, f"{stored.summary}.", stored.unseen, [spot.to_spot() for spot in stored.spots], shown, looked,
-                 partial(units.format_length, scene=context.scene, precision=2))
+    stored = ob.reflection_lines.inspection
+    shown, looked = read_picture.read_picture(context, ob)
+    return Sheet(ob.name, f"{stored.summary}.", stored.unseen, [spot.to_spot() for spot in stored.spots], shown,
+                 frame(shown, looked), partial(units.format_length, scene=context.scene, precision=2))
 
 
 def frame(shown: Pictured, looked: Looked) -> Looked:

@@ -13,6 +13,7 @@ SETUP = (
     ("reflines.add_view_camera", 'CAMERA_DATA'),
     ("reflines.look_through", 'HIDE_OFF'), ("reflines.add_light_direction", 'EMPTY_SINGLE_ARROW'),
     ("reflines.sweep_light", 'LIGHT_SUN'), ("reflines.sweep_view", 'ORIENTATION_GIMBAL'),
+    ("reflines.export_film", 'RENDER_ANIMATION'),
     ("reflines.add_warp_lattice", 'LATTICE_DATA'),
 )
 BEFORE = "scene.reflection_lines.stripes.before"

@@ -10,7 +10,8 @@ FOREIGN = {"socket", "ssl", "http", "urllib", "ftplib", "smtplib", "requests", "
 RUNS_TEXT = {"eval", "exec", "compile", "__import__"}
 # Who may write files: name of the module -> how.
 WRITERS = {"addon/library_copy.py", "addon/write/matcap.py", "addon/operators/install_matcap.py",
-           "addon/operators/export_table.py", "addon/operators/export_sheet.py"}
+           "addon/operators/export_table.py", "addon/operators/export_sheet.py",
+           "addon/operators/export_film.py"}
 WRITES = {"write_bytes", "write_text", "mkstemp", "makedirs", "save_render", "savez", "tofile", "copyfile"}
 
 
