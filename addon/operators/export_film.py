@@ -10,7 +10,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..blender import compat
 from ..interactive import read_picture, running_operators
-from ..model.film import BANDS, Film
+from ..model.film import Film
 from ..model.refusal import Refusal
 from ..read import scene_objects
 from ..view import view_and_light
@@ -97,24 +97,24 @@ class REFLINES_OT_draw_film(FilmSettings, bpy.types.Operator):
         told = Film(shown, looked, self.kind, self.swing, self.frames, self.width, self.height)
         self.film = replace(told, looked=replace(looked, width=ROOM * told.measure_width()))
         self.path = Path(bpy.path.abspath(self.filepath))
-        self.band, self.bands = 0, []
+        self.band, self.drawn = 0, []
 
     def draw_next(self) -> bool:
         """Draws the next band, and writes the frame that is done with it; returns whether that was the last one."""
-        frame, band = divmod(self.band, BANDS)
-        self.bands.append(self.film.draw_band(frame, band))
+        frame, band = divmod(self.band, self.film.bands)
+        self.drawn.append(self.film.draw_band(frame, band))
         self.band += 1
-        if band == BANDS - 1:
-            self.name_frame(frame).write_bytes(encode_png(np.concatenate(self.bands)))
-            self.bands = []
-        return self.band == BANDS * self.frames
+        if band == self.film.bands - 1:
+            self.name_frame(frame).write_bytes(encode_png(np.concatenate(self.drawn)))
+            self.drawn = []
+        return self.band == self.film.bands * self.frames
 
     def name_frame(self, frame: int) -> Path:
         """Returns the file of a frame, numbered from 1 as Blender does."""
         return self.path.with_name(f"{self.path.stem}{frame + 1:04d}.png")
 
     def tell(self) -> None:
-        count = self.band // BANDS
+        count = self.band // self.film.bands
         self.report({'INFO'}, f"{count} frames written, the first is {self.name_frame(0).name}" if count else
                     "No frame was written")
 
@@ -142,7 +142,8 @@ class REFLINES_OT_draw_film(FilmSettings, bpy.types.Operator):
             self.take_back(context)
             self.report({'ERROR'}, str(error))
             return {'CANCELLED'}
-        context.workspace.status_text_set(f"Film: frame {self.band // BANDS} of {self.frames}   Esc: end it here")
+        done = self.band // self.film.bands
+        context.workspace.status_text_set(f"Film: frame {done} of {self.frames}   Esc: end it here")
         if not is_done:
             return {'RUNNING_MODAL'}
         self.take_back(context)

@@ -2,6 +2,8 @@
 import sys
 import time
 from collections.abc import Generator
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import bpy
 import numpy as np
@@ -65,5 +67,35 @@ def test_escape_cancels(driver: window.Window) -> Steps:
     assert not ob.reflection_lines.inspection.summary
 
 
+def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, None]:
+    """Writes a film of a panel as Export Film does once its file is chosen; returns while that is at work."""
+    with driver.override():
+        scenes.panel(height=dented, cells=CELLS)
+        scenes.look_from_above()
+    driver.move(300, 300)
+    yield 0.1
+    with driver.override():
+        assert bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(folder / "film_.png"), frames=6) == {'FINISHED'}
+
+
+def test_a_film_is_written_beside_blender(driver: window.Window) -> Steps:
+    with TemporaryDirectory() as folder:
+        yield from begin_film(driver, Path(folder))
+        longest = yield from wait()
+        assert len(list(Path(folder).iterdir())) == 6 and longest < 0.5
+
+
+def test_escape_ends_a_film_early(driver: window.Window) -> Steps:
+    with TemporaryDirectory() as folder:
+        yield from begin_film(driver, Path(folder))
+        while not list(Path(folder).iterdir()):
+            yield 0.02
+        driver.key('ESC')
+        yield 0.3
+        yield from wait()
+        assert 1 <= len(list(Path(folder).iterdir())) < 6
+
+
 if __name__ == "__main__":
-    window.run(test_blender_goes_on_and_a_spot_is_framed, test_escape_cancels)
+    window.run(test_blender_goes_on_and_a_spot_is_framed, test_escape_cancels, test_a_film_is_written_beside_blender,
+               test_escape_ends_a_film_early)
