@@ -75,7 +75,8 @@ def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, No
     driver.move(300, 300)
     yield 0.1
     with driver.override():
-        assert bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(folder / "film_.png"), frames=6) == {'FINISHED'}
+        result = bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(folder / "film_.png"), frames=6)
+    assert result == {'FINISHED'}
 
 
 def test_a_film_is_written_beside_blender(driver: window.Window) -> Steps:
