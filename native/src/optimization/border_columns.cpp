@@ -26,14 +26,13 @@ int BorderColumns::find(int unknown) const {
   return place == unknowns_.end() ? -1 : static_cast<int>(place - unknowns_.begin());
 }
 
-int BorderColumns::add(const std::vector<int>& unknowns, const SparseMatrix& columns, const Progress* progress) {
-  const int solves = solver_.has_halves() ? add_halves(columns, progress) : add_whole(columns, progress);
+void BorderColumns::add(const std::vector<int>& unknowns, const SparseMatrix& columns, const Progress* progress) {
+  solver_.has_halves() ? add_halves(columns, progress) : add_whole(columns, progress);
   columns_.push_back(columns);
   unknowns_.insert(unknowns_.end(), unknowns.begin(), unknowns.end());
-  return solves;
 }
 
-int BorderColumns::add_halves(const SparseMatrix& columns, const Progress* progress) {
+void BorderColumns::add_halves(const SparseMatrix& columns, const Progress* progress) {
   std::vector<SparseColumns> halves;
   for (Eigen::Index first = 0; first < columns.cols(); first += kBlock) {
     throw_if_cancelled(progress);
@@ -48,7 +47,6 @@ int BorderColumns::add_halves(const SparseMatrix& columns, const Progress* progr
     multiply_last_half(right);
     right += halves_.back().value.cols();
   }
-  return 0;
 }
 
 // Computes the products of the last block of halves, whose first column is `right`, with itself and those before it.
@@ -62,7 +60,7 @@ void BorderColumns::multiply_last_half(Eigen::Index right) {
   }
 }
 
-int BorderColumns::add_whole(const SparseMatrix& columns, const Progress* progress) {
+void BorderColumns::add_whole(const SparseMatrix& columns, const Progress* progress) {
   Eigen::MatrixXd products(count() + columns.cols(), columns.cols());
   for (Eigen::Index first = 0; first < columns.cols(); first += kWholeBlock) {
     throw_if_cancelled(progress);
@@ -80,14 +78,14 @@ int BorderColumns::add_whole(const SparseMatrix& columns, const Progress* progre
   products_.conservativeResize(products.rows(), products.rows());
   products_.rightCols(columns.cols()) = products;
   products_.bottomLeftCorner(columns.cols(), before) = products.topRows(before).transpose();
-  return static_cast<int>(columns.cols());
+  solves_ += static_cast<int>(columns.cols());
 }
 
-Vector BorderColumns::reach(const Vector& right, int& solves) {
+Vector BorderColumns::reach(const Vector& right) {
   if (!solver_.has_halves()) {
     right_ = solved_ = right;
     solver_.solve(solved_);
-    ++solves;
+    ++solves_;
   } else if (right_.size() == 0 || right != right_) {
     right_ = solved_ = right;
     solver_.solve_lower(solved_);
@@ -110,7 +108,7 @@ Vector BorderColumns::multiply_transposed(const Vector& x) const {
   return result;
 }
 
-Vector BorderColumns::finish(const Vector& z, int& solves) {
+Vector BorderColumns::finish(const Vector& z) {
   Eigen::Index first = 0;
   if (solver_.has_halves()) {
     Vector x = solved_;
@@ -119,7 +117,7 @@ Vector BorderColumns::finish(const Vector& z, int& solves) {
       first += block.value.cols();
     }
     solver_.solve_upper(x);
-    ++solves;
+    ++solves_;
     return x;
   }
   if (z.isZero(0)) return solved_;
@@ -129,7 +127,7 @@ Vector BorderColumns::finish(const Vector& z, int& solves) {
     first += columns.cols();
   }
   solver_.solve(x);
-  ++solves;
+  ++solves_;
   return x;
 }
 

@@ -20,23 +20,26 @@ class BorderColumns {
   int count() const { return static_cast<int>(unknowns_.size()); }
   int find(int unknown) const;  // the unknown's column, or -1
 
-  // Adds columns (n x #unknowns); returns the number of solves that took. Throws Cancelled, and adds none then.
-  int add(const std::vector<int>& unknowns, const SparseMatrix& columns, const Progress* progress);
+  int solves() const { return solves_; }  // made until now
+
+  // Adds columns (n x #unknowns). Throws Cancelled, and adds none then.
+  void add(const std::vector<int>& unknowns, const SparseMatrix& columns, const Progress* progress);
 
   const Eigen::MatrixXd& products() const { return products_; }  // B^T A^-1 B, m x m
 
   // Solves A x = right - B z in two steps: `reach` returns B^T A^-1 right (m), from which a caller finds z, and
-  // `finish` returns x. Both return or add the solves that they took.
-  Vector reach(const Vector& right, int& solves);
-  Vector finish(const Vector& z, int& solves);
+  // `finish` returns x.
+  Vector reach(const Vector& right);
+  Vector finish(const Vector& z);
 
  private:
-  int add_halves(const SparseMatrix& columns, const Progress* progress);
+  void add_halves(const SparseMatrix& columns, const Progress* progress);
   void multiply_last_half(Eigen::Index right);
-  int add_whole(const SparseMatrix& columns, const Progress* progress);
+  void add_whole(const SparseMatrix& columns, const Progress* progress);
   Vector multiply_transposed(const Vector& x) const;
 
   LinearSolver& solver_;
+  int solves_ = 0;
   std::vector<int> unknowns_;
   std::vector<SparseMatrix> columns_;  // B, as added
   std::vector<SparseColumns> halves_;  // L^-1 P B, by blocks, where the solver has halves

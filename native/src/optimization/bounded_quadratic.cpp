@@ -35,7 +35,6 @@ constexpr int kManyPeaks = 16;
 // solves with each. With 9 instead of 20 solves of 100,000 unknowns that end with 2,400 contacts took 32 factorizations
 // and 100 solves instead of 18 and 45.
 constexpr double kRoundsOfInteriorPoint = 20.0;
-constexpr int kMaxInteriorSteps = 15;
 
 // The sweeps of relaxation before the first factorization, from the free minimum, most of which may be beyond its
 // bounds; and after each whose set changes by more than this share. Over three sizes, four strengths of noise and six
@@ -46,10 +45,6 @@ constexpr double kManyChanges = 0.2;
 
 // The part of the projected gradient that the unknowns between their bounds may keep.
 constexpr double kLostDigits = 0.1;
-
-bool is_few(const Sides& held, const Bounds& bounds) {
-  return count_held(held) <= few_contacts(held) + count_held(bounds.points());
-}
 
 // Returns whether the rounds that are left cost more factorizations than the interior point method, if the number of
 // changes goes on falling at its present rate: one each as long as there are many, then parts of one.
@@ -69,7 +64,8 @@ class Ring {
  public:
   bool is_closed_by(const Sides& held) {
     if (held == kept_) return true;
-    if ((++round_ & (round_ - 1)) == 0) kept_ = held;
+    ++round_;
+    if ((round_ & (round_ - 1)) == 0) kept_ = held;
     return false;
   }
 
@@ -141,88 +137,91 @@ Sides keep_peaks(const SparseMatrix& H, const Bounds& bounds, const Sides& held,
   return result;
 }
 
-bool BoundedQuadratic::minimize(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held,
-                                bool& many, Vector& d) {
-  best_norm_ = std::numeric_limits<double>::infinity();
-  ProjectedRelaxation relaxation(model, bounds, progress_);
-  if (!many) {
-    const Search search = search_contacts(model, bounds, wanted, held, d);
-    if (search != Search::kTooMany) return search == Search::kFound;
-    many = true;
-    if (!is_few(held, bounds)) held = relaxation.estimate_held(d, kFirstSweeps);
-  }
-  return settle(model, bounds, wanted, relaxation, held, d);
+BoundedQuadratic::BoundedQuadratic(const QuadraticModel& model, const Bounds& bounds, double wanted, HeldFactor& factor,
+                                   Report& counts, Progress* progress)
+    : model_(model),
+      bounds_(bounds),
+      wanted_(wanted),
+      factor_(factor),
+      counts_(counts),
+      progress_(progress),
+      points_(bounds.points()) {}
+
+bool BoundedQuadratic::is_few(const Sides& held) const {
+  return count_held(held) <= few_contacts(held) + count_held(points_);
 }
 
-BoundedQuadratic::Search BoundedQuadratic::search_contacts(const QuadraticModel& model, const Bounds& bounds,
-                                                           double wanted, Sides& held, Vector& d) {
-  Sides set = bounds.points();
-  const int points = count_held(set);
-  if (count_held(held) <= few_contacts(held) + points) set = held;
+BoundedQuadratic::Minimum BoundedQuadratic::minimize(Sides held, bool many) {
+  ProjectedRelaxation relaxation(model_, bounds_, progress_);
+  if (!many) {
+    if (const std::optional<Sides> few = search_contacts(is_few(held) ? held : points_)) return {best_, *few, false};
+    if (!is_few(held)) held = relaxation.estimate_held(best_, kFirstSweeps);
+  }
+  held = settle(relaxation, std::move(held));
+  return {best_, std::move(held), true};
+}
+
+// Returns nothing where there are too many contacts.
+std::optional<Sides> BoundedQuadratic::search_contacts(Sides held) {
   std::vector<double> norms;
   std::vector<int> changes;
   for (int round = 0; round < kMaxSearches; ++round) {
-    if (cancelled()) return Search::kCancelled;
-    release_pulling(model, bounds, set);
-    const Trial trial = minimize_held(model, bounds, wanted, set, d);
-    const Sides next = keep_peaks(model.H, bounds, set, next_held(bounds, set, trial.d, trial.gradient), trial.d);
-    const bool settled = next == set;
-    if (best_norm_ <= wanted || (settled && factor_.leaves_out(set))) {
-      held = set;
-      return Search::kFound;
-    }
-    if (settled) factorize(model, set);  // which has the digits that the Schur complement lost
+    throw_if_cancelled(progress_);
+    held = release_pulling(std::move(held));
+    const Trial trial = minimize_held(held);
+    const Sides next = keep_peaks(model_.H, bounds_, held, next_held(bounds_, held, trial.d, trial.gradient), trial.d);
+    const bool settled = next == held;
+    if (best_norm_ <= wanted_ || (settled && factor_.leaves_out(held))) return held;
+    if (settled) factorize(held);  // which has the digits that the Schur complement lost
     norms.push_back(best_norm_);
-    changes.push_back(count_changes(set, next));
+    changes.push_back(count_changes(held, next));
     const bool slow = round >= kPatience && norms[round] > 0.5 * norms[round - kPatience] &&
                       2 * changes[round] > changes[round - kPatience];
-    if (slow || count_held(next) > few_contacts(held) + points) break;
-    set = next;
+    if (slow || !is_few(next)) break;
+    held = next;
   }
-  return Search::kTooMany;
+  return {};
 }
 
-bool BoundedQuadratic::settle(const QuadraticModel& model, const Bounds& bounds, double wanted,
-                              ProjectedRelaxation& relaxation, Sides& held, Vector& d) {
+Sides BoundedQuadratic::settle(ProjectedRelaxation& relaxation, Sides held) {
   Ring ring;
   int changes = 0, slow_rounds = 0;
-  bool guessed = false;
+  bool estimated = false;
   for (int round = 0; round < kMaxRounds; ++round) {
-    if (cancelled()) return false;
-    const Trial trial = minimize_held(model, bounds, wanted, held, d);
-    if (best_norm_ <= wanted) return true;
-    Sides next = next_held(bounds, held, trial.d, trial.gradient);
+    throw_if_cancelled(progress_);
+    const Trial trial = minimize_held(held);
+    if (best_norm_ <= wanted_) break;
+    Sides next = next_held(bounds_, held, trial.d, trial.gradient);
     // Few contacts are not estimated from inside: 330 of 100,000 took more than 40 steps, and 28 rounds without.
-    const bool few = is_few(next, bounds);
-    if (few) next = keep_peaks(model.H, bounds, held, next, trial.d);
+    const bool few = is_few(next);
+    if (few) next = keep_peaks(model_.H, bounds_, held, next, trial.d);
     const int changes_before = std::exchange(changes, count_changes(held, next));
-    if (changes == 0 && factor_.leaves_out(held)) return true;
-    if (changes == 0) factorize(model, held);  // which has the digits that the Schur complement lost
+    if (changes == 0 && factor_.leaves_out(held)) break;
+    if (changes == 0) factorize(held);  // which has the digits that the Schur complement lost
     const bool in_ring = changes > 0 && ring.is_closed_by(next);
     slow_rounds = round > 0 && !few && settles_slowly(changes_before, changes) ? slow_rounds + 1 : 0;
-    if ((slow_rounds >= 2 || in_ring) && !guessed) {
-      guessed = true;
-      if (!guess_from_inside(model, bounds, std::sqrt(trial.d.squaredNorm() / trial.d.size()), next)) return false;
+    if ((slow_rounds >= 2 || in_ring) && !estimated) {
+      estimated = true;
+      next = estimate_from_inside(std::sqrt(trial.d.squaredNorm() / static_cast<double>(trial.d.size())));
     } else if (!few && changes > std::max<double>(HeldFactor::kMostNewColumns, kManyChanges * count_held(next))) {
       next = relaxation.estimate_held(trial.d, kSweeps);
     }
     held = std::move(next);
   }
-  return true;
+  return held;
 }
 
-void BoundedQuadratic::factorize(const QuadraticModel& model, const Sides& held) {
-  factor_.factorize(model.H, held, progress_);
+void BoundedQuadratic::factorize(const Sides& held) {
+  factor_.factorize(model_.H, held, progress_);
   ++counts_.factorizations;
 }
 
-void BoundedQuadratic::hold(const QuadraticModel& model, const Bounds& bounds, const Sides& held) {
-  std::optional<int> solves = factor_.hold(model.H, held, progress_);
+void BoundedQuadratic::hold(const Sides& held) {
+  std::optional<int> solves = factor_.hold(model_.H, held, progress_);
   if (!solves) {
-    const Sides points = bounds.points();
-    const bool few = count_held(held) - count_held(points) <= HeldFactor::kMostNewColumns;
-    factorize(model, few ? points : held);
-    solves = factor_.hold(model.H, held, progress_);
+    const bool few = count_held(held) - count_held(points_) <= HeldFactor::kMostNewColumns;
+    factorize(few ? points_ : held);
+    solves = factor_.hold(model_.H, held, progress_);
   }
   counts_.solves += solves.value_or(0);
 }
@@ -230,28 +229,27 @@ void BoundedQuadratic::hold(const QuadraticModel& model, const Bounds& bounds, c
 // Minimizes with the held unknowns at their bounds, and keeps the nearest point within the bounds if it is the best. A
 // bordered factor may lose all digits, as on a free border where nearly all unknowns were held: it is replaced where
 // the unknowns between their bounds keep a gradient that is a part of the projected one.
-BoundedQuadratic::Trial BoundedQuadratic::minimize_held(const QuadraticModel& model, const Bounds& bounds,
-                                                        double wanted, const Sides& held, Vector& best) {
-  hold(model, bounds, held);
-  Trial trial = solve_held(model, bounds, held);
-  const double norm = keep_if_best(model, bounds, trial, best);
-  if (factor_.leaves_out(held) || norm <= wanted) return trial;
+BoundedQuadratic::Trial BoundedQuadratic::minimize_held(const Sides& held) {
+  hold(held);
+  Trial trial = solve_held(held);
+  const double norm = keep_if_best(trial);
+  if (factor_.leaves_out(held) || norm <= wanted_) return trial;
   double squared = 0.0;
   for (int k = 0; k < trial.d.size(); ++k) {
     if (held[k] == Side::kBetween) squared += trial.gradient(k) * trial.gradient(k);
   }
   if (std::sqrt(squared) < kLostDigits * norm) return trial;
-  factorize(model, held);
-  trial = solve_held(model, bounds, held);
-  keep_if_best(model, bounds, trial, best);
+  factorize(held);
+  trial = solve_held(held);
+  keep_if_best(trial);
   return trial;
 }
 
 // Releases contacts that pull at their bounds until none does.
-void BoundedQuadratic::release_pulling(const QuadraticModel& model, const Bounds& bounds, Sides& held) {
-  if (!factor_.tells_forces()) return;
-  hold(model, bounds, held);
-  const Vector at_bounds = bounds.ends(held), right = right_side(model, factor_.select_left_out(at_bounds));
+Sides BoundedQuadratic::release_pulling(Sides held) {
+  if (!factor_.tells_forces()) return held;
+  hold(held);
+  const Vector at_bounds = bounds_.ends(held), right = right_side(factor_.select_left_out(at_bounds));
   bool pulls = true;
   while (pulls) {
     pulls = false;
@@ -259,47 +257,41 @@ void BoundedQuadratic::release_pulling(const QuadraticModel& model, const Bounds
     for (Eigen::Index i = 0; i < forces.size(); ++i) {
       const int k = factor_.contacts()[i];
       const bool presses = held[k] == Side::kLow ? forces(i) < 0 : forces(i) > 0;
-      if (presses || bounds.is_point(k)) continue;
+      if (presses || bounds_.is_point(k)) continue;
       held[k] = Side::kBetween;
       pulls = true;
     }
-    if (pulls) hold(model, bounds, held);
+    if (pulls) hold(held);
   }
+  return held;
 }
 
-Vector BoundedQuadratic::right_side(const QuadraticModel& model, const Vector& left_out) {
-  return left_out.isZero(0) ? Vector(-model.gradient) : Vector(-model.gradient_at(left_out));
+Vector BoundedQuadratic::right_side(const Vector& left_out) const {
+  return left_out.isZero(0) ? Vector(-model_.gradient) : Vector(-model_.gradient_at(left_out));
 }
 
-BoundedQuadratic::Trial BoundedQuadratic::solve_held(const QuadraticModel& model, const Bounds& bounds,
-                                                     const Sides& held) {
-  const Vector at_bounds = bounds.ends(held), left_out = factor_.select_left_out(at_bounds);
-  Vector d = right_side(model, left_out);
+BoundedQuadratic::Trial BoundedQuadratic::solve_held(const Sides& held) {
+  const Vector at_bounds = bounds_.ends(held), left_out = factor_.select_left_out(at_bounds);
+  Vector d = right_side(left_out);
   counts_.solves += factor_.solve(d, at_bounds);
   d += left_out;
-  return {d, model.gradient_at(d)};
+  return {d, model_.gradient_at(d)};
 }
 
 // Returns the norm of the projected gradient at the nearest point within the bounds.
-double BoundedQuadratic::keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Trial& trial,
-                                      Vector& best) {
-  const Vector inside = bounds.nearest(trial.d);
-  const double norm = bounds.projected_norm(inside, inside == trial.d ? trial.gradient : model.gradient_at(inside));
+double BoundedQuadratic::keep_if_best(const Trial& trial) {
+  const Vector inside = bounds_.nearest(trial.d);
+  const double norm = bounds_.projected_norm(inside, inside == trial.d ? trial.gradient : model_.gradient_at(inside));
   if (norm < best_norm_) {
     best_norm_ = norm;
-    best = inside;
+    best_ = inside;
   }
   return norm;
 }
 
-bool BoundedQuadratic::guess_from_inside(const QuadraticModel& model, const Bounds& bounds, double reach, Sides& held) {
-  InteriorPoint inside(model, bounds, reach);
-  for (int step = 0; step < kMaxInteriorSteps; ++step) {
-    if (cancelled()) return false;
-    if (!inside.step(factor_, counts_, progress_)) break;
-  }
-  held = inside.guess();
-  return true;
+Sides BoundedQuadratic::estimate_from_inside(double reach) {
+  const StepLimits limits{nullptr, bounds_.low, bounds_.high, points_};
+  return InteriorPoint(model_, limits, reach, factor_, counts_, progress_).estimate_held();
 }
 
 }  // namespace reflines

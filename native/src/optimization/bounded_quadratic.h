@@ -1,8 +1,12 @@
 // A quadratic model g.d + d.H d / 2 of an energy, minimized within bounds.
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "optimization/bounds.h"
 #include "optimization/held_factor.h"
+#include "optimization/quadratic_model.h"
 #include "reflines/progress.h"
 #include "reflines/report.h"
 #include "reflines/types.h"
@@ -10,13 +14,6 @@
 namespace reflines {
 
 class ProjectedRelaxation;
-
-struct QuadraticModel {
-  const SparseMatrix& H;  // lower triangle, n x n
-  const Vector& gradient;
-
-  Vector gradient_at(const Vector& d) const { return H.selfadjointView<Eigen::Lower>() * d + gradient; }
-};
 
 // A minimum that touches its bounds at few unknowns, as smooth surfaces do at their highest places, is found with few
 // factors: from the free minimum on, unknowns are held at the peaks of the violation, and those that pull are released
@@ -33,38 +30,45 @@ struct QuadraticModel {
 // InteriorPoint estimates it anew.
 class BoundedQuadratic {
  public:
-  // Takes the factor to use; `counts` collects factorizations and solves. `progress` may be null.
-  BoundedQuadratic(HeldFactor& factor, Report& counts, Progress* progress)
-      : factor_(factor), counts_(counts), progress_(progress) {}
+  // Takes the model, its bounds and the projected gradient that is wanted; `counts` collects factorizations and solves.
+  // All outlive it; `progress` may be null.
+  BoundedQuadratic(const QuadraticModel& model, const Bounds& bounds, double wanted, HeldFactor& factor, Report& counts,
+                   Progress* progress);
 
-  // Finds d within `bounds` with a projected gradient of at most `wanted`, or as small as the rounds allow. `held` is
-  // an estimate on entry, and the set of the remaining factor on return. `many` tells that few contacts were searched
-  // in vain, and is set then. Returns false where cancelled.
-  bool minimize(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, bool& many, Vector& d);
+  // Finds d within the bounds with a projected gradient as wanted, or as small as the rounds allow. `held` is an
+  // estimate, `many` tells that few contacts were searched in vain before. Throws Cancelled.
+  struct Minimum {
+    Vector d;
+    Sides held;  // by the remaining factor
+    bool many;
+  };
+  Minimum minimize(Sides held, bool many);
 
  private:
-  enum class Search { kFound, kTooMany, kCancelled };
-  Search search_contacts(const QuadraticModel& model, const Bounds& bounds, double wanted, Sides& held, Vector& d);
-  void factorize(const QuadraticModel& model, const Sides& held);
-  void hold(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
-  bool settle(const QuadraticModel& model, const Bounds& bounds, double wanted, ProjectedRelaxation& relaxation,
-              Sides& held, Vector& d);
-  bool cancelled() const { return progress_ != nullptr && progress_->cancelled(); }
+  std::optional<Sides> search_contacts(Sides held);
+  Sides settle(ProjectedRelaxation& relaxation, Sides held);
   struct Trial {
     Vector d, gradient;  // of the model at d
   };
-  Trial minimize_held(const QuadraticModel& model, const Bounds& bounds, double wanted, const Sides& held,
-                      Vector& best);
-  void release_pulling(const QuadraticModel& model, const Bounds& bounds, Sides& held);
-  static Vector right_side(const QuadraticModel& model, const Vector& left_out);
-  Trial solve_held(const QuadraticModel& model, const Bounds& bounds, const Sides& held);
-  double keep_if_best(const QuadraticModel& model, const Bounds& bounds, const Trial& trial, Vector& best);
-  bool guess_from_inside(const QuadraticModel& model, const Bounds& bounds, double reach, Sides& held);
+  Trial minimize_held(const Sides& held);
+  Trial solve_held(const Sides& held);
+  double keep_if_best(const Trial& trial);
+  Sides release_pulling(Sides held);
+  Sides estimate_from_inside(double reach);
+  void factorize(const Sides& held);
+  void hold(const Sides& held);
+  Vector right_side(const Vector& left_out) const;
+  bool is_few(const Sides& held) const;
 
+  const QuadraticModel& model_;
+  const Bounds& bounds_;
+  double wanted_;
   HeldFactor& factor_;
   Report& counts_;
   Progress* progress_;
-  double best_norm_ = 0.0;
+  Sides points_;
+  Vector best_;
+  double best_norm_ = std::numeric_limits<double>::infinity();
 };
 
 // Returns the unknowns that a step moved beyond their bound, and of the held ones those whose multiplier has the right

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace reflines {
 namespace {
@@ -11,9 +12,9 @@ namespace {
 constexpr int kMaxRounds = 200;
 
 // The contacts, and their share of the unknowns, above which the search ends: the small program takes their cube. Of
-// 1,927 unknowns 586 contacts take 0.6 s, 1,125 take 5.1 s and 1,477 take 30 s; RowInteriorPoint 1.5, 2.7 and 7 s. Of
-// 437 unknowns 150, 242 and 359 contacts take 0.3, 0.4 and 0.6 s, and RowInteriorPoint 0.7, 0.8 and 1.1 s. Where 2 and
-// 17 of 1,927 touch, 1.0 and 1.1 s stand against 3.6 and 4.3 s of RowInteriorPoint alone.
+// 1,927 unknowns 586 contacts take 0.6 s, 1,125 take 5.1 s and 1,477 take 30 s; InteriorPoint 1.5, 2.7 and 7 s. Of
+// 437 unknowns 150, 242 and 359 contacts take 0.3, 0.4 and 0.6 s, and InteriorPoint 0.7, 0.8 and 1.1 s. Where 2 and
+// 17 of 1,927 touch, 1.0 and 1.1 s stand against 3.6 and 4.3 s of InteriorPoint alone.
 constexpr double kMostContactShare = 0.4;
 constexpr size_t kMostContacts = 800;
 
@@ -56,7 +57,8 @@ Vector solve_softly(const Eigen::MatrixXd& S, const Vector& c) {
 
 }  // namespace
 
-Vector solve_complementarity(const Eigen::MatrixXd& S, const Vector& c, double tolerance, std::vector<bool>& positive) {
+Complementarity solve_complementarity(const Eigen::MatrixXd& S, const Vector& c, double tolerance) {
+  std::vector<bool> positive(c.size(), true);
   int fewest = std::numeric_limits<int>::max(), patience = kPatience;
   const int most = 20 + 4 * static_cast<int>(c.size());
   Vector y = Vector::Zero(c.size());
@@ -80,7 +82,7 @@ Vector solve_complementarity(const Eigen::MatrixXd& S, const Vector& c, double t
     }
     for (const int i : wrong) positive[i] = !positive[i];
   }
-  return y.cwiseMax(0.0);
+  return {y.cwiseMax(0.0), std::move(positive)};
 }
 
 void ContactQuadratic::forget() {
@@ -188,33 +190,29 @@ Vector ContactQuadratic::step_along(const Contacts& contacts, const Vector& grad
   return refine(contacts, change, tolerance, solve(-gradient));
 }
 
-Vector ContactQuadratic::minimize(const Vector& gradient, const Vector& low, const Vector& high, double tolerance,
-                                  Contacts& contacts) {
+std::optional<ContactQuadratic::Minimum> ContactQuadratic::minimize(const Vector& gradient, const Vector& low,
+                                                                    const Vector& high, double tolerance,
+                                                                    Contacts contacts) {
   const auto most = std::min(kMostContacts, static_cast<size_t>(kMostContactShare * static_cast<double>(rows_.rows())));
   const Vector free = solve(-gradient);
-  std::vector<bool> presses(contacts.size(), true);
-  Vector d = free;
   for (int round = 0; round < kMaxRounds; ++round) {
     throw_if_cancelled(progress_);
     const Vector missing = ends(contacts, low, high) - changes(contacts, free);
-    const Vector forces = solve_complementarity(compliance(contacts), missing, tolerance, presses);
+    const Complementarity pressed = solve_complementarity(compliance(contacts), missing, tolerance);
     Contacts pressing;
     for (size_t i = 0; i < contacts.size(); ++i) {
-      if (presses[i]) pressing.push_back(contacts[i]);
+      if (pressed.positive[i]) pressing.push_back(contacts[i]);
     }
-    d = -solve(take_off(contacts, forces, gradient));
+    Vector d = -solve(take_off(contacts, pressed.y, gradient));
     d = refine(pressing, ends(pressing, low, high), 0.25 * tolerance, d);
     contacts = pressing;
-    const Contacts peaks = find_peaks(low, high, tolerance, d);
-    const size_t before = contacts.size();
-    for (const Contact& peak : peaks) {
+    for (const Contact& peak : find_peaks(low, high, tolerance, d)) {
       if (std::find(pressing.begin(), pressing.end(), peak) == pressing.end()) contacts.push_back(peak);
     }
-    if (contacts.size() == before) return d;
-    if (round + 1 == kMaxRounds || contacts.size() > most) return {};
-    presses.assign(contacts.size(), true);
+    if (contacts.size() == pressing.size()) return Minimum{d, contacts};
+    if (contacts.size() > most) break;
   }
-  return d;
+  return {};
 }
 
 // Returns the functions that are the farthest beyond their range of all those that depend on the unknown which counts

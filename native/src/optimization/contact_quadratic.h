@@ -1,7 +1,7 @@
 // A quadratic model g.d + d.H d / 2 of an energy, minimized within limits of many linear functions of few unknowns.
 #pragma once
 
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "optimization/held_factor.h"
@@ -37,9 +37,13 @@ class ContactQuadratic {
   void forget();
 
   // Returns d with a violation of low <= A d <= high of at most `tolerance`, or nothing where there are too many
-  // contacts for this method. `contacts` is an estimate on entry, and the contacts with a force on return. Throws
-  // Cancelled.
-  Vector minimize(const Vector& gradient, const Vector& low, const Vector& high, double tolerance, Contacts& contacts);
+  // contacts for this method. `contacts` is an estimate. Throws Cancelled.
+  struct Minimum {
+    Vector d;
+    Contacts contacts;  // those with a force
+  };
+  std::optional<Minimum> minimize(const Vector& gradient, const Vector& low, const Vector& high, double tolerance,
+                                  Contacts contacts);
 
   // Returns the step to the minimum with the contacts held that moves their functions into their range by `change`
   // (#contacts).
@@ -72,7 +76,11 @@ class ContactQuadratic {
 };
 
 // Solves S y >= c, y >= 0, y (S y - c) = 0 for a positive definite S by block principal pivoting (Judice and Pires,
-// Comput. Oper. Res. 21, 1994). `positive` is an estimate of where y > 0 on entry, and that set on return.
-Vector solve_complementarity(const Eigen::MatrixXd& S, const Vector& c, double tolerance, std::vector<bool>& positive);
+// Comput. Oper. Res. 21, 1994), from the estimate that all are positive.
+struct Complementarity {
+  Vector y;
+  std::vector<bool> positive;  // where y may be > 0
+};
+Complementarity solve_complementarity(const Eigen::MatrixXd& S, const Vector& c, double tolerance);
 
 }  // namespace reflines

@@ -13,22 +13,18 @@ void clear(const Sides& held, Vector& x) {
 
 }  // namespace
 
-void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progress* progress, const Vector& added) {
+void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progress* progress) {
   forget();
   factored_ = held;
   SparseMatrix matrix = H;
   for (int column = 0; column < H.cols(); ++column) {
     const bool column_held = held[column] != Side::kBetween;
     for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (entry.row() == column) {
-        if (added.size() > 0) entry.valueRef() += added(column);
-      } else if (column_held || held[entry.row()] != Side::kBetween) {
-        entry.valueRef() = 0.0;
-      }
+      if (entry.row() != column && (column_held || held[entry.row()] != Side::kBetween)) entry.valueRef() = 0.0;
     }
   }
   solver_.factorize(matrix, progress);
-  is_current_ = added.size() == 0;
+  is_current_ = true;
 }
 
 void HeldFactor::forget() {
@@ -68,10 +64,11 @@ std::optional<int> HeldFactor::hold(const SparseMatrix& H, const Sides& held, co
   }
   if (static_cast<int>(wanted.size()) > kMostNewColumns) return {};
   wanted = solver_.sort_by_elimination(std::move(wanted));
-  const int solves = wanted.empty() ? 0 : border_.add(wanted, make_columns(H, wanted), progress);
+  const int before = border_.solves();
+  if (!wanted.empty()) border_.add(wanted, make_columns(H, wanted), progress);
   differences_ = std::move(differences);
   factorize_schur_complement(H);
-  return solves;
+  return border_.solves() - before;
 }
 
 // Returns the columns of the border: the unit vector of a contact, and a released unknown's column of H without the
@@ -140,20 +137,19 @@ Vector HeldFactor::find_forces(const Vector& right, const Vector& at_contacts) {
   if (differences_.contacts.empty()) return {};
   Vector kept = right;
   clear(factored_, kept);
-  int solves = 0;
-  return find_border(border_.reach(kept, solves), right(differences_.released), at_contacts)(contact_column_);
+  return find_border(border_.reach(kept), right(differences_.released), at_contacts)(contact_column_);
 }
 
 int HeldFactor::solve(Vector& x, const Vector& at_contacts) {
   const Vector of_released = x(differences_.released);
   clear(factored_, x);
-  int solves = 0;
-  const Vector z = find_border(border_.reach(x, solves), of_released, at_contacts);
-  x = border_.finish(z, solves);
+  const int before = border_.solves();
+  const Vector z = find_border(border_.reach(x), of_released, at_contacts);
+  x = border_.finish(z);
   clear(factored_, x);
   for (const int k : differences_.contacts) x(k) = at_contacts.size() > 0 ? at_contacts(k) : 0.0;
   x(differences_.released) = z(released_column_);
-  return solves;
+  return border_.solves() - before;
 }
 
 // Returns the border's unknowns: forces of contacts, moves of released unknowns, and 0 for those that are neither now.

@@ -25,11 +25,10 @@ class HeldFactor {
 
   explicit HeldFactor(LinearSolver& solver) : solver_(solver), border_(solver) {}
 
-  // Factors H (lower triangle, analysed by the solver before), with `added` (n, or empty) on its diagonal.
-  // Throws Cancelled.
-  void factorize(const SparseMatrix& H, const Sides& held, const Progress* progress, const Vector& added = {});
+  // Factors H (lower triangle, analysed by the solver before). Throws Cancelled.
+  void factorize(const SparseMatrix& H, const Sides& held, const Progress* progress);
 
-  // Tells that the matrix, or the solver's factor, has become another.
+  // Tells that the matrix, or the solver's factor, has become another than H.
   void forget();
   bool is_current() const { return is_current_; }  // the solver's factor is that of the matrix given last
 
@@ -70,9 +69,9 @@ class HeldFactor {
   Vector find_border(const Vector& reached, const Vector& of_released, const Vector& at_contacts) const;
 
   LinearSolver& solver_;
-  Sides factored_;           // n: held by the factor
-  bool is_current_ = false;  // the factor is that of the matrix, without additions
-  BorderColumns border_;     // of unknowns that were contacts or released since the factorization
+  Sides factored_;  // n: held by the factor
+  bool is_current_ = false;
+  BorderColumns border_;  // of unknowns that were contacts or released since the factorization
   Differences differences_;
   std::vector<int> contact_column_, released_column_;  // their places in the border
   Eigen::LLT<Eigen::MatrixXd> of_contacts_;            // of E_C^T H_FF^-1 E_C

@@ -1,27 +1,43 @@
-// Estimates the active set of a bounded quadratic minimum by an interior point method.
+// Minimizes a quadratic model within limits of linear functions by an interior point method.
 #pragma once
 
 #include <array>
+#include <utility>
 
-#include "optimization/bounded_quadratic.h"
+#include "optimization/held_factor.h"
+#include "optimization/quadratic_model.h"
+#include "reflines/progress.h"
+#include "reflines/report.h"
+#include "reflines/types.h"
 
 namespace reflines {
 
-// Mehrotra's predictor-corrector method with Gondzio's further correctors (Comput. Optim. Appl. 6, 1996), stopped as
-// soon as the active bounds are clear. Its number of factorizations hardly grows with the mesh, whereas an active set
-// method removes one row of vertices with each.
+// Mehrotra's predictor-corrector method (SIAM J. Optim. 2, 1992) with Gondzio's further correctors (Comput. Optim.
+// Appl. 6, 1996). Each iteration makes one factor of H + A^T D A, D diagonal, whose pattern is that of H where every
+// function depends on unknowns that H couples; their number hardly grows with that of the contacts, where an active set
+// method that leaves a bound row by row takes one for each.
 class InteriorPoint {
  public:
-  // Takes the model and its bounds; `reach` is the expected length of steps where a range is unbounded.
-  InteriorPoint(const QuadraticModel& model, const Bounds& bounds, double reach);
+  // Takes what outlives it, the limits with low <= 0 <= high; `counts` collects factorizations and solves. `reach` is
+  // the expected size of a function where its range is infinite. `progress` may be null. The factor is overwritten.
+  InteriorPoint(const QuadraticModel& model, const StepLimits& limits, double reach, HeldFactor& factor, Report& counts,
+                const Progress* progress);
 
-  // Makes one iteration: one factorization and a few solves. Returns false once the estimate has settled.
-  bool step(HeldFactor& factor, Report& counts, const Progress* progress);
-  Sides guess() const;
+  // Iterates until the functions are within their ranges but for `tolerance`, and what forces of functions farther than
+  // that from an end, and the model's gradient, leave is at most `wanted`; or until no more digits are gained. Returns
+  // the best step found, and its forces (m, > 0 upwards). Throws Cancelled.
+  struct Minimum {
+    Vector d, forces;
+  };
+  Minimum minimize(double tolerance, double wanted);
+
+  // Iterates until the set of unknowns at their bounds has settled, and returns it with those that are held. Only where
+  // A = I. Throws Cancelled.
+  Sides estimate_held();
 
  private:
-  // The barrier of one end of every range: slack = sign (d - bound) > 0, and force > 0 is the multiplier of the bound.
-  struct Barrier {
+  // One end of every range: slack = sign (A d - bound) > 0, and force > 0 is its multiplier.
+  struct End {
     double sign;
     Vector exists;  // 1, or 0 where the range is infinite or a point
     Vector bound;   // 0 there
@@ -32,28 +48,34 @@ class InteriorPoint {
     Vector d;
     std::array<Vector, 2> slack, force;
   };
-  using Products = std::array<Vector, 2>;  // wanted change of slack times force, for each barrier
+  using Products = std::array<Vector, 2>;  // wanted change of slack times force, at each end
 
-  double stiffness(int k) const { return model_.H.valuePtr()[model_.H.outerIndexPtr()[k]]; }
-  Barrier make_barrier(const Vector& bound, double sign, double force) const;
-  Vector barrier_diagonal() const;
-  Vector compute_missed_slack(const Barrier& barrier) const;
+  End make_end(const Vector& bound, double sign) const;
+  void place_start(double reach);
+  SparseMatrix build_matrix() const;
   Vector dual_residual() const;
-  Change solve(HeldFactor& factor, const Products& products, bool residuals) const;
-  Change predict_and_correct(HeldFactor& factor, Report& counts);
-  bool correct_further(HeldFactor& factor, Change& change) const;
+  void clear_held(Vector& x) const;
+  Vector solve_system(const Vector& right);
+  Change solve(const Products& products, bool residuals);
+  std::pair<Change, double> predict_and_correct();
+  bool correct_further(Change& change, double wanted_product);
   double longest(const Change& change) const;
+  double mean_product() const { return mean_product({}, 0.0); }
   double mean_product(const Change& change, double step) const;
-  void move(const Change& change, double step);
+  void iterate();
+  double measure_error(double tolerance, double wanted) const;
+  Vector present_forces() const { return ends_[0].force - ends_[1].force; }
+  Sides read_held() const;
 
   const QuadraticModel& model_;
-  std::array<Barrier, 2> barriers_;  // low, high
-  Sides fixed_;                      // unknowns that are always held: their range is a point
-  Vector d_;
-  Vector gradient_;  // gradient of the model at d
-  int barrier_count_ = 0;
-  double wanted_product_ = 0.0, first_product_ = 0.0;
-  Sides last_guess_;
+  const StepLimits& limits_;
+  HeldFactor& factor_;
+  Report& counts_;
+  const Progress* progress_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> by_unknown_;  // n x m: the functions of each unknown; empty: A = I
+  SparseMatrix matrix_;                                           // H + A^T D A
+  std::array<End, 2> ends_;                                       // low, high
+  Vector d_, values_;                                             // A d
 };
 
 }  // namespace reflines

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "optimization/bounded_descent.h"
-#include "optimization/contact_descent.h"
+#include "optimization/active_bounds.h"
+#include "optimization/active_rows.h"
 #include "optimization/descent.h"
+#include "optimization/limited_descent.h"
 #include "optimization/workspace.h"
 #include "reflines/errors.h"
 
@@ -31,6 +32,17 @@ Report measure_time(const Run& run) {
   return report;
 }
 
+template <typename Active, typename Limits>
+Report minimize_within(Problem& problem, const Limits& limits, Vector& x, const MinimizerOptions& options,
+                       Progress* progress, Workspace& workspace) {
+  return measure_time([&] {
+    Report report;
+    Active active(limits, workspace, report, progress);
+    LimitedDescent(problem, active, options, progress, workspace, report).run(x);
+    return report;
+  });
+}
+
 }  // namespace
 
 Minimizer::Minimizer(LinearSolverKind kind) : workspace_(std::make_unique<Workspace>(kind)) {}
@@ -47,13 +59,13 @@ Report Minimizer::minimize(Problem& problem, Vector& x, const MinimizerOptions& 
 Report Minimizer::minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options,
                            Progress* progress) {
   check(options);
-  return measure_time([&] { return BoundedDescent(problem, bounds, options, progress, *workspace_).run(x); });
+  return minimize_within<ActiveBounds>(problem, bounds, x, options, progress, *workspace_);
 }
 
 Report Minimizer::minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options,
                            Progress* progress) {
   check(options);
-  return measure_time([&] { return ContactDescent(problem, limits, options, progress, *workspace_).run(x); });
+  return minimize_within<ActiveRows>(problem, limits, x, options, progress, *workspace_);
 }
 
 }  // namespace reflines

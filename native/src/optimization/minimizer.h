@@ -30,11 +30,11 @@ class Minimizer {
   // options out of range; SolverFailure). `progress` may be null.
   Report minimize(Problem& problem, Vector& x, const MinimizerOptions& options = {}, Progress* progress = nullptr);
 
-  // Minimizes within bounds, which x satisfies exactly (see BoundedDescent); a start outside is first moved into them.
+  // Minimizes within bounds, which x satisfies exactly (see ActiveBounds); a start outside is first moved into them.
   Report minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options = {},
                   Progress* progress = nullptr);
 
-  // Minimizes within limits of linear functions of x (see ContactDescent); a start outside is first moved into them.
+  // Minimizes within limits of linear functions of x (see ActiveRows); a start outside is first moved into them.
   Report minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options = {},
                   Progress* progress = nullptr);
 

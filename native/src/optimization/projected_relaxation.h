@@ -1,7 +1,9 @@
 // Estimates the active set of a bounded quadratic minimum by projected successive over-relaxation.
 #pragma once
 
-#include "optimization/bounded_quadratic.h"
+#include "optimization/bounds.h"
+#include "optimization/quadratic_model.h"
+#include "reflines/progress.h"
 
 namespace reflines {
 

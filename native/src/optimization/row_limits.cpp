@@ -53,29 +53,35 @@ std::vector<int> find_equal_columns(const SparseMatrix& rows) {
   return leader;
 }
 
-// Returns a matrix without the rows of held unknowns, whose columns sum to 1 where they are not empty; fills `sum` with
-// what they summed to.
-SparseMatrix take_means(const SparseMatrix& modes, const Sides& held, Vector& sum) {
+// A matrix without the rows of held unknowns, whose columns sum to 1 where they are not empty, and what they summed to.
+struct Means {
+  SparseMatrix rows;
+  Vector sum;
+};
+Means take_means(const SparseMatrix& modes, const Sides& held) {
   SparseMatrix rows = modes;
   rows.prune(
       [&](Eigen::Index unknown, Eigen::Index, double weight) { return weight > 0 && held[unknown] == Side::kBetween; });
-  sum = rows.transpose() * Vector::Ones(rows.rows());
+  Vector sum = rows.transpose() * Vector::Ones(rows.rows());
   for (int i = 0; i < rows.cols(); ++i) {
     for (SparseMatrix::InnerIterator entry(rows, i); entry; ++entry) entry.valueRef() /= sum(i);
   }
-  return rows;
+  return {std::move(rows), std::move(sum)};
 }
 
-// Fills for each unknown (n) whether it moves a function that can grow only, or that can fall only.
-void find_directions(const SparseMatrix& rows, const Vector& low, const Vector& high, double room, Mask& up,
-                     Mask& down) {
-  up = down = Mask::Constant(rows.rows(), false);
+// Tells of each unknown (n) whether it moves a function that can grow only, or that can fall only.
+struct Directions {
+  Mask up, down;
+};
+Directions find_directions(const SparseMatrix& rows, const Vector& low, const Vector& high, double room) {
+  Mask up = Mask::Constant(rows.rows(), false), down = up;
   for (int i = 0; i < rows.cols(); ++i) {
     for (SparseMatrix::InnerIterator entry(rows, i); entry; ++entry) {
       if (low(i) > -room) up(entry.row()) = true;
       if (high(i) < room) down(entry.row()) = true;
     }
   }
+  return {std::move(up), std::move(down)};
 }
 
 double largest_finite(const Vector& values) {
@@ -121,18 +127,18 @@ RowLimits::Narrow RowLimits::narrow(double reach) const {
   result.tolerance = choose_tolerance(reach);
   result.origin = origin_;
   result.held.assign(modes_.rows(), Side::kBetween);
-  Vector sum;
-  Mask up, down;
-  const SparseMatrix all = take_means(modes_, result.held, sum);
-  find_directions(all, low_.cwiseQuotient(sum), high_.cwiseQuotient(sum), kNoRoom * result.tolerance, up, down);
-  for (int k = 0; k < up.size(); ++k) {
-    if (up(k) && down(k)) result.held[k] = Side::kLow;
+  const Means all = take_means(modes_, result.held);
+  const Directions only =
+      find_directions(all.rows, low_.cwiseQuotient(all.sum), high_.cwiseQuotient(all.sum), kNoRoom * result.tolerance);
+  for (int k = 0; k < only.up.size(); ++k) {
+    if (only.up(k) && only.down(k)) result.held[k] = Side::kLow;
   }
-  result.rows = take_means(modes_, result.held, sum);
+  auto [rows, sum] = take_means(modes_, result.held);
+  result.rows = std::move(rows);
   result.low = (low_.cwiseQuotient(sum).array() + result.tolerance).matrix();
   result.high = (high_.cwiseQuotient(sum).array() - result.tolerance).matrix();
   result.merge_equal(sum);
-  find_directions(result.rows, result.low, result.high, kBaseMove * result.tolerance, up, down);
+  const auto [up, down] = find_directions(result.rows, result.low, result.high, kBaseMove * result.tolerance);
   result.base = origin_ + kBaseMove * result.tolerance * (up.cast<double>() - down.cast<double>()).matrix();
   return result;
 }

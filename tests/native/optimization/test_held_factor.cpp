@@ -142,8 +142,6 @@ TEST_P(HeldFactorTest, AsksForAnotherFactorWhereThisOneCannotHold) {
   EXPECT_TRUE(factor.hold(H, hold({7, 8}), nullptr));
   factor.forget();
   EXPECT_FALSE(factor.hold(H, hold({7, 8}), nullptr));
-  factor.factorize(H, hold({7}), nullptr, Vector::Ones(kSize));
-  EXPECT_FALSE(factor.hold(H, hold({7, 8}), nullptr));  // it is not that of H alone
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST_P(BoundedStrategyTest, TakesNoMoreStepsThanAllowed) {
 }
 
 // Second differences of the bent beam are linear between the ends and the obstacle, so that its heights are a cubic.
-TEST(BoundedDescentTest, ABeamOverAnObstacleIsACubic) {
+TEST(ActiveBoundsTest, ABeamOverAnObstacleIsACubic) {
   constexpr int kMiddle = 20, kSize = 2 * kMiddle - 1;
   Chain beam(kSize, 0.0);
   Bounds bounds{Vector::Constant(kSize, -kInfinity), Vector::Constant(kSize, kInfinity)};
@@ -121,7 +121,7 @@ TEST(BoundedDescentTest, ABeamOverAnObstacleIsACubic) {
   }
 }
 
-TEST(BoundedDescentTest, AFreeMinimumWithinTheBoundsIsFoundToTheBit) {
+TEST(ActiveBoundsTest, AFreeMinimumWithinTheBoundsIsFoundToTheBit) {
   Vector free, bounded;
   for (Vector* x : {&free, &bounded}) {
     Rosenbrock problem(20);
@@ -134,7 +134,7 @@ TEST(BoundedDescentTest, AFreeMinimumWithinTheBoundsIsFoundToTheBit) {
   EXPECT_TRUE(free == bounded);
 }
 
-TEST(BoundedDescentTest, UnboundedSolvesAfterwardsAreNotMisled) {
+TEST(ActiveBoundsTest, UnboundedSolvesAfterwardsAreNotMisled) {
   Chain chain(60, 0.05);
   const Vector minimum = chain.wave(1.0);
   chain.set_minimum(minimum);
@@ -145,7 +145,7 @@ TEST(BoundedDescentTest, UnboundedSolvesAfterwardsAreNotMisled) {
   EXPECT_LT((x - minimum).norm(), 1e-6);
 }
 
-TEST(BoundedDescentTest, WhereNothingMayMoveNothingDoes) {
+TEST(ActiveBoundsTest, WhereNothingMayMoveNothingDoes) {
   Chain chain(20, 0.0);
   chain.set_minimum(chain.wave(1.0));
   const Vector start = Vector::Zero(20);
@@ -158,7 +158,7 @@ TEST(BoundedDescentTest, WhereNothingMayMoveNothingDoes) {
 
 // Of a wave only the highest places touch: the free factor serves for all of them. With the primal-dual active set
 // alone these took 15, 410, 35 and 397 factorizations, and two of them did not converge.
-TEST(BoundedDescentTest, FewContactsCostNoFactorizations) {
+TEST(ActiveBoundsTest, FewContactsCostNoFactorizations) {
   constexpr int kSize = 400;
   Chain chain(kSize, 0.0);
   Vector wanted(kSize);
@@ -177,7 +177,7 @@ TEST(BoundedDescentTest, FewContactsCostNoFactorizations) {
 }
 
 // A beam nearly straight lies on a bound along whole stretches: the active set alone would shrink unknown by unknown.
-TEST(BoundedDescentTest, TheSetSettlesInFewFactorizationsWhateverTheNumberOfUnknowns) {
+TEST(ActiveBoundsTest, TheSetSettlesInFewFactorizationsWhateverTheNumberOfUnknowns) {
   int factorizations[2];
   for (int k = 0; k < 2; ++k) {
     const int size = k == 0 ? 200 : 3200;
@@ -193,7 +193,7 @@ TEST(BoundedDescentTest, TheSetSettlesInFewFactorizationsWhateverTheNumberOfUnkn
   EXPECT_LT(factorizations[1], 2 * factorizations[0] + 10);
 }
 
-TEST(BoundedDescentTest, CancellingLeavesTheUnknownsAlone) {
+TEST(ActiveBoundsTest, CancellingLeavesTheUnknownsAlone) {
   Chain chain(60, 0.05);
   chain.set_minimum(chain.wave(1.0));
   const Vector start = chain.wave(0.3);

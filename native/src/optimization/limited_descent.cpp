@@ -1,8 +1,7 @@
-#include "optimization/bounded_descent.h"
+#include "optimization/limited_descent.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "optimization/descent.h"
@@ -13,32 +12,29 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// The largest part of the projected gradient that a step with the kept factor may leave because the set of held
-// unknowns has changed.
-constexpr double kWorthwhile = 0.1;
-
-// The tolerance of the model's solution relative to the projected gradient: the energy is no quadratic function.
+// The tolerance of the model's solution relative to the gradient: the energy is no quadratic function.
 constexpr double kModelTolerance = 0.01;
 
-// The part of the projected gradient left by a step with the model above which a new matrix is assembled.
+// The part of the gradient left by a step with the model above which a new matrix is assembled.
 constexpr double kTrusted = 0.1;
 
+// The part of the gradient left by a step with a matrix of its own above which no more digits are expected.
+constexpr double kLeastGain = 0.9;
+
 // The cost of a new matrix and its factor, in steps with contacts: 4 with 10,000 and with 100,000 unknowns; and the
-// number of steps to the last digits with it. Where 80 of 100,000 unknowns touch, a solve takes 6 steps and 4
-// factorizations instead of 15 and 3 with the costs of free steps, in less time, and leaves a matrix with which each
-// update of a drag takes one step, the first one, too.
+// number of steps to the last digits with it.
 constexpr int kStepsPerModel = 5, kStepsAfterModel = 1;
 
 }  // namespace
 
-BoundedDescent::BoundedDescent(Problem& problem, const Bounds& bounds, const MinimizerOptions& options,
-                               Progress* progress, Workspace& workspace)
+LimitedDescent::LimitedDescent(Problem& problem, ActiveSet& active, const MinimizerOptions& options, Progress* progress,
+                               Workspace& workspace, Report& report)
     : problem_(problem),
-      bounds_(bounds),
+      active_(active),
       options_(options),
       progress_(progress),
       work_(workspace),
-      quadratic_(workspace.held_factor, report_, progress),
+      report_(report),
       policy_(kStepsPerModel, kStepsAfterModel),
       stopping_("projected gradient", gradient_, options, progress, report_) {
   report_.strategy = options.strategy;
@@ -46,18 +42,18 @@ BoundedDescent::BoundedDescent(Problem& problem, const Bounds& bounds, const Min
   report_.unknowns = problem.size();
 }
 
-Report BoundedDescent::run(Vector& x) {
+void LimitedDescent::run(Vector& x) {
   evaluate_start(x);
+  const bool kept = active_.has_factor(choose_model(options_.strategy));
   try {
-    if (may_move() && (has_factor() || start_near_free_minimum())) descend();
+    if (may_move() && (kept || start_near_free_minimum())) descend();
   } catch (const Cancelled&) {
     stopping_.is_cancelled();
   }
   finish(x);
-  return report_;
 }
 
-void BoundedDescent::descend() {
+void LimitedDescent::descend() {
   while (!stopping_.is_cancelled() && !gradient_is_small() && !stopping_.iterations_are_used_up()) {
     if (!choose_destination()) break;
     if (find_step()) {
@@ -68,45 +64,48 @@ void BoundedDescent::descend() {
   }
 }
 
-void BoundedDescent::evaluate_start(const Vector& x) {
+double LimitedDescent::evaluate(const Vector& x, Vector& gradient) {
+  ++report_.evaluations;
+  return problem_.evaluate(x, &gradient);
+}
+
+void LimitedDescent::evaluate_start(const Vector& x) {
   check_start(x.size(), problem_.size());
   work_.resize(x.size());
-  work_.x = bounds_.nearest(x);
-  report_.put_back = static_cast<int>((work_.x.array() != x.array()).count());
+  work_.x = active_.move_inside(x);
+  report_.put_back = active_.count_beyond(x);
   moved_ = report_.put_back > 0;
-  current_.energy = problem_.evaluate(work_.x, &work_.gradient);
-  gradient_.now = bounds_.projected_norm(work_.x, work_.gradient);
-  ++report_.evaluations;
+  current_.energy = evaluate(work_.x, work_.gradient);
   check_start(current_.energy, work_.gradient.norm());
+  gradient_.now = active_.measure_gradient();
   report_.energy_before = current_.energy;
   report_.gradient_before = gradient_.now;
   gradient_.wanted = options_.gradient_tolerance * gradient_.now;
-  if (!has_factor()) return;
+  if (!active_.has_factor(choose_model(options_.strategy))) return;
   measure_rounding(work_.rounding_weight);
   policy_.start(gradient_.now, gradient_.reachable());
 }
 
-bool BoundedDescent::may_move() {
-  for (int k = 0; k < work_.x.size(); ++k) {
-    if (!bounds_.is_point(k)) return true;
-  }
-  stopping_.stop(report_.put_back > 0 ? Termination::kConverged : Termination::kAlreadyOptimal,
+bool LimitedDescent::may_move() {
+  if (active_.may_move()) return true;
+  report_.gradient_before = gradient_.now = 0.0;
+  stopping_.stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
                  "Nothing may move: the limit is 0 at every vertex that could.");
   return false;
 }
 
-// Starts with the unbounded minimum; returns false where that ends the run.
-bool BoundedDescent::start_near_free_minimum() {
+// Starts with the free minimum; returns false where that ends the run.
+bool LimitedDescent::start_near_free_minimum() {
   const Vector start = work_.x;
   Vector minimum = start;
   Report free = Descent(problem_, options_, progress_, work_).run(minimum);
   free.put_back = report_.put_back;
   free.evaluations += report_.evaluations;
-  work_.x = start;
   report_ = free;
   report_.gradient_before = gradient_.now;
+  work_.x = start;
   if (free.termination == Termination::kCancelled) return false;
-  if (bounds_.nearest(minimum) == minimum) {
+  if (active_.contain(minimum)) {
     work_.x = minimum;
     moved_ = true;
     current_.energy = free.energy_after;
@@ -114,36 +113,34 @@ bool BoundedDescent::start_near_free_minimum() {
     return false;
   }
   stopping_.count_before(std::exchange(report_.iterations, 0));
+  active_.aim_at(minimum);
+  if (!may_move()) return false;
   start_on_the_way_to(minimum);
   return true;
 }
 
 // Moves the start towards `minimum`, all unknowns by one factor: without the kinks of a move of each as far as it can.
-void BoundedDescent::start_on_the_way_to(const Vector& minimum) {
-  const Vector way = minimum - work_.x;
-  double step = 1.0;
-  for (int k = 0; k < way.size(); ++k) {
-    if (way(k) > 0) step = std::min(step, (bounds_.high(k) - work_.x(k)) / way(k));
-    if (way(k) < 0) step = std::min(step, (bounds_.low(k) - work_.x(k)) / way(k));
-  }
-  work_.trial = bounds_.nearest(work_.x + step * way);
-  const double energy = problem_.evaluate(work_.trial, &work_.trial_gradient);
-  ++report_.evaluations;
-  work_.held = bounds_.touched_by(minimum);
-  work_.many_contacts = false;
+void LimitedDescent::start_on_the_way_to(const Vector& minimum) {
+  work_.x = active_.move_inside(work_.x);
+  current_.energy = evaluate(work_.x, work_.gradient);
+  report_.gradient_before = gradient_.now = active_.measure_gradient();
+  gradient_.wanted = options_.gradient_tolerance * gradient_.now;
+  work_.trial = active_.go_towards(minimum, work_.x);
+  const double energy = evaluate(work_.trial, work_.trial_gradient);
   if (energy < current_.energy) {
-    work_.x = work_.trial;
+    work_.x.swap(work_.trial);
+    work_.gradient.swap(work_.trial_gradient);
     current_.energy = energy;
     moved_ = true;
   }
-  problem_.evaluate(work_.x, &work_.gradient);
-  gradient_.now = bounds_.projected_norm(work_.x, work_.gradient);
+  gradient_.now = active_.measure_gradient();
   model_failed_ = true;
 }
 
-bool BoundedDescent::model_is_outdated() const {
+bool LimitedDescent::model_is_outdated() const {
   if (model_failed_ || work_.matrix.rows() != work_.x.size()) return true;
   if (model_is_fresh()) return false;
+  if (active_.renews_each_step()) return true;
   switch (options_.strategy) {
     case Strategy::kAdaptive:
       return policy_.is_too_slow() || new_model_pays();
@@ -157,21 +154,23 @@ bool BoundedDescent::model_is_outdated() const {
 }
 
 // Returns whether a new matrix at the start of this run costs no more than the matrix that is kept has cost by now.
-bool BoundedDescent::new_model_pays() const {
+bool LimitedDescent::new_model_pays() const {
   return assembled_at_ < 0 && report_.iterations == 0 && work_.extra_steps >= kStepsPerModel;
 }
 
-bool BoundedDescent::choose_destination() {
+bool LimitedDescent::choose_destination() {
+  if (digits_end_) return stopping_.has_no_progress(), false;
   if (model_is_outdated()) return renew_model() && solve_model();
   // The last run's pairs gain less than a solve: where contacts have changed, a step with them is no step to take.
   if (report_.iterations == 0) return solve_model();
   return kept_factor_leads_on() || solve_model();
 }
 
-bool BoundedDescent::renew_model() {
+bool LimitedDescent::renew_model() {
   stopping_.tell("assembling");
   work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
   work_.held_factor.forget();
+  active_.forget_factor();
   renewed_ = new_model_pays();
   work_.usual_steps = 1;
   work_.extra_steps = 0;
@@ -185,43 +184,30 @@ bool BoundedDescent::renew_model() {
   return !stopping_.is_cancelled() && !gradient_is_small();
 }
 
-void BoundedDescent::measure_rounding(const Vector& weight) {
+void LimitedDescent::measure_rounding(const Vector& weight) {
   work_.rounding_weight = weight;
   gradient_.rounding = kEpsilon * weight.cwiseProduct(work_.x).norm();
 }
 
-// Tries a step with the present factor; returns false where it leaves too much to unknowns that should be held or
-// released.
-bool BoundedDescent::kept_factor_leads_on() {
+// Tries a step with the present factor and contacts; returns false where others are needed.
+bool LimitedDescent::kept_factor_leads_on() {
   stopping_.tell("iterating");
-  const Bounds room = bounds_.seen_from(work_.x);
-  const Vector at_bounds = room.ends(work_.held);
-  work_.direction = -work_.gradient;
-  if (!at_bounds.isZero(0)) work_.direction = -model().gradient_at(at_bounds);
-  if (learns_from_steps()) work_.memory.before_solve(work_.direction);
-  report_.solves += work_.held_factor.solve(work_.direction);
-  if (learns_from_steps()) work_.memory.after_solve(work_.direction);
-  work_.direction += at_bounds;
-  if (measure_missed_gradient(model(), room, work_.held, work_.direction) > kWorthwhile * gradient_.now) return false;
-  destination_ = bounds_.nearest(work_.x + work_.direction);
+  std::optional<Vector> end = active_.lead_on(gradient_.now, learns_from_steps() ? &work_.memory : nullptr);
+  if (!end) return false;
+  destination_ = std::move(*end);
   return true;
 }
 
-bool BoundedDescent::solve_model() {
+// Determines the contacts and the step anew; returns false where these tell that the present point is the minimum.
+bool LimitedDescent::solve_model() {
   stopping_.tell("factorizing");
-  Vector d;
-  const double wanted = std::max(kModelTolerance * gradient_.now, 0.3 * gradient_.wanted);
-  if (!quadratic_.minimize(model(), bounds_.seen_from(work_.x), wanted, work_.held, work_.many_contacts, d))
-    return stopping_.is_cancelled(), false;
+  destination_ = active_.solve_model(std::max(kModelTolerance * gradient_.now, 0.3 * gradient_.wanted));
   work_.memory.clear();
-  destination_ = bounds_.nearest(work_.x + d);
-  for (int k = 0; k < d.size(); ++k) {
-    if (work_.held[k] != Side::kBetween) destination_(k) = bounds_.end(k, work_.held[k]);
-  }
-  return true;
+  gradient_.now = active_.measure_gradient();
+  return !gradient_is_small();
 }
 
-bool BoundedDescent::find_step() {
+bool LimitedDescent::find_step() {
   work_.direction = destination_ - work_.x;
   current_.slope = work_.gradient.dot(work_.direction);
   if (!(current_.slope < 0.0)) return false;
@@ -229,43 +215,38 @@ bool BoundedDescent::find_step() {
   return lowers_energy_enough(current_, trial_) || backtrack(current_, trial_, [this](double step) { try_step(step); });
 }
 
-void BoundedDescent::try_step(double step) {
-  work_.trial = step == 1.0 ? destination_ : bounds_.nearest(work_.x + step * work_.direction);
+void LimitedDescent::try_step(double step) {
+  work_.trial = step == 1.0 ? destination_ : active_.keep_inside(work_.x + step * work_.direction);
   trial_.step = step;
-  trial_.energy = problem_.evaluate(work_.trial, &work_.trial_gradient);
+  trial_.energy = evaluate(work_.trial, work_.trial_gradient);
   trial_.slope = work_.trial_gradient.dot(work_.direction);
-  ++report_.evaluations;
 }
 
-void BoundedDescent::take_step() {
+void LimitedDescent::take_step() {
   if (learns_from_steps()) {
-    Vector step = work_.trial - work_.x, change = work_.trial_gradient - work_.gradient;
-    bool held_move = false;
-    for (int k = 0; k < step.size(); ++k) {
-      if (work_.held[k] == Side::kBetween) continue;
-      held_move = held_move || step(k) != 0.0;
-      change(k) = 0.0;
-    }
-    if (!held_move) work_.memory.learn(step, change);
+    const Vector step = work_.trial - work_.x;
+    Vector change = work_.trial_gradient - work_.gradient;
+    if (active_.prepare_pair(step, change)) work_.memory.learn(step, change);
   }
   work_.x.swap(work_.trial);
   work_.gradient.swap(work_.trial_gradient);
   current_.energy = trial_.energy;
-  const double before = std::exchange(gradient_.now, bounds_.projected_norm(work_.x, work_.gradient));
+  const double before = std::exchange(gradient_.now, active_.measure_gradient());
   policy_.observe(gradient_.now);
+  digits_end_ = active_.renews_each_step() && gradient_.now > kLeastGain * std::exchange(reached_norm_, gradient_.now);
   model_failed_ = model_is_fresh() && gradient_.now > kTrusted * before;
   ++report_.iterations;
   moved_ = true;
 }
 
-bool BoundedDescent::discard_model() {
+bool LimitedDescent::discard_model() {
   model_failed_ = !model_is_fresh();
   if (model_failed_) return true;
   stopping_.has_no_progress();
   return false;
 }
 
-void BoundedDescent::finish(Vector& x) {
+void LimitedDescent::finish(Vector& x) {
   count_steps();
   report_.iterations = stopping_.steps();
   const bool moved = moved_ && report_.termination != Termination::kCancelled;
@@ -275,7 +256,7 @@ void BoundedDescent::finish(Vector& x) {
 }
 
 // Counts the steps that the matrix has cost beyond the usual ones: a new matrix that saved none is not paid for again.
-void BoundedDescent::count_steps() {
+void LimitedDescent::count_steps() {
   const int steps = report_.iterations - std::max(assembled_at_, 0);
   if (renewed_)
     work_.usual_steps = std::max(steps, 1);
@@ -283,7 +264,7 @@ void BoundedDescent::count_steps() {
     work_.extra_steps += std::max(steps - work_.usual_steps, 0);
 }
 
-bool BoundedDescent::gradient_is_small() {
+bool LimitedDescent::gradient_is_small() {
   const bool small = gradient_.now <= gradient_.wanted && moved_;
   if (!small && gradient_.now > gradient_.rounding) return false;
   return stopping_.stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,

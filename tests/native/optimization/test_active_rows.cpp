@@ -5,8 +5,8 @@
 
 #include "least_squares.h"
 #include "optimization/contact_quadratic.h"
+#include "optimization/interior_point.h"
 #include "optimization/minimizer.h"
-#include "optimization/row_interior_point.h"
 #include "optimization/row_limits.h"
 #include "reflines/errors.h"
 
@@ -55,23 +55,6 @@ TEST(RowLimits, OfSingleUnknownsAreBounds) {
   }
 }
 
-TEST(RowLimits, TakeNoMoreStepsThanAllowed) {
-  for (const int most : {0, 1, 2, 3, 5, 8, 13}) {
-    Chain chain(40, 0.05);
-    chain.set_minimum(chain.wave(1.0));
-    const SparseMatrix modes = means(40);
-    const Vector start = Vector::Zero(40), ends = Vector::Constant(modes.cols(), 0.2);
-    Vector free = start, x = start;
-    MinimizerOptions options = precise();
-    options.max_iterations = most;
-    const int before = Minimizer().minimize(chain, free, options).iterations;
-    const Report report = Minimizer().minimize(chain, RowLimits(modes, -ends, ends, start, 1e-16), x, options);
-    EXPECT_GE(report.iterations, before);
-    EXPECT_LE(report.iterations, most);
-    EXPECT_TRUE(report.converged() || report.iterations == most) << most << ": " << report.message;
-  }
-}
-
 TEST(RowLimits, BothMethodsSolveTheModel) {
   Chain chain(40, 0.0);
   chain.set_minimum(chain.wave(1.0));
@@ -88,16 +71,18 @@ TEST(RowLimits, BothMethodsSolveTheModel) {
   factor.factorize(model, limits.held, nullptr);
   Report counts;
   ContactQuadratic contact(limits, factor, counts, nullptr);
-  Contacts contacts;
-  const Vector d = contact.minimize(gradient, limits.low, limits.high, limits.tolerance, contacts);
-  ASSERT_EQ(d.size(), 40);
-  EXPECT_GT(contacts.size(), 1U);
+  const auto minimum = contact.minimize(gradient, limits.low, limits.high, limits.tolerance, {});
+  ASSERT_TRUE(minimum);
+  const Vector& d = minimum->d;
+  EXPECT_GT(minimum->contacts.size(), 1U);
   const QuadraticModel quadratic{model, gradient};
-  RowInteriorPoint inside(quadratic, limits, limits.low, limits.high);
-  inside.run(factor, limits.tolerance, 1e-9 * gradient.norm(), counts, nullptr);
-  EXPECT_LT((inside.step() - d).cwiseAbs().maxCoeff(), 1e-6);
+  const StepLimits range{&limits.rows, limits.low, limits.high, limits.held};
+  const Vector inside = InteriorPoint(quadratic, range, 1.0, factor, counts, nullptr)
+                            .minimize(limits.tolerance, 1e-9 * gradient.norm())
+                            .d;
+  EXPECT_LT((inside - d).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LE((modes.transpose() * d).cwiseAbs().maxCoeff(), 0.2);
-  EXPECT_LE((modes.transpose() * inside.step()).cwiseAbs().maxCoeff(), 0.2);
+  EXPECT_LE((modes.transpose() * inside).cwiseAbs().maxCoeff(), 0.2);
 }
 
 TEST(RowLimits, HoldWhatCanMoveNeitherWay) {
@@ -129,8 +114,7 @@ TEST(Complementarity, MeetsItsConditions) {
   const Eigen::MatrixXd A = Eigen::MatrixXd::Random(30, 30);
   const Eigen::MatrixXd S = A * A.transpose() + 0.01 * Eigen::MatrixXd::Identity(30, 30);
   const Vector c = Vector::Random(30);
-  std::vector<bool> positive(30, true);
-  const Vector y = solve_complementarity(S, c, 1e-12, positive);
+  const Vector y = solve_complementarity(S, c, 1e-12).y;
   const Vector over = S * y - c;
   EXPECT_GE(y.minCoeff(), 0.0);
   EXPECT_GE(over.minCoeff(), -1e-8);

@@ -1,13 +1,13 @@
-// One run of a Minimizer within bounds: sequential quadratic programming on a kept factor.
+// One run of a Minimizer within limits: sequential quadratic programming on a kept factor.
 #pragma once
 
-#include "optimization/bounded_quadratic.h"
-#include "optimization/bounds.h"
+#include <limits>
+
+#include "optimization/active_set.h"
 #include "optimization/line_search.h"
 #include "optimization/problem.h"
 #include "optimization/refactor_policy.h"
 #include "optimization/stopping_tests.h"
-#include "optimization/wording.h"
 #include "optimization/workspace.h"
 #include "reflines/minimizer_options.h"
 #include "reflines/progress.h"
@@ -15,20 +15,18 @@
 
 namespace reflines {
 
-// One run of sequential quadratic programming. It starts with the unbounded minimum: where that lies within the bounds
-// it is the result, to the last bit. Otherwise a quadratic model with exact bounds (see BoundedQuadratic) determines
-// the held unknowns, and steps with its factor, accelerated like those of Descent, follow while these stay the same.
-// All points are within the bounds, to the last bit. It ends where the projected gradient, see Bounds, has reached the
-// tolerance: a Karush-Kuhn-Tucker point.
-class BoundedDescent {
+// One run of sequential quadratic programming. It starts with the free minimum: where that lies within the limits it is
+// the result, to the last bit. Otherwise a quadratic model with the limits determines the contacts, and steps with its
+// factor, accelerated like those of Descent, follow while these stay the same. All points are within the limits. It
+// ends where the gradient without the contacts' forces has reached the tolerance: a Karush-Kuhn-Tucker point.
+class LimitedDescent {
  public:
   // Takes what a run needs; all outlive it, and `progress` may be null.
-  BoundedDescent(Problem& problem, const Bounds& bounds, const MinimizerOptions& options, Progress* progress,
-                 Workspace& workspace);
+  LimitedDescent(Problem& problem, ActiveSet& active, const MinimizerOptions& options, Progress* progress,
+                 Workspace& workspace, Report& report);
 
-  // Implements Minimizer::minimize; `seconds` is left to the caller. A start outside the bounds is first moved into
-  // them.
-  Report run(Vector& x);
+  // Implements Minimizer::minimize; `seconds` is left to the caller.
+  void run(Vector& x);
 
  private:
   void evaluate_start(const Vector& x);
@@ -55,20 +53,18 @@ class BoundedDescent {
 
   bool gradient_is_small();  // a stopping test, see StoppingTests
 
-  bool has_factor() const { return work_.has_bounded_factor_of(choose_model(options_.strategy), work_.x.size()); }
+  double evaluate(const Vector& x, Vector& gradient);
   bool learns_from_steps() const { return options_.strategy == Strategy::kAdaptive; }
   bool model_is_fresh() const { return assembled_at_ == report_.iterations; }
-  QuadraticModel model() const { return {work_.matrix, work_.gradient}; }
 
   Problem& problem_;
-  const Bounds& bounds_;
+  ActiveSet& active_;
   const MinimizerOptions& options_;
   Progress* progress_;
   Workspace& work_;
-  Report report_;
-  BoundedQuadratic quadratic_;
+  Report& report_;
   RefactorPolicy policy_;
-  GradientNorm gradient_;  // projected, see Bounds
+  GradientNorm gradient_;  // without the contacts' forces
   StoppingTests stopping_;
 
   LinePoint current_, trial_;
@@ -77,6 +73,8 @@ class BoundedDescent {
   int assembled_at_ = -1;      // iteration at whose point the matrix was assembled; -1: before this run
   bool renewed_ = false;       // that matrix replaces one whose steps have cost as much
   bool model_failed_ = false;  // no step with it lowers the energy, or its prediction was wrong
+  bool digits_end_ = false;    // a new matrix for each step has not brought the gradient down
+  double reached_norm_ = std::numeric_limits<double>::infinity();  // gradient_.now after the last such step
 };
 
 }  // namespace reflines
