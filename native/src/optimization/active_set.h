@@ -1,4 +1,4 @@
-// What a descent within limits asks of them: the functions that touch the ends of their ranges, and steps along these.
+// The interface of limits to a descent: the functions that touch the ends of their ranges, and steps along these.
 #pragma once
 
 #include <optional>

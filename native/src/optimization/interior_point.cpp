@@ -112,7 +112,7 @@ Vector InteriorPoint::dual_residual() const {
   return residual;
 }
 
-// A^T D A loses digits, which a refinement brings back, where D alone loses none.
+// Solves with a refinement that brings back the digits which A^T D A loses; D alone loses none.
 Vector InteriorPoint::solve_system(const Vector& right) {
   Vector x = right;
   counts_.solves += factor_.solve(x);
