@@ -1,9 +1,10 @@
-// Smooths the reflection lines of a triangle mesh: reads a Wavefront OBJ, solves, writes it with the moved vertices.
+// Takes flaws out of the reflection lines of a panel: reads a Wavefront OBJ of triangles, writes it with moved
+// vertices.
 //
-//   smooth_obj INPUT.obj OUTPUT.obj LENGTH
+//   smooth_obj INPUT.obj OUTPUT.obj [LENGTH]
 //
 // The view looks down the z axis (towards the side that the view direction +z points to), the light lines run along y,
-// and the border keeps its position. Detail of the lines finer than LENGTH, in the mesh's unit of length, is smoothed.
+// and the border keeps its position. LENGTH is the size of the flaws in the mesh's unit of length.
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -11,8 +12,7 @@
 #include <vector>
 
 #include "reflines/errors.h"
-#include "reflines/shape_optimizer.h"
-#include "reflines/smooth_target.h"
+#include "reflines/smooth_panel.h"
 
 namespace {
 
@@ -53,26 +53,24 @@ void write_obj(const std::string& path, const reflines::Positions& V, const refl
 
 void smooth_obj(const std::string& input, const std::string& output, double length) {
   const Mesh mesh = read_obj(input);
-  reflines::ShapeOptions options;
+  reflines::SmoothPanelOptions options;
   options.border.assign(mesh.V.rows(), reflines::Border::kFixed);
-  reflines::ShapeOptimizer optimizer(mesh.V, mesh.F, reflines::Vector3::UnitZ(), {reflines::Vector3::UnitY()}, options);
-  const reflines::Target target =
-      reflines::build_smooth_target(optimizer.field(0), optimizer.smoother(0), {length}, 1.0, 0);
-  const double before = optimizer.score(length, 0).shift;
-  const reflines::Report report = optimizer.solve({target});
-  std::cout << report.message << "\nwobble " << before << " -> " << optimizer.score(length, 0).shift << " degrees\n";
-  write_obj(output, optimizer.positions(), mesh.F);
+  options.length = length;
+  const auto [positions, report] = reflines::smooth_panel(mesh.V, mesh.F, {0, 0, 1}, {0, 1, 0}, options);
+  std::cout << "largest move " << report.largest_move << ", worst deviation of lines " << report.healed.worst_before
+            << " -> " << report.healed.worst_after << " degrees\n";
+  write_obj(output, positions, mesh.F);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 4) {
-    std::cerr << "usage: smooth_obj INPUT.obj OUTPUT.obj LENGTH\n";
+  if (count != 3 && count != 4) {
+    std::cerr << "usage: smooth_obj INPUT.obj OUTPUT.obj [LENGTH]\n";
     return 2;
   }
   try {
-    smooth_obj(arguments[1], arguments[2], std::stod(arguments[3]));
+    smooth_obj(arguments[1], arguments[2], count == 4 ? std::stod(arguments[3]) : 0.0);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;

@@ -2,10 +2,7 @@
 // light lines, each seen along the view or by an eye of its own. It is expensive to build and cheap to solve again.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "reflines/border.h"
@@ -28,12 +25,6 @@
 #include "reflines/types.h"
 
 namespace reflines {
-
-struct Boundary;
-struct Families;
-struct HeightField;
-class RegionPieces;
-enum class SurfaceKind;
 
 struct ShapeOptions {
   std::vector<Border> border;  // #V, or empty: clamped everywhere
@@ -76,11 +67,10 @@ class ShapeOptimizer {
   // it was cancelled.
   void watch(std::shared_ptr<Progress> progress);
 
-  const Region& region() const { return region_; }
-  const RegionPieces& pieces() const { return *pieces_; }
+  const Region& region() const;
   const ImagePlane& frame() const;
   int triangle_count() const;
-  int family_count() const { return family_count_; }
+  int family_count() const;
   int count_faces(const Mask& triangles) const;  // those that have a triangle in the mask (#F)
   const Positions& start() const;                // #V x 3, as handed in
   const Triangles& triangles() const;            // #F x 3, as handed in
@@ -130,8 +120,7 @@ class ShapeOptimizer {
 
   // Scores the lines against their course without detail finer than `length`, over the triangles that can change.
   // Throws InvalidInput for a length that is not positive.
-  LineScore score(double length, int family) { return score_field(field(family), length, family); }
-  LineScore score_field(const PlaneVectors& field, double length, int family);  // of other lines, #F x 2
+  LineScore score(double length, int family);
 
   // Moves the heights to a minimum of the targets' energy, every piece on its own; for targets with reachable_only, see
   // ReachableTarget. On cancellation or failure the heights are unchanged. With a limit no vertex is beyond it, to the
@@ -141,14 +130,8 @@ class ShapeOptimizer {
   Report solve(const std::vector<Target>& targets, const MinimizerOptions& options = {}, Progress* progress = nullptr,
                const MoveLimit& limit = MoveLimit::none());
 
-  bool continues_curvature() const { return !border_.empty(); }  // that of ShapeOptions::around, somewhere
-
   // Returns for each vertex (#V) -1 or 1 where the last solve's limit holds it at its lowest or highest move, else 0.
   IndexVector at_limit() const;
-
-  // Returns the second-order model that a solve would factor at the current heights: the lower triangle over the
-  // unknowns, the pieces one after another.
-  SparseMatrix hessian(const std::vector<Target>& targets, HessianModel model);
 
   // Scales all moves from the heights that the optimizer was built with. Throws InvalidInput outside 0 to 1.
   void scale_move(double share);
@@ -156,14 +139,6 @@ class ShapeOptimizer {
   // Scales all moves by the share that the limit is of the largest one, where that is beyond it. Returns how many
   // vertices were beyond it, at least one then: the numbers are rounded.
   int keep_within(double limit);
-
-  // Keep the heights, with the limit of the solve that found them, and return to them.
-  struct State {
-    std::vector<Vector> unknowns;  // of each piece
-    MoveLimit limit;
-  };
-  State state() const;
-  void restore(const State& state);
 
   // Sets all free heights to those that the optimizer was built with plus `move` (#V), of partners the mean of both,
   // without a limit. Throws InvalidInput for numbers that are not finite, and for the surface of a cage.
@@ -175,41 +150,12 @@ class ShapeOptimizer {
 
   void reset();  // restores the heights that the optimizer was built with
 
-  // These are for the surface of a cage (see ShapeOptions::B), which is one piece: the indices of the unknowns that can
-  // move, and their values. free_unknowns is empty without B.
-  const std::vector<int>& free_unknowns() const { return free_unknowns_; }
-  const Vector& unknowns() const;
-  void rest_at(const Vector& unknowns);  // sets them, and the rest position of the proximity term
-  // Adds a quadratic pull of the vertices towards heights along the view with these weights (#V each) until a reset.
-  void pull_to(const Vector& heights, const Vector& weight);
+  struct Internals;  // what the library's own sources use besides
+  Internals& internals() { return *own_; }
+  const Internals& internals() const { return *own_; }
 
  private:
-  void enter(double fraction, const char* stage) const;
-  void forget_lines();
-  void continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
-                       const Families& families);
-  std::vector<Target> with_border(const std::vector<Target>& targets) const;
-  void check(const Target& target) const;
-  void check_family(int family) const;
-  void count_features(double length, int family);
-  void measure(const std::vector<Target>& targets, Report& report) const;
-  void tell_limit(Report& report) const;
-
-  Region region_;
-  Eigen::AlignedBox3d box_;  // around the region's faces
-  std::unique_ptr<RegionPieces> pieces_;
-  IndexVector partner_;  // see ShapeOptions
-  SurfaceKind kind_;
-  int family_count_;
-  LinearSolverKind linear_solver_;
-  double feature_length_ = 0.0;  // see RegionField::feature
-  std::shared_ptr<Progress> progress_;
-  std::vector<int> free_unknowns_;
-  std::vector<Vector> sight_;   // #F of each family, or none; see Families
-  std::vector<Target> border_;  // continue the surroundings' curvature; see continue_curvature
-  IndexVector face_of_triangle_;
-  bool sampled_ = false;                                      // some triangles have the quadrature weight 0
-  std::map<int, RegionField> region_fields_, vertex_fields_;  // of the families asked for, at the current heights
+  std::unique_ptr<Internals> own_;
 };
 
 }  // namespace reflines

@@ -12,7 +12,7 @@
 #include "reflection/reflection_function.h"
 #include "reflines/errors.h"
 #include "reflines/kept_target.h"
-#include "solver/region_pieces.h"
+#include "solver/optimizer_internals.h"
 #include "targets/handle_conflicts.h"
 
 namespace reflines {
@@ -268,7 +268,7 @@ bool HandleFollower::prepare(const std::vector<Handle>& handles, const LineHandl
       piece = field.piece(place.at.triangle);
     }
   }
-  const PieceProblem& own = start_.pieces().piece_of(piece);
+  const PieceProblem& own = start_.internals().pieces.piece_of(piece);
   if (!own.is_mesh() || own.field().vertex_count() < kFewestVertices) return false;
   const Vector2 offset = field.xy.row(own.vertices()[0]) - own.field().xy.row(0);
   Mask moving = Mask::Constant(own.field().vertex_count(), false);

@@ -7,6 +7,7 @@
 #include "restoration/controlled_surface.h"
 #include "restoration/press_rules.h"
 #include "restoration/restoration.h"
+#include "solver/optimizer_internals.h"
 
 namespace reflines {
 namespace {
@@ -87,7 +88,7 @@ class HeldBorderPress : public Press {
   HeldBorderPress(const Positions& V, const Triangles& F, const Vector3& view, const std::vector<Vector3>& families,
                   const ShapeOptions& shape, const SmoothPanelOptions& options)
       : surface_(V, F, view, families, shape), press_(surface_, options) {
-    if (!surface_.optimizer().continues_curvature()) return;
+    if (surface_.optimizer().internals().border.empty()) return;
     clamped_surface_ = std::make_unique<MeshSurface>(V, F, view, families, clamp_instead(shape));
     clamped_press_ = std::make_unique<Restoration>(*clamped_surface_, options);
   }

@@ -7,6 +7,7 @@
 #include "optimization/linear/linear_solver.h"
 #include "reflines/errors.h"
 #include "solver/cage_surface.h"
+#include "solver/optimizer_internals.h"
 
 namespace reflines {
 namespace {
@@ -75,7 +76,7 @@ const SparseMatrix& CageOptimizer::influence() const { return cage_surface_->S; 
 
 Mask CageOptimizer::cage_free() const {
   Mask result = Mask::Constant(V_.rows(), false);
-  for (const int k : surface().free_unknowns()) {
+  for (const int k : surface().internals().free_unknowns) {
     for (SparseMatrix::InnerIterator it(cage_surface_->B, k); it; ++it) result(it.row()) = true;
   }
   return result;
@@ -83,10 +84,11 @@ Mask CageOptimizer::cage_free() const {
 
 Positions CageOptimizer::cage_positions() const {
   Positions result = V_;
-  for (size_t j = 0; j < surface().free_unknowns().size(); ++j) {
-    const double move = surface().unknowns()(static_cast<int>(j)) - cage_surface_->start(surface().free_unknowns()[j]);
+  const std::vector<int>& free = surface().internals().free_unknowns;
+  for (size_t j = 0; j < free.size(); ++j) {
+    const double move = surface().internals().unknowns()(static_cast<int>(j)) - cage_surface_->start(free[j]);
     if (move == 0) continue;
-    for (SparseMatrix::InnerIterator it(cage_surface_->B, surface().free_unknowns()[j]); it; ++it) {
+    for (SparseMatrix::InnerIterator it(cage_surface_->B, free[j]); it; ++it) {
       result.row(it.row()) += move * surface().frame().z().transpose();
     }
   }
@@ -95,10 +97,11 @@ Positions CageOptimizer::cage_positions() const {
 
 void CageOptimizer::fit(const Vector& heights, const Vector& weight) {
   check_fit(heights, weight, cage_surface_->S.rows());
-  const int n = static_cast<int>(surface().free_unknowns().size());
+  ShapeOptimizer::Internals& own = surface().internals();
+  const int n = static_cast<int>(own.free_unknowns.size());
   const SparseMatrix all = cage_surface_->S * cage_surface_->B;
   SparseMatrix B(all.rows(), n);
-  for (int k = 0; k < n; ++k) B.col(k) = all.col(surface().free_unknowns()[k]);
+  for (int k = 0; k < n; ++k) B.col(k) = all.col(own.free_unknowns[k]);
   const SparseMatrix WB = weight.asDiagonal() * B;
   SparseMatrix identity(n, n);
   identity.setIdentity();
@@ -112,8 +115,8 @@ void CageOptimizer::fit(const Vector& heights, const Vector& weight) {
   solver.analyze(lower);
   solver.factorize(lower);
   solver.solve(step);
-  surface().rest_at(surface().unknowns() + step);
-  surface().pull_to(heights, height_density() * weight);
+  own.rest_at(own.unknowns() + step);
+  own.pull_to(heights, height_density() * weight);
 }
 
 // Returns the weight of the pull to fitted heights, per area: with theta ~ 2 f_x a wave of height h and number k costs

@@ -13,14 +13,12 @@
 #include "solver/border_curvature.h"
 #include "solver/coupling.h"
 #include "solver/face_count.h"
-#include "solver/families.h"
 #include "solver/limited_move.h"
 #include "solver/mirror_coupling.h"
+#include "solver/optimizer_internals.h"
 #include "solver/reachable_target.h"
-#include "solver/region_pieces.h"
 #include "solver/region_report.h"
 #include "solver/solve_checks.h"
-#include "solver/surface_kind.h"
 #include "solver/thread_limit.h"
 
 namespace reflines {
@@ -59,110 +57,120 @@ PlaneVectors remove_facets(const PlaneVectors& off, const FieldAverage& average,
 
 ShapeOptimizer::ShapeOptimizer(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const std::vector<Vector3>& line_directions, const ShapeOptions& options)
-    : pieces_(std::make_unique<RegionPieces>(V, F, choose_frame(view_direction, line_directions, options.eyes))),
-      partner_(options.partner),
-      kind_(find_kind(options)),
-      family_count_(static_cast<int>(line_directions.size())),
-      linear_solver_(options.linear_solver),
-      progress_(options.progress),
-      face_of_triangle_(options.face_of_triangle) {
+    : own_(std::make_unique<Internals>(V, F, view_direction, line_directions, options)) {}
+
+ShapeOptimizer::Internals::Internals(const Positions& V, const Triangles& F, const Vector3& view_direction,
+                                     const std::vector<Vector3>& line_directions, const ShapeOptions& options)
+    : pieces(V, F, choose_frame(view_direction, line_directions, options.eyes)),
+      partner(options.partner),
+      kind(find_kind(options)),
+      family_count(static_cast<int>(line_directions.size())),
+      linear_solver(options.linear_solver),
+      progress(options.progress),
+      face_of_triangle(options.face_of_triangle) {
   enter(0.0, "checking the mesh");
   check_surface(V, F);
   check_quadrature_weight(options.quadrature_weight, F.rows());
-  check_face_of_triangle(face_of_triangle_, F.rows());
+  check_face_of_triangle(face_of_triangle, F.rows());
   check_marked_creases(options.creases.marked, V.rows());
   check_proximity(options.proximity);
   check_symmetry(options, V.rows());
-  box_ = find_bounding_box(V, F);
+  box = find_bounding_box(V, F);
   enter(0.2, "dividing into height fields");
   const Boundary boundary = boundary_of(options, V.rows());
-  HeightField field = make_height_field(V, F, frame(), boundary);
-  sampled_ = options.quadrature_weight.size() > 0;
-  hold_partners(partner_, field);
-  if (kind_ == SurfaceKind::kSubdivided) free_unknowns_ = couple_vertices(options.B, options.start, field);
-  const Families families = make_families(V, F, frame(), line_directions, options.eyes);
+  HeightField field = make_height_field(V, F, pieces.frame(), boundary);
+  sampled = options.quadrature_weight.size() > 0;
+  hold_partners(partner, field);
+  if (kind == SurfaceKind::kSubdivided) free_unknowns = couple_vertices(options.B, options.start, field);
+  const Families families = make_families(V, F, pieces.frame(), line_directions, options.eyes);
   if (see_nothing(families)) {
     throw InvalidInput(
         "No eye direction sees the region: it is turned away from all of them, seen at a grazing angle or hidden; turn "
         "one of them.");
   }
-  sight_ = families.sight;
-  region_ = describe_region(field, face_of_triangle_, boundary.hold_creases);
-  feature_length_ = kFeatureLength * field.diagonal();
-  for (Piece& piece : split_pieces(field, partner_)) {
+  sight = families.sight;
+  region = describe_region(field, face_of_triangle, boundary.hold_creases);
+  feature_length = kFeatureLength * field.diagonal();
+  for (Piece& piece : split_pieces(field, partner)) {
     enter(0.6, "making stencils");
-    if (piece.free_count == 0) region_.unused_pieces += piece.field.piece_count;
-    AffineMap map = make_affine_map(options.B, options.start, free_unknowns_, piece);
-    auto problem = std::make_unique<PieceProblem>(std::move(piece), std::move(map), kind_, options.stencil, families,
+    if (piece.free_count == 0) region.unused_pieces += piece.field.piece_count;
+    AffineMap map = make_affine_map(options.B, options.start, free_unknowns, piece);
+    auto problem = std::make_unique<PieceProblem>(std::move(piece), std::move(map), kind, options.stencil, families,
                                                   options.proximity, options.linear_solver, options.quadrature_weight);
-    problem->watch(progress_.get());
-    pieces_->add(std::move(problem));
+    problem->watch(progress.get());
+    pieces.add(std::move(problem));
   }
   continue_border(field, boundary, options.around, families);
-  if (region_.free == 0) {
-    const int faces = count_faces(Mask::Constant(triangle_count(), true));
-    throw InvalidInput(explain_no_free_vertex(region_, faces, count_doubled_vertices(V)));
+  if (region.free == 0) {
+    const int faces = count_faces(Mask::Constant(pieces.triangle_count(), true));
+    throw InvalidInput(explain_no_free_vertex(region, faces, count_doubled_vertices(V)));
   }
-  region_.hidden = count_faces(pieces_->hidden());
-  count_features(feature_length_, 0);
-  add_piece_notes(region_);
-  add_eye_notes(sight_, region_);
+  region.hidden = count_faces(pieces.hidden());
+  count_features(feature_length, 0);
+  add_piece_notes(region);
+  add_eye_notes(sight, region);
 }
 
-void ShapeOptimizer::continue_border(const HeightField& field, const Boundary& boundary, const Surroundings& around,
-                                     const Families& families) {
+void ShapeOptimizer::Internals::continue_border(const HeightField& field, const Boundary& boundary,
+                                                const Surroundings& around, const Families& families) {
   if (std::none_of(boundary.border.begin(), boundary.border.end(), continues_lines)) return;
   BorderCurvature curvature;
   if (around.exist()) {
-    check_surroundings(around, pieces_->vertex_count());
+    check_surroundings(around, pieces.vertex_count());
     std::vector<StartLines> start;
-    for (const int family : {0, family_count_}) {
-      const PlaneVectors gradient = pieces_->start_field(family);
-      start.push_back({gradient, pieces_->strong_size(gradient)});
+    for (const int family : {0, family_count}) {
+      const PlaneVectors gradient = pieces.start_field(family);
+      start.push_back({gradient, pieces.strong_size(gradient)});
     }
-    curvature = continue_curvature(pieces_->start(), field, boundary.border, around, frame(), boundary.creases, start,
-                                   families.lines);
+    curvature = continue_curvature(pieces.start(), field, boundary.border, around, pieces.frame(), boundary.creases,
+                                   start, families.lines);
   }
-  border_ = std::move(curvature.targets);
-  if (border_.empty() && curvature.strong == 0) {
-    region_.notes.push_back({NoteKind::kCurvatureUnknown});
+  border = std::move(curvature.targets);
+  if (border.empty() && curvature.strong == 0) {
+    region.notes.push_back({NoteKind::kCurvatureUnknown});
   } else if (curvature.unknown > 0) {
-    region_.notes.push_back({NoteKind::kCurvaturePartlyUnknown, curvature.unknown});
+    region.notes.push_back({NoteKind::kCurvaturePartlyUnknown, curvature.unknown});
   }
-  if (curvature.strong > 0) region_.notes.push_back({NoteKind::kStrongBorderBend, curvature.strong});
-  if (curvature.constant > 0) region_.notes.push_back({NoteKind::kFlowUnknown, curvature.constant});
+  if (curvature.strong > 0) region.notes.push_back({NoteKind::kStrongBorderBend, curvature.strong});
+  if (curvature.constant > 0) region.notes.push_back({NoteKind::kFlowUnknown, curvature.constant});
 }
 
-std::vector<Target> ShapeOptimizer::with_border(const std::vector<Target>& targets) const {
+std::vector<Target> ShapeOptimizer::Internals::with_border(const std::vector<Target>& targets) const {
   std::vector<Target> all = targets;
-  all.insert(all.end(), border_.begin(), border_.end());
+  all.insert(all.end(), border.begin(), border.end());
   return all;
 }
 
 ShapeOptimizer::~ShapeOptimizer() = default;
 
 void ShapeOptimizer::watch(std::shared_ptr<Progress> progress) {
-  progress_ = std::move(progress);
-  for (const auto& piece : pieces_->pieces()) piece->watch(progress_.get());
+  own_->progress = std::move(progress);
+  for (const auto& piece : own_->pieces.pieces()) piece->watch(own_->progress.get());
 }
 
-void ShapeOptimizer::enter(double fraction, const char* stage) const {
-  if (progress_) progress_->enter(fraction, stage);
+int ShapeOptimizer::Internals::count_faces(const Mask& triangles) const {
+  return reflines::count_faces(triangles, face_of_triangle);
 }
 
-void ShapeOptimizer::check_family(int family) const {
-  if (family >= 0 && family < family_count_) return;
+void ShapeOptimizer::Internals::enter(double fraction, const char* stage) const {
+  if (progress) progress->enter(fraction, stage);
+}
+
+void ShapeOptimizer::Internals::check_family(int family) const {
+  if (family >= 0 && family < family_count) return;
   throw InvalidInput("There is no family " + std::to_string(family) + " of light lines; there are " +
-                     std::to_string(family_count_) + ", counted from 0.");
+                     std::to_string(family_count) + ", counted from 0.");
 }
 
-void ShapeOptimizer::check(const Target& target) const {
+void ShapeOptimizer::Internals::check(const Target& target) const {
   const bool by_value = target.theta.size() > 0;
   const Eigen::Index rows = by_value ? target.theta.size() : target.gradient.rows();
   check_family(target.family);
-  if (rows != triangle_count() || (target.weight.size() > 0 && target.weight.size() != triangle_count())) {
+  if (rows != pieces.triangle_count() ||
+      (target.weight.size() > 0 && target.weight.size() != pieces.triangle_count())) {
     throw InvalidInput("The target has " + std::to_string(rows) + " rows and " + std::to_string(target.weight.size()) +
-                       " weights; it needs one for each of the " + std::to_string(triangle_count()) + " triangles.");
+                       " weights; it needs one for each of the " + std::to_string(pieces.triangle_count()) +
+                       " triangles.");
   }
   const bool finite = by_value ? target.theta.allFinite() : target.gradient.allFinite();
   if (!finite || !target.weight.allFinite() || (target.weight.size() > 0 && target.weight.minCoeff() < 0)) {
@@ -171,10 +179,10 @@ void ShapeOptimizer::check(const Target& target) const {
 }
 
 double ShapeOptimizer::energy(const std::vector<Target>& targets) {
-  for (const Target& target : targets) check(target);
-  const std::vector<Target> all = with_border(targets);
+  for (const Target& target : targets) own_->check(target);
+  const std::vector<Target> all = own_->with_border(targets);
   double sum = 0;
-  for (const auto& piece : pieces_->pieces()) {
+  for (const auto& piece : own_->pieces.pieces()) {
     if (piece->size() == 0) continue;  // as solves do
     piece->set_targets(all);
     sum += piece->energy();
@@ -183,7 +191,7 @@ double ShapeOptimizer::energy(const std::vector<Target>& targets) {
 }
 
 Vector ShapeOptimizer::residual(const Target& target) const {
-  check(target);
+  own_->check(target);
   if (target.theta.size() > 0) {
     const Vector difference = theta(target.family) - target.theta;
     return difference.unaryExpr([](double d) { return std::abs(wrap_angle(d)); });
@@ -191,20 +199,20 @@ Vector ShapeOptimizer::residual(const Target& target) const {
   return ((field(target.family) - target.gradient).rowwise().norm().array() * active().cast<double>()).matrix();
 }
 
-void ShapeOptimizer::count_features(double length, int family) {
-  set_feature_count(count_faces(pieces_->features(family, length)), region_);
+void ShapeOptimizer::Internals::count_features(double length, int family) {
+  set_feature_count(count_faces(pieces.features(family, length)), region);
 }
 
 FieldSmoother ShapeOptimizer::smoother(int family) {
-  check_family(family);
+  own_->check_family(family);
   return [this, family](const SmoothOptions& options) {
-    count_features(options.length, family);
-    return pieces_->smooth_field(options, family);
+    own_->count_features(options.length, family);
+    return own_->pieces.smooth_field(options, family);
   };
 }
 
 SpdFactorize ShapeOptimizer::factorizer() const {
-  return [kind = linear_solver_](const SparseMatrix& matrix) -> SpdSolve {
+  return [kind = own_->linear_solver](const SparseMatrix& matrix) -> SpdSolve {
     auto solver = std::make_shared<LinearSolver>(kind);
     solver->analyze(matrix);
     solver->factorize(matrix);
@@ -212,12 +220,12 @@ SpdFactorize ShapeOptimizer::factorizer() const {
   };
 }
 
-LineScore ShapeOptimizer::score_field(const PlaneVectors& field, double length, int family) {
-  check_family(family);
+LineScore ShapeOptimizer::score(double length, int family) {
+  const PlaneVectors field = this->field(family);
   if (!(length > 0) || !std::isfinite(length))
     throw InvalidInput("The length of the score must be a positive length in scene units.");
   LineSums sums;
-  for (const auto& piece : pieces_->pieces()) {
+  for (const auto& piece : own_->pieces.pieces()) {
     if (piece->size() == 0) continue;
     const Vector weight =
         piece->changeable().select(piece->field().area.cwiseProduct(piece->visible(family)).array(), 0.0);
@@ -229,9 +237,9 @@ LineScore ShapeOptimizer::score_field(const PlaneVectors& field, double length, 
   return sums.score();
 }
 
-void ShapeOptimizer::measure(const std::vector<Target>& targets, Report& report) const {
+void ShapeOptimizer::Internals::measure(const std::vector<Target>& targets, Report& report) const {
   double squared = 0, area = 0;
-  for (const auto& piece : pieces_->pieces()) {
+  for (const auto& piece : pieces.pieces()) {
     for (int v = 0; v < piece->field().vertex_count(); ++v) {
       const double move = std::abs(piece->move(v));
       report.largest_move = std::max(report.largest_move, std::isfinite(move) ? move : INFINITY);
@@ -245,30 +253,31 @@ void ShapeOptimizer::measure(const std::vector<Target>& targets, Report& report)
 
 Report ShapeOptimizer::solve(const std::vector<Target>& targets, const MinimizerOptions& options, Progress* progress,
                              const MoveLimit& limit) {
-  const ThreadLimit few(sampled_ ? 1 : 0);
+  const ThreadLimit few(own_->sampled ? 1 : 0);
   if (targets.empty()) throw InvalidInput("There is no target to solve for; give at least one.");
-  for (const Target& target : targets) check(target);
-  if (limit.exists()) reflines::check(limit, pieces_->vertex_count());
-  const MoveLimit limit_before = pieces_->limit();
-  pieces_->set_limit(limit.exists() && is_infinite(limit) ? MoveLimit::none() : intersect_limits(limit, partner_));
-  forget_lines();
+  for (const Target& target : targets) own_->check(target);
+  if (limit.exists()) reflines::check(limit, own_->pieces.vertex_count());
+  const MoveLimit limit_before = own_->pieces.limit();
+  own_->pieces.set_limit(limit.exists() && is_infinite(limit) ? MoveLimit::none()
+                                                              : intersect_limits(limit, own_->partner));
+  own_->forget_lines();
   std::vector<Vector> before;
-  for (const auto& piece : pieces_->pieces()) before.push_back(piece->unknowns());
+  for (const auto& piece : own_->pieces.pieces()) before.push_back(piece->unknowns());
   const auto restore = [&](bool factors_are_kept) {
     for (size_t k = 0; k < before.size(); ++k) {
-      pieces_->pieces()[k]->set_heights(before[k]);
-      if (!factors_are_kept) pieces_->pieces()[k]->forget_factor();
+      own_->pieces.pieces()[k]->set_heights(before[k]);
+      if (!factors_are_kept) own_->pieces.pieces()[k]->forget_factor();
     }
-    pieces_->set_limit(limit_before);
+    own_->pieces.set_limit(limit_before);
   };
-  const std::vector<Target> joined = border_.empty() ? std::vector<Target>() : with_border(targets);
-  const std::vector<Target>& all = border_.empty() ? targets : joined;
+  const std::vector<Target> joined = own_->border.empty() ? std::vector<Target>() : own_->with_border(targets);
+  const std::vector<Target>& all = own_->border.empty() ? targets : joined;
   std::vector<Target> reachable;
   Report report;
   report.strategy = options.strategy;
   report.termination = Termination::kAlreadyOptimal;
   try {
-    for (const auto& piece : pieces_->pieces()) {
+    for (const auto& piece : own_->pieces.pieces()) {
       if (piece->size() == 0) continue;
       const Report own = minimize_reachable(*piece, all, reachable, options, progress);
       if (report.unknowns == 0)
@@ -278,9 +287,9 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
       if (own.termination == Termination::kCancelled) break;
     }
     if (report.termination == Termination::kCancelled) restore(report.assemblies == 0 && report.solves == 0);
-    measure(targets, report);
-    check_reach(box_, report.largest_move);
-    tell_limit(report);
+    own_->measure(targets, report);
+    check_reach(own_->box, report.largest_move);
+    own_->tell_limit(report);
   } catch (...) {
     restore(false);
     throw;
@@ -288,14 +297,14 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
   return report;
 }
 
-SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, HessianModel model) {
+SparseMatrix ShapeOptimizer::Internals::hessian(const std::vector<Target>& targets, HessianModel model) {
   for (const Target& target : targets) check(target);
   const std::vector<Target> all = with_border(targets);
   int size = 0;
-  for (const auto& piece : pieces_->pieces()) size += piece->size();
+  for (const auto& piece : pieces.pieces()) size += piece->size();
   SparseMatrix result(size, size);
   int first = 0;
-  for (const auto& piece : pieces_->pieces()) {
+  for (const auto& piece : pieces.pieces()) {
     if (piece->size() == 0) continue;
     piece->set_targets(all);
     const SparseMatrix& own = piece->hessian(piece->unknowns(), model);
@@ -314,8 +323,8 @@ SparseMatrix ShapeOptimizer::hessian(const std::vector<Target>& targets, Hessian
 
 void ShapeOptimizer::scale_move(double share) {
   if (!(share >= 0 && share <= 1)) throw InvalidInput("The share of the move must lie between 0 and 1.");
-  forget_lines();
-  for (const auto& piece : pieces_->pieces()) piece->scale_move(share);
+  own_->forget_lines();
+  for (const auto& piece : own_->pieces.pieces()) piece->scale_move(share);
 }
 
 int ShapeOptimizer::keep_within(double limit) {
@@ -326,57 +335,54 @@ int ShapeOptimizer::keep_within(double limit) {
   return std::max(1, static_cast<int>((move.array() > limit).count()));
 }
 
-ShapeOptimizer::State ShapeOptimizer::state() const {
-  State result{{}, pieces_->limit()};
-  for (const auto& piece : pieces_->pieces()) result.unknowns.push_back(piece->unknowns());
+ShapeOptimizer::Internals::State ShapeOptimizer::Internals::state() const {
+  State result{{}, pieces.limit()};
+  for (const auto& piece : pieces.pieces()) result.unknowns.push_back(piece->unknowns());
   return result;
 }
 
-void ShapeOptimizer::restore(const State& state) {
+void ShapeOptimizer::Internals::restore(const State& state) {
   forget_lines();
-  pieces_->set_limit(state.limit);
-  for (size_t k = 0; k < state.unknowns.size(); ++k) pieces_->pieces()[k]->set_heights(state.unknowns[k]);
+  pieces.set_limit(state.limit);
+  for (size_t k = 0; k < state.unknowns.size(); ++k) pieces.pieces()[k]->set_heights(state.unknowns[k]);
 }
 
 void ShapeOptimizer::set_move(const Vector& move) {
-  if (kind_ == SurfaceKind::kSubdivided) throw InvalidInput("The vertices of a cage's surface do not move one by one.");
-  if (move.size() != pieces_->vertex_count() || !move.allFinite()) {
-    throw InvalidInput("The move needs one finite number for each of the " + std::to_string(pieces_->vertex_count()) +
-                       " vertices.");
+  if (own_->kind == SurfaceKind::kSubdivided)
+    throw InvalidInput("The vertices of a cage's surface do not move one by one.");
+  if (move.size() != own_->pieces.vertex_count() || !move.allFinite()) {
+    throw InvalidInput("The move needs one finite number for each of the " +
+                       std::to_string(own_->pieces.vertex_count()) + " vertices.");
   }
-  pieces_->set_limit(MoveLimit::none());
-  forget_lines();
-  for (const auto& piece : pieces_->pieces()) piece->set_move(move(piece->vertices()));
+  own_->pieces.set_limit(MoveLimit::none());
+  own_->forget_lines();
+  for (const auto& piece : own_->pieces.pieces()) piece->set_move(move(piece->vertices()));
 }
 
 void ShapeOptimizer::reset() {
-  pieces_->set_limit(MoveLimit::none());
-  forget_lines();
-  for (const auto& piece : pieces_->pieces()) piece->reset();
+  own_->pieces.set_limit(MoveLimit::none());
+  own_->forget_lines();
+  for (const auto& piece : own_->pieces.pieces()) piece->reset();
 }
 
-const Vector& ShapeOptimizer::unknowns() const { return pieces_->pieces().front()->unknowns(); }
-
-void ShapeOptimizer::rest_at(const Vector& unknowns) {
-  pieces_->set_limit(MoveLimit::none());  // the shape is a new start, and the last solve's limit was for another one
+void ShapeOptimizer::Internals::rest_at(const Vector& unknowns) {
+  pieces.set_limit(MoveLimit::none());  // the shape is a new start, and the last solve's limit was for another one
   forget_lines();
-  pieces_->pieces().front()->rest_at(unknowns);
+  pieces.pieces().front()->rest_at(unknowns);
 }
 
 void ShapeOptimizer::stay_near(const Vector& heights) {
-  if (heights.size() != pieces_->vertex_count() || !heights.allFinite()) {
+  if (heights.size() != own_->pieces.vertex_count() || !heights.allFinite()) {
     throw InvalidInput("The heights to stay near need one finite number for each of the " +
-                       std::to_string(pieces_->vertex_count()) + " vertices.");
+                       std::to_string(own_->pieces.vertex_count()) + " vertices.");
   }
-  pieces_->stay_near(heights);
+  own_->pieces.stay_near(heights);
 }
 
-void ShapeOptimizer::pull_to(const Vector& heights, const Vector& weight) { pieces_->pull_to(heights, weight); }
-
-void ShapeOptimizer::tell_limit(Report& report) const {
-  if (!pieces_->limit().exists()) return;
-  const auto free = this->free().count();
-  report.limited = static_cast<int>((at_limit().array() != 0).count());
+void ShapeOptimizer::Internals::tell_limit(Report& report) const {
+  if (!pieces.limit().exists()) return;
+  const auto free = pieces.free().count();
+  report.limited = static_cast<int>((pieces.at_limit().array() != 0).count());
   report.limited_share = static_cast<double>(report.limited) / static_cast<double>(free);
   char text[160];
   std::snprintf(text, sizeof text, " %d of %td vertices (%.3g %%) touch the limit.", report.limited, free,
@@ -387,80 +393,81 @@ void ShapeOptimizer::tell_limit(Report& report) const {
   report.message += text;
 }
 
-const ImagePlane& ShapeOptimizer::frame() const { return pieces_->frame(); }
+const Region& ShapeOptimizer::region() const { return own_->region; }
 
-int ShapeOptimizer::count_faces(const Mask& triangles) const {
-  return reflines::count_faces(triangles, face_of_triangle_);
-}
+int ShapeOptimizer::family_count() const { return own_->family_count; }
 
-const Positions& ShapeOptimizer::start() const { return pieces_->start(); }
+const ImagePlane& ShapeOptimizer::frame() const { return own_->pieces.frame(); }
 
-const Triangles& ShapeOptimizer::triangles() const { return pieces_->triangles(); }
+int ShapeOptimizer::count_faces(const Mask& triangles) const { return own_->count_faces(triangles); }
 
-int ShapeOptimizer::triangle_count() const { return pieces_->triangle_count(); }
+const Positions& ShapeOptimizer::start() const { return own_->pieces.start(); }
 
-PlanePositions ShapeOptimizer::xy() const { return pieces_->xy(); }
+const Triangles& ShapeOptimizer::triangles() const { return own_->pieces.triangles(); }
 
-PlanePositions ShapeOptimizer::centers() const { return pieces_->centers(); }
+int ShapeOptimizer::triangle_count() const { return own_->pieces.triangle_count(); }
 
-Vector ShapeOptimizer::area() const { return pieces_->area(); }
+PlanePositions ShapeOptimizer::xy() const { return own_->pieces.xy(); }
 
-Vector ShapeOptimizer::heights() const { return pieces_->heights(); }
+PlanePositions ShapeOptimizer::centers() const { return own_->pieces.centers(); }
 
-Positions ShapeOptimizer::positions() const { return pieces_->positions(); }
+Vector ShapeOptimizer::area() const { return own_->pieces.area(); }
 
-IndexVector ShapeOptimizer::at_limit() const { return pieces_->at_limit(); }
+Vector ShapeOptimizer::heights() const { return own_->pieces.heights(); }
 
-Mask ShapeOptimizer::free() const { return pieces_->free(); }
+Positions ShapeOptimizer::positions() const { return own_->pieces.positions(); }
 
-Mask ShapeOptimizer::active() const { return pieces_->active(); }
+IndexVector ShapeOptimizer::at_limit() const { return own_->pieces.at_limit(); }
 
-Mask ShapeOptimizer::changeable() const { return pieces_->changeable(); }
+Mask ShapeOptimizer::free() const { return own_->pieces.free(); }
+
+Mask ShapeOptimizer::active() const { return own_->pieces.active(); }
+
+Mask ShapeOptimizer::changeable() const { return own_->pieces.changeable(); }
 
 Vector ShapeOptimizer::theta(int family) const {
-  check_family(family);
-  return pieces_->theta(family);
+  own_->check_family(family);
+  return own_->pieces.theta(family);
 }
 
 PlaneVectors ShapeOptimizer::field(int family) const {
-  check_family(family);
-  return pieces_->field(family);
+  own_->check_family(family);
+  return own_->pieces.field(family);
 }
 
 Vector ShapeOptimizer::sight(int family) const {
-  check_family(family);
-  return sight_.empty() ? Vector::Ones(triangle_count()) : sight_[family];
+  own_->check_family(family);
+  return own_->sight.empty() ? Vector::Ones(triangle_count()) : own_->sight[family];
 }
 
 const RegionField& ShapeOptimizer::region_field(int family) {
-  check_family(family);
-  const auto kept = region_fields_.find(family);
-  if (kept != region_fields_.end()) return kept->second;
-  return region_fields_.emplace(family, pieces_->region_field(family, feature_length_)).first->second;
+  own_->check_family(family);
+  const auto kept = own_->region_fields.find(family);
+  if (kept != own_->region_fields.end()) return kept->second;
+  return own_->region_fields.emplace(family, own_->pieces.region_field(family, own_->feature_length)).first->second;
 }
 
 const RegionField& ShapeOptimizer::vertex_field(int family) {
-  check_family(family);
-  const auto kept = vertex_fields_.find(family);
-  if (kept != vertex_fields_.end()) return kept->second;
-  return vertex_fields_.emplace(family, pieces_->vertex_field(family)).first->second;
+  own_->check_family(family);
+  const auto kept = own_->vertex_fields.find(family);
+  if (kept != own_->vertex_fields.end()) return kept->second;
+  return own_->vertex_fields.emplace(family, own_->pieces.vertex_field(family)).first->second;
 }
 
-// Drops what was read at other heights.
-void ShapeOptimizer::forget_lines() {
-  region_fields_.clear();
-  vertex_fields_.clear();
+void ShapeOptimizer::Internals::forget_lines() {
+  region_fields.clear();
+  vertex_fields.clear();
 }
 
 ShapeOptimizer::Lines ShapeOptimizer::evaluate_lines(const Vector& heights, const Vector& weight, int family) {
-  check_family(family);
-  const int vertices = pieces_->vertex_count();
+  own_->check_family(family);
+  const int vertices = own_->pieces.vertex_count();
   if (heights.size() != vertices || weight.size() != vertices) {
     throw InvalidInput("There are " + std::to_string(heights.size()) + " heights and " + std::to_string(weight.size()) +
                        " weights; the surface has " + std::to_string(vertices) + " vertices.");
   }
   Lines lines{{field(family), Vector::Zero(triangle_count()), {}, family}, theta(family)};
-  pieces_->read_lines(heights, weight, lines.target, lines.theta);
+  own_->pieces.read_lines(heights, weight, lines.target, lines.theta);
   return lines;
 }
 

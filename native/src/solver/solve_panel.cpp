@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reflines/errors.h"
+#include "solver/optimizer_internals.h"
 #include "solver/rim_bend.h"
 #include "solver/turned_faces.h"
 
@@ -56,7 +57,7 @@ class LimitedSolve {
 
   int most_bounded() const {
     if (options_.most_bounded > 0) return options_.most_bounded;
-    return optimizer_.free_unknowns().empty() ? kMostBounded : kMostBoundedCage;
+    return optimizer_.internals().free_unknowns.empty() ? kMostBounded : kMostBoundedCage;
   }
 
   MoveLimit bound(double length, const Mask& held) const {
@@ -112,10 +113,10 @@ std::optional<Report> solve_held(ShapeOptimizer& optimizer, LimitedSolve& limite
 // Scores the lines of the heights that the optimizer was built with: the targets of some tools have moved it.
 LineScore score_start(ShapeOptimizer& optimizer, const Vector& start, double length) {
   if (optimizer.heights() == start) return optimizer.score(length, 0);
-  const ShapeOptimizer::State moved = optimizer.state();
+  const ShapeOptimizer::Internals::State moved = optimizer.internals().state();
   optimizer.scale_move(0.0);
   const LineScore result = optimizer.score(length, 0);
-  optimizer.restore(moved);
+  optimizer.internals().restore(moved);
   return result;
 }
 
@@ -155,12 +156,12 @@ SolvePanelReport solve_panel(ShapeOptimizer& optimizer, const std::vector<Target
   Mask turned = find_turned_faces(optimizer, start);
   for (int hold = 0; hold < kMostHolds && is_worth_holding(turned); ++hold) {
     if (std::isinf(options.limit) || result.solve.termination == Termination::kCancelled) break;
-    const ShapeOptimizer::State before = optimizer.state();
+    const ShapeOptimizer::Internals::State before = optimizer.internals().state();
     held = held || find_corners(optimizer.triangles(), turned, start.size());
     const std::optional<Report> firmer = solve_held(optimizer, limited, held);
     const Mask left = firmer ? find_turned_faces(optimizer, start) : turned;
     if (left.count() >= turned.count()) {
-      optimizer.restore(before);
+      optimizer.internals().restore(before);
       break;
     }
     result.solve = *firmer;

@@ -6,6 +6,7 @@
 
 #include "reflines/errors.h"
 #include "reflines/shape_optimizer.h"
+#include "solver/optimizer_internals.h"
 #include "tests/native/allocations.h"
 #include "tests/native/sample_meshes.h"
 
@@ -131,12 +132,12 @@ TEST_F(ShapeOptimizerTest, StaysNearTheHeightsGivenUntilAReset) {
 TEST_F(ShapeOptimizerTest, HandsOutTheMatrixThatASolveFactors) {
   const auto solver = optimizer(1.0);
   const std::vector<Target> targets = {target(0.0)};
-  const SparseMatrix H = solver->hessian(targets, HessianModel::kGaussNewton);
+  const SparseMatrix H = solver->internals().hessian(targets, HessianModel::kGaussNewton);
   ASSERT_EQ(H.rows(), solver->region().free);
   // At the minimum itself the energy's second difference along any direction is that of Gauss-Newton.
   solver->solve(targets, {.gradient_tolerance = 1e-12});
-  const SparseMatrix at_minimum = solver->hessian(targets, HessianModel::kGaussNewton);
-  const SparseMatrix newton = solver->hessian(targets, HessianModel::kNewton);
+  const SparseMatrix at_minimum = solver->internals().hessian(targets, HessianModel::kGaussNewton);
+  const SparseMatrix newton = solver->internals().hessian(targets, HessianModel::kNewton);
   EXPECT_LT((at_minimum - newton).norm(), 1e-3 * newton.norm());
   EXPECT_GT((H - newton).norm(), 1e-2 * newton.norm());  // far from it they differ
 }
