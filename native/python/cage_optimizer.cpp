@@ -42,9 +42,7 @@ namespace {
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-// The crease angle of a cage's surface, which is smooth except at the cage's own creases. With 30 degrees, rails that
-// dents bend by 8 to 15 degrees were cut, and smoothing left 28 degrees of wobble on a dented roof instead of 21. With
-// 60 (15 in a chain) the sharp line of a fender of 12 degrees was no crease: 149 degrees of wobble.
+// The crease angle of a cage's surface, which is smooth except at the cage's own creases.
 constexpr double kCageCreaseAngle = 1.5 * kCreaseAngle;
 
 std::function<std::unique_ptr<CageOptimizer>()> prepare_cage_optimizer(

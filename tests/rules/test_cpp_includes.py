@@ -40,7 +40,7 @@ MAY_INCLUDE = {
     "inspection": SOLVER | {"solver", "restoration"},
     "following": SOLVER | {"solver", "solver/coarse", "targets"},
     "python": SOLVER | {"targets", "solver", "restoration", "inspection", "following"},
-    "examples": SOLVER | {"targets", "solver"},
+    "examples": BASE | {"restoration"},
 }
 
 # Third-party headers -> the only files of native/ that may see them.

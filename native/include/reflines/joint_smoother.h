@@ -36,11 +36,8 @@ class JointPress;
 // Flaws are as long as those of a panel of the size of all that face each other, within 1.5 times their length on each
 // alone; moves saturate at the limit. All sides take each step before any takes the next, so the order of the panels
 // does not matter. Where a panel would have a worse place than before, or a light would become worse, all are pressed
-// with a border that is clamped towards the others, and their reports say so. A panel that faces no other is pressed
-// as smooth_panel does.
-//
-// Of kinks of 5.4 degrees 0.3 and less are left where one panel after the other leaves 0.6; four panels take 1.5 times
-// as long as one of their size.
+// with a border that is clamped towards the others, and their reports say so. A panel that faces no other is pressed as
+// smooth_panel does.
 class JointSmoother {
  public:
   // Throws InvalidInput as smooth_panel does. Keeps no reference to its arguments.

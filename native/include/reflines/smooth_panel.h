@@ -15,20 +15,15 @@
 
 namespace reflines {
 
-// Length of flaws relative to the diagonal. Of 1/8, 1/10, 1/12, 1/14 and 1/16 the shorter ones harm clean panels less
-// (0.26 to 0.17 degrees in the median) and ripples and noise go as well; dents are wider, and are looked for by
-// themselves. All that is finer than a given length goes, design too: with two families of the lines of eleven real
-// panels smoothed by 1/6 and by 1/14 of the diagonal, their design is harmed by 4.1 and 2.8 degrees in the median, and
-// 3.1 and 2.4 of the error of dents are left, 4.2 and 3.0 of ripples, 1.5 and 1.2 of noise. So that is this length,
-// too.
+// Length of flaws relative to the diagonal: all that is finer than a given length goes, design too, and dents, which
+// are wider, are looked for by themselves.
 inline constexpr double kAutomaticLength = 1.0 / 14.0;
 
 // Limit relative to the length: dents of 6 per mille of the length are taken out whole, and no design is moved by more
 // than an artist may overlook.
 inline constexpr double kAutomaticLimit = 1.0 / 20.0;
 
-// Lengths from the region that a press with a faired border takes in. Of 1, 2 and 3.5, with flaws that run across the
-// borders of three hoods, 0.37 of ripples and 0.44 of noise are left in the region with each, and 0.63 of dents.
+// Lengths from the region that a press with a faired border takes in.
 inline constexpr double kFairReach = 2.0;
 
 enum class Lights {

@@ -21,11 +21,10 @@ struct WarpGrid {
 //
 // The paper renders theta to a texture and the texture through the grid. Here w is inverted exactly on the sampled
 // grid, and theta is evaluated on the mesh by a blend that is exact on quadratics, sum_i b_i (theta_i + grad theta_i (y
-// - x_i) / 2): linear interpolation of theta, textured or not, has an error as large as the change by a small warp.
-// With `by_value` the target fits theta itself (eq. 3). Throws InvalidInput where the grid folds over. Triangles that
-// would show lines from outside the region, of a feature (field.feature) or of another piece have weight
-// `kOutsideWeight` and are counted in `outside`; features keep their own lines. Measured on a car's roof, a warp that
-// carried the lines of the side rails across the gap moved the middle by 439 mm.
+// - x_i) / 2): linear interpolation has an error as large as the change by a small warp. With `by_value` the target
+// fits theta itself (eq. 3). Throws InvalidInput where the grid folds over. Triangles that would show lines from
+// outside the region, of a feature (field.feature) or of another piece have weight `kOutsideWeight` and are counted in
+// `outside`; features keep their own lines.
 struct WarpResult {
   Target target;
   int outside = 0;

@@ -16,10 +16,8 @@ namespace {
 
 constexpr double kChainShare = 0.25;  // bend of the edges of a chain, relative to the crease angle
 constexpr double kChainReach = 0.08;  // shortest chain and widest strip, relative to the region's extent
-// The least contrast (see bend_contrast) of a crease. Of 240 coarse round shapes of 12 to 64 sides (cylinders, cones,
-// barrels, spheres, tori, ellipses of 2 to 1, cut along random diagonals) none exceeds 1.9 but the tips of cones. Of
-// the edges that bend by more than 30 degrees or in a long chain on 11 selections of a car body 92 % do, half of them
-// 20 times; most others are on wheels and mirrors, whose triangles are about as large as their radii.
+// The least contrast (see bend_contrast) of a crease: of 240 coarse round shapes none exceeds 1.9 but the tips of
+// cones.
 constexpr double kJump = 2.0;
 
 // Returns for every vertex the extent of the chain of marked edges that it belongs to: twice the largest distance from

@@ -18,10 +18,8 @@ EdgeBends edge_bends(const Positions& normals, const Triangles& neighbors);
 // bend stands out against the surface beside it (see bend_contrast), at the width of one triangle or of any strip up to
 // 8 % of the region, and where it bends by more than the angle, or belongs to a connected chain of such edges that bend
 // by more than a quarter of the angle each and reach over 8 % of the region. Where the surface ends too soon to decide,
-// an edge sharper than the angle is a crease. Round shapes turn uniformly and have none, however coarse they are. A few
-// displaced vertices bend edges as sharply as a crease, but not in a long chain: they are to be faired, whereas the gap
-// to the windscreen is not. Measured on a car's bonnet selected across that gap, 140 rad / m against 0.5 on the panel:
-// solved as one surface, vertices move by 92 mm; with the gap held, by 0.7 mm.
+// an edge sharper than the angle is a crease. Round shapes have none, however coarse; nor do a few displaced vertices,
+// which are to be faired, whereas the gap to the windscreen is not.
 using EdgeMask = Eigen::Array<bool, Eigen::Dynamic, 3, Eigen::RowMajor>;
 EdgeMask crease_edges(const Positions& V, const Triangles& F, const Triangles& neighbors, const CreaseOptions& options);
 

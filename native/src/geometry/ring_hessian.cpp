@@ -20,17 +20,12 @@ constexpr double kOnConic = 1e-10;
 // at aspect 1, 0.3 to 0.4 round poles, where cubics double or triple the noise, and up to 8 at aspect 8.
 constexpr double kMostRingError = 0.4;
 
-// The penalty on third derivatives, relative to one point of the fit at distance 1. On grids of points displaced by up
-// to a fifth of a cell, second derivatives of a dent are off by (root mean square, along the short side of the cells)
-// 0.84 without cubics, 0.55, 0.16 and 0.06 with 1e-2, 1e-3 and 1e-5 at aspect 8, and by 0.037, 0.031, 0.026 and 0.025
-// at aspect 1; the six points are off by 0.77 and 0.067.
+// The penalty on third derivatives, relative to one point of the fit at distance 1.
 constexpr double kCubicPenalty = 1e-5;
 
-// The largest number of vertices read around one corner: all of them up to valence 17. A pole with n spokes would
-// otherwise put n weights on each of its n triangles and n^4 into their Hessian (n = 1024: 100 s, now 0.5 s). Spread
-// evenly around the corner they are as exact as all (of 256 spokes: lines off by 0.020 a length, with all 0.024) and as
-// steady (1.7 times the noise of all); the nearest 48, and the 8 next on both sides, lie almost on a line there (390
-// and 50 times).
+// The largest number of vertices read around one corner, spread evenly: all of them up to valence 17. A pole with n
+// spokes would otherwise put n weights on each of its n triangles and n^4 into their Hessian (n = 1024: 100 s instead
+// of 0.5).
 constexpr size_t kMostAround = 16;
 
 int corner_of(const HeightField& field, int t, int v) { return field.F(t, 0) == v ? 0 : field.F(t, 1) == v ? 1 : 2; }

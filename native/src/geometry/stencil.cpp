@@ -10,17 +10,12 @@ namespace {
 
 // The paper's constant C: a six-point stencil with a larger coefficient times l_max^2 counts as unstable.
 constexpr double kPaperThreshold = 5.0;
-// The affine_magnitude above which kConsistent takes the ring: sane six points have 0.9 to 3.7, on regular and
-// irregular meshes of any aspect. Recovering the sphere of Figure 5 on irregular meshes of 64 | 128 cells a side, the
-// error in 1e-6 of the depth is 11 | 2.7, 10 | 2.6 and 10 | 2.8 with 2, 3, and 5 to 50; 4-8 and valence three meshes
-// give the same for all of them. Every ring costs fill; 5 leaves it to borders, valence three and points close to a
-// conic. The paper's measure is no choice, since it grows with the aspect: above 3 all six points of a regular mesh had
-// rings, with an error of 4.6e-3 of the depth on 256 x 32 cells instead of 1e-5.
+// The affine_magnitude above which kConsistent takes the ring: sane six points have 0.9 to 3.7 on meshes of any aspect,
+// and every ring costs fill. The paper's measure grows with the aspect.
 constexpr double kMostMagnitude = 5.0;
 
-// The cubic_error above which kConsistent takes the ring: 0.45 to 0.72 for the six points of irregular meshes of aspect
-// 1, and up to 17 of aspect 8. On 256 x 32 cells with displaced points the error of the sphere is 1.9e-4 without this
-// bound and 9.8e-5 with it, with diagonals at random too 1e-3 and 4e-5.
+// The cubic_error above which kConsistent takes the ring: irregular meshes of aspect 1 have 0.45 to 0.72, of aspect 8
+// up to 17.
 constexpr double kMostCubicError = 0.8;
 
 bool is_good(const HeightField& field, int t, const HessianStencil& six, StencilKind kind) {

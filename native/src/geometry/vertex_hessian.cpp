@@ -63,9 +63,8 @@ PatchWeights sum_jumps(const VertexPatch& patch, const std::vector<EdgeJump>& ed
   return result;
 }
 
-// The least eigenvalue of a mass, of a third of the area around the vertex. Where neighbours are no Delaunay triangles
-// D_v of a quadratic may be 0 or less. Of 0.5, 0.7 and 1 a wave as long as the length keeps 0.40 to 0.53, 0.45 to 0.58
-// and 0.49 to 0.62 where vertices have three triangles (0.5 is right), and on a 4-8 mesh 0.50, 0.50 and 0.53.
+// The least eigenvalue of a mass, of a third of the area around the vertex: where neighbours are no Delaunay triangles
+// D_v of a quadratic may be 0 or less.
 constexpr double kLeastMass = 0.7;
 
 // Returns M_v^-1/2 from D_v of the quadratics with unit Hessians; `area` is a third of that around the vertex.

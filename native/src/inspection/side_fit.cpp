@@ -10,9 +10,7 @@
 namespace reflines {
 namespace {
 
-// The number of vertices from which a fit that is determined grows no further. A cubic has ten coefficients; where one
-// side is fitted on 20 x 20 cells of waves as long as the panel, 24 vertices show a difference of 31 % that is not
-// there, 16 one of 14 %, and rounding to single precision adds 0.2 % at 80 x 80 cells.
+// The number of vertices from which a fit that is determined grows no further; a cubic has ten coefficients.
 constexpr size_t kEnoughVertices = 16;
 constexpr int kMostLayers = 8;   // of triangles around the first, where a side has few vertices
 constexpr double kTurned = 0.5;  // cosine of 60 degrees

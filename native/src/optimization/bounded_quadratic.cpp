@@ -26,20 +26,17 @@ constexpr int kPatience = 8;
 int few_contacts(const Sides& all) { return std::min<int>(1000, static_cast<int>(all.size()) / 10); }
 
 // The violation below which a peak is not yet held, relative to the largest, where there are many: most of these vanish
-// with the larger ones. With 100,000 unknowns of which 82 touch, 331 to 457 solves and contacts instead of 1,053 for
-// 0.05 to 0.5; but with 0.2, and with few peaks too, 3 of 300 random solves by linearized steps did not converge.
+// with the larger ones.
 constexpr double kLeastViolation = 0.05;
 constexpr int kManyPeaks = 16;
 
 // The cost of the interior point method in rounds of the active set method: it takes 13 to 15 factorizations and five
-// solves with each. With 9 instead of 20 solves of 100,000 unknowns that end with 2,400 contacts took 32 factorizations
-// and 100 solves instead of 18 and 45.
+// solves with each.
 constexpr double kRoundsOfInteriorPoint = 20.0;
 
 // The sweeps of relaxation before the first factorization, from the free minimum, most of which may be beyond its
-// bounds; and after each whose set changes by more than this share. Over three sizes, four strengths of noise and six
-// limits they save a third to nine tenths of the factorizations where many touch (35 became 8, 18 became 11, and in
-// three of 72 solves 14 became 18, 25 became 28, and 27 became 37). Sweeps after rounds that change less saved none.
+// bounds; and after each round whose set changes by more than this share. They save up to nine tenths of the
+// factorizations.
 constexpr int kFirstSweeps = 32, kSweeps = 16;
 constexpr double kManyChanges = 0.2;
 

@@ -15,19 +15,15 @@ namespace reflines {
 
 class ProjectedRelaxation;
 
-// A minimum that touches its bounds at few unknowns, as smooth surfaces do at their highest places, is found with few
+// Finds a minimum that touches its bounds at few unknowns, as smooth surfaces do at their highest places, with few
 // factors: from the free minimum on, unknowns are held at the peaks of the violation, and those that pull are released
-// (an active set method of the dual kind, as Goldfarb and Idnani's, Math. Program. 27, 1983). Of a noisy panel of
-// 10,000 vertices 5 (43) touch the limit, where hundreds of the free minimum are beyond it: 2 factorizations and 18
-// (30) solves instead of 14 (20) factorizations and 46 (74) solves; of 100,000 vertices 17, 3 factorizations and 37
-// solves instead of more than 90 factorizations.
+// (an active set method of the dual kind, as Goldfarb and Idnani's, Math. Program. 27, 1983). Where 17 of 100,000
+// touch, 3 factorizations take the place of more than 90.
 //
 // Others are found by the primal-dual active set method, a semismooth Newton method (Hintermueller, Ito and Kunisch,
 // SIAM J. Optim. 13, 2003): solve with the held unknowns at their bounds, hold those that violate a bound, release
-// those with a multiplier of the wrong sign. Its first rounds would change thousands of unknowns, and take a
-// factorization each: ProjectedRelaxation changes most of these before. The later ones change few and take the factor
-// before them, bordered. Where the set of many changes slowly, as on a smooth surface that leaves its bound row by row,
-// InteriorPoint estimates it anew.
+// those with a multiplier of the wrong sign. ProjectedRelaxation makes the large first changes of the set, a bordered
+// factor the small last ones, and InteriorPoint estimates it anew where it changes slowly.
 class BoundedQuadratic {
  public:
   // Takes the model, its bounds and the projected gradient that is wanted; `counts` collects factorizations and solves.

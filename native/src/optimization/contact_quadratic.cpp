@@ -11,10 +11,8 @@ namespace {
 
 constexpr int kMaxRounds = 200;
 
-// The contacts, and their share of the unknowns, above which the search ends: the small program takes their cube. Of
-// 1,927 unknowns 586 contacts take 0.6 s, 1,125 take 5.1 s and 1,477 take 30 s; InteriorPoint 1.5, 2.7 and 7 s. Of
-// 437 unknowns 150, 242 and 359 contacts take 0.3, 0.4 and 0.6 s, and InteriorPoint 0.7, 0.8 and 1.1 s. Where 2 and
-// 17 of 1,927 touch, 1.0 and 1.1 s stand against 3.6 and 4.3 s of InteriorPoint alone.
+// The contacts, and their share of the unknowns, above which the search ends, for the small program takes their cube:
+// of 1,927 unknowns 1,125 contacts take 5.1 s, and InteriorPoint 2.7.
 constexpr double kMostContactShare = 0.4;
 constexpr size_t kMostContacts = 800;
 

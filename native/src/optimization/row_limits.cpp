@@ -10,8 +10,8 @@
 namespace reflines {
 namespace {
 
-// The tolerance relative to the size of the moves. With 1e-9 and 1e-10 below, 4 of 150 random solves, with one-sided
-// and painted limits down to 1e-3 of the free move, stopped at 1e-6 to 4e-6 of the gradient for lack of digits.
+// The tolerance relative to the size of the moves: with a tenth of it 4 of 150 random solves stopped for lack of
+// digits.
 constexpr double kTolerance = 1e-8;
 
 // The least tolerance relative to the values that the functions would have: what a model's solution can keep.

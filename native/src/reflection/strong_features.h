@@ -14,9 +14,7 @@ Mask strong_features(const HeightField& field, const PlaneVectors& gradient, dou
 
 // Measures how far the tools change the lines of each triangle (#T) of a field (#T x 2): 1 up to a third of `strong`,
 // the size of a strong bend (see find_strong_size), falling to 0 at 4/3 of it. A redescending weight, as robust
-// estimators have it, since rims and hems that are too short for a feature carry most of the squares: with their lines
-// flattened like all others, a density of 1.2 on a bonnet with a scoop, clamped, moved vertices by 1.1 % of the
-// diagonal and left 1.57 of the change that was wanted elsewhere; with this weight 0.13 % and 0.82.
+// estimators have it, since rims and hems that are too short for a feature carry most of the squares.
 Vector measure_response(const PlaneVectors& gradient, double strong);
 
 // Returns 8 times the median |grad theta| by area of a field (#T x 2), or 10 / diagonal where that is more.

@@ -15,14 +15,11 @@ constexpr int kAverages = 2;  // passes along the border, which take the noise o
 
 // The ratio of the squares of the second derivatives to those of their standard error above which they are known, both
 // averaged along the border in so many passes: neighbours' fits share points, so that noise alone often exceeds its own
-// error. Beside noise of 0.001, 0.01 and 0.1 edges a dent's removal moves the panel by 0.0021, 0.0166 and 0.18 with a
-// ratio of 2, by 0.0012, 0.0017 and 0.08 with 4, and by 0.0017 each with 8 as with a clamped border.
+// error.
 constexpr double kEvidence = 8.0;
 constexpr int kEvidencePasses = 8;
 
-// The change of the second derivatives by the third ones' error, relative to themselves, that is small enough. On
-// panels with noise of 1e-4 of an edge the lines beside the border err by 0.0119 with constant second derivatives; of
-// 0.05, 0.1 and 0.2 they err by 0.0130, 0.0130 and 0.0137.
+// The change of the second derivatives by the third ones' error, relative to themselves, that is small enough.
 constexpr double kHarmless = 0.1;
 
 // The region and its surroundings over the image plane, in the coordinates of the region's height field.
@@ -167,10 +164,7 @@ void set_ranges(Jets& jets) {
 
 // Tells whether third derivatives are known at a vertex, by those of its neighbours that have some, too: at one alone
 // they may vanish, or seem to be exact. Estimates with the error e of a tensor T have the expected square T^2 + e^2:
-// they are nearer to T than zeros are where e^2 is below half of their square. On clean dents and ripples of 96 x 96
-// cells 0 to 18 of 240 vertices fall back; with a quarter instead of a half 0 to 54, and the rate across ends 6 %
-// further off. With all of the square none does, and with noise of 1e-4 of an edge the lines beside the border err by
-// 0.019 instead of 0.013.
+// they are nearer to T than zeros are where e^2 is below half of their square.
 bool knows_third(const Jets& jets, const std::vector<int>& near, int v, double reach) {
   double error = 0, third = 0, second = 0;
   const auto add = [&](const BorderJet& jet) {

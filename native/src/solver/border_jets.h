@@ -36,10 +36,9 @@ struct BorderJets {
 // Fits the surroundings of the border vertices with Border::kCurvature or kFlow. Slopes, second and third derivatives
 // at such a vertex are those of a polynomial (see fit_heights) through three rings of their vertices around it and
 // nothing of the region but its border; second and third ones are averaged along the border. Where a crease lies within
-// these rings, the border itself among them, the surface does not run on, and they tell nothing: a clean panel beside a
-// flange of 45 degrees moved by 29 times as much as with a clamped border, and by 55 times with kFlow. Nor do they
-// where noise hides the second derivatives. Third derivatives count as known where their standard error is below half
-// of themselves, or changes the second derivatives over `reach` by less than a tenth.
+// these rings, the border itself among them, the surface does not run on, and they tell nothing. Nor do they where
+// noise hides the second derivatives. Third derivatives count as known where their standard error is below half of
+// themselves, or changes the second derivatives over `reach` by less than a tenth.
 BorderJets fit_border_jets(const Positions& V, const HeightField& field, const std::vector<Border>& border,
                            const Surroundings& around, const ImagePlane& frame, const CreaseOptions& creases,
                            double reach);

@@ -19,9 +19,7 @@ constexpr int kAverages = 2;
 constexpr double kFarthest = 4.0, kMostOfBefore = 0.5;
 
 constexpr int kRounds = 3;
-// Beside values, which turn quickly at handles and radii: there averages miss a little in each round. Of 1, 2 and 3 the
-// heights of a pulled line end 7, 11 and 18 % of the move beside those of all the gradient, and lines of neighbours on
-// a 4-8 mesh turn by 1.20, 1.07 and 1.05 times as much as on a regular one (all the gradient: 1.4).
+// The rounds beside values, which turn quickly at handles and radii: there averages miss a little in each.
 constexpr int kRoundsBesideValues = 2;
 // The tolerance above which a solve is interactive and is not repeated: rounds would slow a drag down eightfold; its
 // last solve, which is kept, is exact.

@@ -15,16 +15,12 @@ namespace reflines {
 // The unreachable part of a smooth target is a smooth residual r that in the continuum is orthogonal to every motion:
 // the integral of r D phi vanishes for every phi. The second-order stencils D are exact on quadratic heights but not
 // conservative: sum A r . D phi is 0 up to noise as large as r on motions of a few triangles, which bends the lines
-// from triangle to triangle however fine the mesh is. A target without r has no such effect. r is the fixed point of c
-// = average(target - field solved for target - c), found by Anderson's method of depth one: on a 4-8 mesh the imprint
-// itself averages to half of r, and plain iteration only halves it in each round. Measured with a density of 1.5 on a
-// clean panel, clamped, 20 | 40 | 80 cells a side: kinks of the lines between neighbours (degrees, rms), 18.9 | 18.6 |
-// 18.5 on a 4-8 mesh become 0.4 | 0.2 | 0.1, 11.0 | 10.4 | 10.2 with random diagonals 0.3 | 0.2 | 0.1, 9.8 | 9.6 | 9.6
-// on a Delaunay mesh 0.3 | 0.2 | 0.2, 0.3 | 0.2 | 0.1 on a regular one stay.
+// from triangle to triangle however fine the mesh is (by 18 degrees on a 4-8 mesh). A target without r has no such
+// effect. r is the fixed point of c = average(target - field solved for target - c), found by Anderson's method of
+// depth one: on a 4-8 mesh the imprint itself averages to half of r, and plain iteration only halves it in each round.
 //
-// Beside values r is no longer orthogonal: it balances what the values lack. Taken off alone, it would let the values
-// have their way (of a pulled line heights ended 24 % of the move beside the minimum). So what values with
-// reachable_only lack is taken off them too; others are to be met.
+// Beside values r is no longer orthogonal: it balances what the values lack. So what values with reachable_only lack is
+// taken off them too; others are to be met.
 class ReachableTarget {
  public:
   // Takes `wanted` and `piece`, which must outlive this; targets without reachable_only are not changed.

@@ -19,17 +19,13 @@ namespace {
 constexpr double kCrossingWeight = 1e-3;
 
 // The weight of the gradient beside a value fit. Eq. 3 depends on slopes only, and a misfit of theta costs no more than
-// 4 however steep: what a fixed border forbids is hidden in a cliff one triangle wide (on a real bonnet 100 iterations,
-// wobble 23 -> 4e6 degrees). The wanted gradient, at the scale of the triangles, removes the cliff and vanishes with
-// their size. Of 0, 1, 3, 10 and 30, theta raised by 0.2 inside a fixed border: wobble 0.09 -> 2e7, 28, 0.19, 0.11,
-// 0.10; theta on the bonnet ends 0.019, 0.026, 0.027, 0.028, 0.028 beside the target.
+// 4 however steep: what a fixed border forbids is hidden in a cliff one triangle wide. The wanted gradient, at the
+// scale of the triangles, removes the cliff and vanishes with their size.
 constexpr double kValueCompanion = 10.0;
 
 // Returns the factor that makes misfits of values comparable. They are angles, those of gradients angles per length,
 // and so are the crossing term's and, by its own scale, the proximity's: a wave of theta as long as the piece costs the
-// same by value and by gradient, whatever the unit of length. Without it a free pattern by value moved nothing in
-// kilometres and five times too far in millimetres. Of 1, 4, (2 pi)^2 and 400 over the squared diagonal, ripples on a
-// panel free on all sides: 26, 10, 1.3, 0.1 % of theta stay beside the target, by 4, 5, 7, 8 steps.
+// same by value and by gradient, whatever the unit of length.
 double value_scale(const HeightField& field) { return std::pow(2 * std::numbers::pi / field.piece_diagonal(), 2); }
 
 double squared_misfit(const Target& target, const ReflectionFunction& lines, const Vector5& u, int row) {

@@ -16,11 +16,10 @@
 namespace reflines {
 namespace {
 
-// The weight of the values at one place of a handle; the energy of grad c is about the square of its change. Of 10,
-// 1e2, 1e3 and 1e4 a line pulled by half the spacing passes within 6, 1, 0.15 and 0.05 % of the spacing.
+// The weight of the values at one place of a handle; the energy of grad c is about the square of its change.
 constexpr double kPlaceWeight = 1e4;
-// The weight of the values beyond the radii, for an area of radius^2. Of 0, 1, 1e2 and 1e4 lines there move by 0.36,
-// 0.35, 0.1 and 0.002 of the pull: heights that change under it must come down again somewhere.
+// The weight of the values beyond the radii, for an area of radius^2: heights that change under a line must come down
+// again somewhere.
 constexpr double kStayWeight = 1e4;
 constexpr double kFirmest = kStayWeight - 1;  // where the map is 0
 // The weight of the values around a pull, for an area of radius^2, and the share of the radius where it falls to 0.

@@ -28,12 +28,10 @@ namespace reflines {
 
 namespace {
 
-// The multiples of the diagonal that are added one after the other until the factorization succeeds. A Gauss-Newton
-// matrix is semi-definite on paper and may lose its last digits to rounding: 1e-12 of the diagonal is above the
-// rounding of a sum of some thousand terms and changes a Newton step in its twelfth digit only; 1e-9 is for meshes with
-// very thin triangles. The same multiples of the mean diagonal entry are for unknowns that no term of the energy
-// constrains. The last two shorten the steps, and are for free borders around faces seen nearly edge on (a roof of the
-// DrivAer body with a piece of 593 unknowns).
+// The multiples of the diagonal that are added one after the other until the factorization succeeds, and of the mean
+// diagonal entry for unknowns that no term constrains. A Gauss-Newton matrix is semi-definite on paper: 1e-12 is above
+// the rounding of a sum of some thousand terms, 1e-9 is for very thin triangles, and the last two, which shorten the
+// steps, for free borders around faces seen nearly edge on.
 constexpr double kDiagonalShifts[] = {0.0, 1e-12, 1e-9, 1e-6, 1e-3};
 
 // The smallest ratio of a pivot to its own diagonal entry: below it the pivot is rounding noise and the solution has no
@@ -41,21 +39,15 @@ constexpr double kDiagonalShifts[] = {0.0, 1e-12, 1e-9, 1e-6, 1e-3};
 // systems that lose no more than nine digits (35,040 triangles of a car body seen from above).
 constexpr double kSmallestPivotShare = 1e-15;
 
-// The number of unknowns from which METIS orders systems whose unknowns have no places. Seconds on one core to analyse,
-// factor and solve once; L's entries; operations of the factorization:
-// 100k unknowns: AMD 0.12 / 0.90 / 0.032, 15 M, 7 G;    METIS 0.91 / 0.53 / 0.028, 13 M, 4 G
-// 1M unknowns: AMD 2.5 / 17 / 0.5, 236 M, 345 G;      METIS 11 / 11 / 0.4, 173 M, 153 G
-// METIS pays where a second factor is likely or memory counts: from somewhere between these two sizes on. Where the
-// unknowns lie in a plane, straight cuts (see dissection_order) need neither: 0.10 / 0.29 / 0.030, 13 M, 4 G and 1.5 /
-// 10 / 0.4, 182 M, 151 G.
+// The number of unknowns from which METIS orders systems whose unknowns have no places: it pays where a second factor
+// is likely or memory counts. In a plane straight cuts (see dissection_order) need neither.
 constexpr Eigen::Index kNestedDissection = 300000;
 
 // The number of unknowns from which a factorization, of 50 ms and more, may be abandoned: below it a thread and a copy
 // of the matrix are not worth their time.
 constexpr Eigen::Index kWorthAbandoning = 20000;
 
-// The number of columns of a sparse right-hand side that are solved together. With 1, 4, 8 and 16 solves within a limit
-// that touch at 50 to 80 of 10,000 unknowns take 88, 82, 92 and 110 ms.
+// The number of columns of a sparse right-hand side that are solved together.
 constexpr int kColumnsAtOnce = 4;
 
 // Limits OpenBLAS to one thread: it splits its sums by the number of its threads, so that factors made with one and two
@@ -318,10 +310,8 @@ class LinearSolver::Cholmod final : public Backend {
   Vector permuted_;
 };
 
-// UMFPACK's L U with its symmetric strategy, with 64-bit indices: the 32-bit interface overflows its work space at one
-// million unknowns. Measured at 9k | 100k unknowns, ms: analysis 75 | 1,257, factorization 80 | 1,504, a solve 3.2 |
-// 81; CHOLMOD 12 | 188, 28 | 610, 1.4 | 50. Whole solves of a mesh take 2.4 | 2.2 times as long. It is no default: it
-// is for comparison with CHOLMOD by an independent factorization.
+// UMFPACK's L U with its symmetric strategy, for comparison with CHOLMOD by an independent factorization: whole solves
+// take 2.4 times as long. The 32-bit interface overflows its work space at one million unknowns.
 class LinearSolver::Umfpack final : public Backend {
  public:
   Umfpack() {

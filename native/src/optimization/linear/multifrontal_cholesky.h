@@ -13,12 +13,10 @@ namespace reflines {
 
 // Computes the values of a supernodal factor, whose structure CHOLMOD has found, by the multifrontal method (Duff and
 // Reid, ACM Trans. Math. Software 9, 1983; Liu, SIAM Review 34, 1992): each supernode adds the update matrices of its
-// children to its columns, factors them densely, and leaves an update matrix to its parent. Subtrees of the
-// elimination tree are factored at the same time, and the few large fronts above them by tiles on all cores.
-//
-// CHOLMOD's own factorization is serial but for its dense kernels, whose fronts are too small here to gain by threads.
-// Milliseconds for matrices of 10,000, 100,000 and 1,000,000 unknowns with 24 neighbours each: CHOLMOD 12, 222, 4,360;
-// this with one core 10, 235, 4,500, with two 7, 130, 2,560.
+// children to its columns, factors them densely, and leaves an update matrix to its parent. Subtrees of the elimination
+// tree are factored at the same time, and the few large fronts above them by tiles on all cores. CHOLMOD's own
+// factorization, whose fronts are too small here to gain by threads, takes 222 ms for 100,000 unknowns; this 130 on two
+// cores.
 class MultifrontalCholesky {
  public:
   // Takes the structure of the factor, whose values may be allocated later, of a matrix with this pattern (lower
