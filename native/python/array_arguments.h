@@ -93,6 +93,11 @@ struct type_caster<reflines::Vector3> : reflines::ArrayCaster<reflines::Vector3>
 };
 
 template <>
+struct type_caster<reflines::Vector2> : reflines::ArrayCaster<reflines::Vector2> {
+  bool load(handle source, bool convert) { return load_as(source, convert, "two numbers"); }
+};
+
+template <>
 struct type_caster<reflines::Vector> : reflines::ArrayCaster<reflines::Vector> {
   bool load(handle source, bool convert) { return load_as(source, convert, "numbers in a row"); }
 };

@@ -298,9 +298,8 @@ def test_a_drag_of_the_target_makes_few_factors():
         assert report.factorizations <= 4
 
 
-SOLVE = """
+SOLVE_MESH = """
 import sys
-import numpy as np
 import reflines
 from sample_panels import LINE, VIEW, panel, rippled
 positions, triangles = panel(140)
@@ -309,11 +308,23 @@ optimizer = reflines.ShapeOptimizer(start, triangles, view_direction=VIEW, line_
 optimizer.solve(reflines.smooth(optimizer, length=0.3), limit=1e-4)
 sys.stdout.buffer.write(optimizer.positions.tobytes() + optimizer.at_limit.tobytes())
 """
+SOLVE_CAGE = """
+import sys
+import reflines
+from sample_cages import LINE, VIEW, dented, hood, optimizer
+for share in (0.3, 0.03):
+    solver = optimizer(dented(hood(24, 20), VIEW, LINE), level=3)
+    target = reflines.smooth(solver, length=0.35)
+    limit = share * solver.solve(target).largest_move
+    solver.reset()
+    solver.solve(target, limit=limit)
+    sys.stdout.buffer.write(solver.cage_positions.tobytes() + solver.at_limit.tobytes())
+"""
 
 
-def solved_by(threads):
+def solved_by(program, threads):
     environment = os.environ | {"OMP_NUM_THREADS": str(threads), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    run = subprocess.run([sys.executable, "-c", SOLVE], env=environment, check=True, stdout=subprocess.PIPE)
+    run = subprocess.run([sys.executable, "-c", program], env=environment, check=True, stdout=subprocess.PIPE)
     return hashlib.sha256(run.stdout).hexdigest()
 
 
@@ -346,5 +357,6 @@ def test_an_update_of_a_drag_takes_few_solves():
         assert sum(report.solves for report in reports) <= 20
 
 
-def test_one_and_two_threads_give_the_same_bits():
-    assert solved_by(1) == solved_by(2)
+@pytest.mark.parametrize("program", [SOLVE_MESH, SOLVE_CAGE])
+def test_one_and_two_threads_give_the_same_bits(program):
+    assert solved_by(program, 1) == solved_by(program, 2)

@@ -33,4 +33,13 @@ class ParallelFailure {
   std::exception_ptr failure_;
 };
 
+// Runs work(0) to work(count - 1) on all threads, `chunk` of them at a time; throws the first failure after all.
+template <typename Work>
+void run_parallel(int count, int chunk, const Work& work) {
+  ParallelFailure failure;
+#pragma omp parallel for schedule(dynamic, chunk) if (count > chunk)
+  for (int k = 0; k < count; ++k) failure.run([&] { work(k); });
+  failure.rethrow();
+}
+
 }  // namespace reflines

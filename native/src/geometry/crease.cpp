@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel_failure.h"
 #include "base/union_find.h"
 #include "geometry/bend_contrast.h"
 #include "reflines/errors.h"
@@ -57,14 +58,13 @@ double region_extent(const Positions& V, const Triangles& F) {
 // the sums round differently.
 EdgeMask find_contrasting_edges(const BentSurface& surface, double least, double sharp, double widest) {
   EdgeMask result = EdgeMask::Constant(surface.F.rows(), 3, false);
-#pragma omp parallel for schedule(dynamic, 1024) if (surface.F.rows() > kWorthThreads)
-  for (int t = 0; t < static_cast<int>(surface.F.rows()); ++t) {
+  run_parallel(static_cast<int>(surface.F.rows()), 1024, [&](int t) {
     for (int i = 0; i < 3; ++i) {
       if (surface.neighbors(t, i) < t || !(surface.bend(t, i) > least)) continue;
       const double contrast = bend_contrast(surface, t, i, widest);
       result(t, i) = contrast < 0 ? surface.bend(t, i) > sharp : contrast > kJump;
     }
-  }
+  });
   for (int t = 0; t < surface.F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
       if (result(t, i)) result(surface.neighbors(t, i), find_facing_corner(surface, t, i)) = true;

@@ -181,16 +181,11 @@ GapContinuation continue_over_gap(const Positions& V, const Triangles& F, const 
   const Search search{V, border, sheets, gap};
   std::vector<Contact> contacts(V.rows());
   std::vector<std::vector<Vector3>> places(V.rows());
-  ParallelFailure failure;
-#pragma omp parallel for schedule(dynamic, 16)
-  for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
-    if (!border.vertices(v)) continue;
-    failure.run([&] {
-      contacts[v] = find_contact(search, v);
-      if (contacts[v].sheet >= 0) places[v] = follow(search, contacts[v], v, reach);
-    });
-  }
-  failure.rethrow();
+  run_parallel(static_cast<int>(V.rows()), 16, [&](int v) {
+    if (!border.vertices(v)) return;
+    contacts[v] = find_contact(search, v);
+    if (contacts[v].sheet >= 0) places[v] = follow(search, contacts[v], v, reach);
+  });
   Rings rings{std::vector<std::vector<int>>(V.rows()), {}, {}};
   for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
     rings.column[v] = {v};

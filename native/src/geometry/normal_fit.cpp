@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
+#include "base/parallel_failure.h"
 #include "reflines/errors.h"
 
 namespace reflines {
@@ -81,8 +83,8 @@ NormalFit::NormalFit(const Positions& V, const Triangles& F, double refit_angle)
   triangles_of_vertex_ = vertex_triangles(F, static_cast<int>(V.rows()));
   const Triangles neighbors = edge_neighbors(F);
   std::vector<std::vector<int>> around(V.rows());
-#pragma omp parallel for schedule(dynamic, 256)
-  for (int v = 0; v < static_cast<int>(V.rows()); ++v) around[v] = fit_vertices(F, neighbors, triangles_of_vertex_, v);
+  const int count = static_cast<int>(V.rows());
+  run_parallel(count, 256, [&](int v) { around[v] = fit_vertices(F, neighbors, triangles_of_vertex_, v); });
   stencil_.offset.push_back(0);
   for (const std::vector<int>& own : around) {
     stencil_.items.insert(stencil_.items.end(), own.begin(), own.end());
@@ -90,8 +92,7 @@ NormalFit::NormalFit(const Positions& V, const Triangles& F, double refit_angle)
   }
   fits_.resize(V.rows());
   const Positions directions = area_normals(V, F, triangles_of_vertex_);
-#pragma omp parallel for schedule(dynamic, 256)
-  for (int v = 0; v < static_cast<int>(V.rows()); ++v) fit(V, directions, v);
+  run_parallel(count, 256, [&](int v) { fit(V, directions, v); });
 }
 
 void NormalFit::fit(const Positions& V, const Positions& area_normals, int v) {
@@ -153,9 +154,8 @@ Positions NormalFit::normals(const Positions& V) {
   check_count(V);
   const Positions directions = area_normals(V, F_, triangles_of_vertex_);
   Positions N(V.rows(), 3);
-  int refitted = 0;
-#pragma omp parallel for schedule(dynamic, 1024) reduction(+ : refitted)
-  for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
+  std::atomic<int> refitted = 0;
+  run_parallel(static_cast<int>(V.rows()), 1024, [&](int v) {
     Vector3 n = normal(V, v);
     if (n.dot(fits_[v].fitted) < cosine_ && stencil_.end(v) > stencil_.begin(v)) {
       fit(V, directions, v);
@@ -163,7 +163,7 @@ Positions NormalFit::normals(const Positions& V) {
       ++refitted;
     }
     N.row(v) = n;
-  }
+  });
   refit_count_ += refitted;
   return N;
 }

@@ -25,7 +25,7 @@ Vector ActiveRows::move_inside(const Vector& x) const {
 void ActiveRows::aim_at(const Vector& minimum) {
   narrow_ = limits_.narrow(limits_.reach(minimum));
   work_.held = narrow_->held;
-  quadratic_.emplace(*narrow_, work_.held_factor, counts_, progress_);
+  quadratic_.emplace(*narrow_, work_.held_factor, work_.solver, counts_, progress_);
 }
 
 Vector ActiveRows::room() const {

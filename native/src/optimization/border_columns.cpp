@@ -27,7 +27,7 @@ int BorderColumns::find(int unknown) const {
 }
 
 void BorderColumns::add(const std::vector<int>& unknowns, const SparseMatrix& columns, const Progress* progress) {
-  solver_.has_halves() ? add_halves(columns, progress) : add_whole(columns, progress);
+  has_halves_ ? add_halves(columns, progress) : add_whole(columns, progress);
   columns_.push_back(columns);
   unknowns_.insert(unknowns_.end(), unknowns.begin(), unknowns.end());
 }
@@ -82,7 +82,7 @@ void BorderColumns::add_whole(const SparseMatrix& columns, const Progress* progr
 }
 
 Vector BorderColumns::reach(const Vector& right) {
-  if (!solver_.has_halves()) {
+  if (!has_halves_) {
     right_ = solved_ = right;
     solver_.solve(solved_);
     ++solves_;
@@ -100,7 +100,7 @@ Vector BorderColumns::multiply_transposed(const Vector& x) const {
     result.segment(first, part.size()) = part;
     first += part.size();
   };
-  if (solver_.has_halves()) {
+  if (has_halves_) {
     for (const SparseColumns& block : halves_) append(block.transposed_times(x));
   } else {
     for (const SparseMatrix& columns : columns_) append(columns.transpose() * x);
@@ -110,7 +110,7 @@ Vector BorderColumns::multiply_transposed(const Vector& x) const {
 
 Vector BorderColumns::finish(const Vector& z) {
   Eigen::Index first = 0;
-  if (solver_.has_halves()) {
+  if (has_halves_) {
     Vector x = solved_;
     for (const SparseColumns& block : halves_) {
       block.subtract_product(z.segment(first, block.value.cols()), x);

@@ -10,11 +10,13 @@
 namespace reflines {
 
 // Columns B (n x m) beside a factored matrix A, and their products B^T A^-1 B, from which the Schur complement of a
-// bordered system is made. Each column belongs to an unknown. Where the solver has halves, A^-1 = (L^-1 P)^T L^-1 P,
-// and the products need no solve; else they take one for each column.
+// bordered system is made. Each column has the number of an unknown or a function. Where the solver has halves, A^-1 =
+// (L^-1 P)^T L^-1 P, and the products need no solve; else they take one for each column.
 class BorderColumns {
  public:
-  explicit BorderColumns(LinearSolver& solver) : solver_(solver) {}
+  // Columns of functions of many unknowns have dense halves, and are quicker without.
+  explicit BorderColumns(LinearSolver& solver, bool use_halves = true)
+      : solver_(solver), has_halves_(use_halves && solver.has_halves()) {}
 
   void clear();
   int count() const { return static_cast<int>(unknowns_.size()); }
@@ -39,6 +41,7 @@ class BorderColumns {
   Vector multiply_transposed(const Vector& x) const;
 
   LinearSolver& solver_;
+  bool has_halves_;
   int solves_ = 0;
   std::vector<int> unknowns_;
   std::vector<SparseMatrix> columns_;  // B, as added

@@ -16,8 +16,6 @@ constexpr int kMaxRounds = 200;
 constexpr double kMostContactShare = 0.4;
 constexpr size_t kMostContacts = 800;
 
-constexpr int kBlock = 16;  // solutions computed at once, see HeldFactor
-
 // The relative softness of contacts, without which those of neighbours, whose functions are nearly equal, could not be
 // told apart. Refinement takes back what it lets pass.
 constexpr double kSoftness = 1e-11;
@@ -83,59 +81,38 @@ Complementarity solve_complementarity(const Eigen::MatrixXd& S, const Vector& c,
   return {y.cwiseMax(0.0), std::move(positive)};
 }
 
-void ContactQuadratic::forget() {
-  known_.clear();
-  place_.clear();
-  inverse_.resize(0, 0);
-}
-
 Vector ContactQuadratic::solve(Vector right) {
   counts_.solves += factor_.solve(right);
   return right;
 }
 
-void ContactQuadratic::add_known(const Contacts& contacts) {
-  if (place_.empty()) place_.assign(rows_.cols(), -1);
-  std::vector<int> wanted;
+// Returns the columns of the contacts among the known ones, to which new contacts are added.
+std::vector<int> ContactQuadratic::find_known(const Contacts& contacts) {
+  std::vector<int> result, wanted;
+  std::vector<Eigen::Triplet<double>> entries;
   for (const Contact& contact : contacts) {
-    if (place_[contact.row] >= 0) continue;
-    place_[contact.row] = static_cast<int>(known_.size() + wanted.size());
+    result.push_back(known_.find(contact.row));
+    if (result.back() >= 0) continue;
+    result.back() = known_.count() + static_cast<int>(wanted.size());
+    for (SparseMatrix::InnerIterator entry(rows_, contact.row); entry; ++entry) {
+      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(wanted.size()), entry.value());
+    }
     wanted.push_back(contact.row);
   }
-  if (wanted.empty()) return;
-  const auto before = static_cast<Eigen::Index>(known_.size()), count = static_cast<Eigen::Index>(wanted.size());
-  known_.insert(known_.end(), wanted.begin(), wanted.end());
-  SparseMatrix known(rows_.rows(), before + count);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (size_t j = 0; j < known_.size(); ++j) {
-    for (SparseMatrix::InnerIterator entry(rows_, known_[j]); entry; ++entry) {
-      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(j), entry.value());
-    }
-  }
-  known.setFromTriplets(entries.begin(), entries.end());
-  inverse_.conservativeResize(before + count, before + count);
-  for (Eigen::Index first = 0; first < count; first += kBlock) {
-    throw_if_cancelled(progress_);
-    const Eigen::Index size = std::min<Eigen::Index>(kBlock, count - first);
-    Eigen::MatrixXd block = known.middleCols(before + first, size);
-    factor_.solve(block);
-    inverse_.middleCols(before + first, size) = known.transpose() * block;
-  }
-  inverse_.bottomLeftCorner(count, before) = inverse_.topRightCorner(before, count).transpose();
-  counts_.solves += static_cast<int>(count);
+  if (wanted.empty()) return result;
+  SparseMatrix columns(rows_.rows(), static_cast<Eigen::Index>(wanted.size()));
+  columns.setFromTriplets(entries.begin(), entries.end());
+  const int before = known_.solves();
+  known_.add(wanted, columns, progress_);
+  counts_.solves += known_.solves() - before;
+  return result;
 }
 
 Eigen::MatrixXd ContactQuadratic::compliance(const Contacts& contacts) {
-  add_known(contacts);
-  const auto count = static_cast<Eigen::Index>(contacts.size());
-  Eigen::MatrixXd result(count, count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    for (Eigen::Index i = 0; i < count; ++i) {
-      result(i, j) =
-          contacts[i].sign() * contacts[j].sign() * inverse_(place_[contacts[i].row], place_[contacts[j].row]);
-    }
-  }
-  return result;
+  const std::vector<int> known = find_known(contacts);
+  Vector sign(static_cast<Eigen::Index>(contacts.size()));
+  for (size_t i = 0; i < contacts.size(); ++i) sign(static_cast<Eigen::Index>(i)) = contacts[i].sign();
+  return sign.asDiagonal() * known_.products()(known, known) * sign.asDiagonal();
 }
 
 // Returns the changes of the contacts' functions, > 0 into their range.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "optimization/border_columns.h"
 #include "optimization/held_factor.h"
 #include "optimization/row_limits.h"
 #include "reflines/progress.h"
@@ -28,13 +29,14 @@ using Contacts = std::vector<Contact>;
 // minimum. All they need of H is its factor: the forces act through A H^-1 A^T, of which each contact costs one solve.
 class ContactQuadratic {
  public:
-  // Takes the factor of H that leaves out what `limits` hold; both outlive this. `counts` collects solves; `progress`
-  // may be null.
-  ContactQuadratic(const RowLimits::Narrow& limits, HeldFactor& factor, Report& counts, Progress* progress)
-      : rows_(limits.rows), factor_(factor), counts_(counts), progress_(progress) {}
+  // Takes the factor of H that leaves out what `limits` hold, and the solver that has it; all outlive this. `counts`
+  // collects solves; `progress` may be null.
+  ContactQuadratic(const RowLimits::Narrow& limits, HeldFactor& factor, LinearSolver& solver, Report& counts,
+                   Progress* progress)
+      : rows_(limits.rows), factor_(factor), counts_(counts), progress_(progress), known_(solver, false) {}
 
   // Tells that the factor has become another.
-  void forget();
+  void forget() { known_.clear(); }
 
   // Returns d with a violation of low <= A d <= high of at most `tolerance`, or nothing where there are too many
   // contacts for this method. `contacts` is an estimate. Throws Cancelled.
@@ -61,7 +63,7 @@ class ContactQuadratic {
 
  private:
   Vector solve(Vector right);
-  void add_known(const Contacts& contacts);
+  std::vector<int> find_known(const Contacts& contacts);
   Eigen::MatrixXd compliance(const Contacts& contacts);
   Vector refine(const Contacts& contacts, const Vector& wanted, double tolerance, Vector d);
   Contacts find_peaks(const Vector& low, const Vector& high, double tolerance, const Vector& d) const;
@@ -70,9 +72,7 @@ class ContactQuadratic {
   HeldFactor& factor_;
   Report& counts_;
   Progress* progress_;
-  std::vector<int> known_;   // rows whose solution H^-1 a was computed
-  std::vector<int> place_;   // #rows: their place among these, or -1
-  Eigen::MatrixXd inverse_;  // #known x #known: A H^-1 A^T
+  BorderColumns known_;  // rows of A that were contacts since the factorization, and their products A H^-1 A^T
 };
 
 // Solves S y >= c, y >= 0, y (S y - c) = 0 for a positive definite S by block principal pivoting (Judice and Pires,

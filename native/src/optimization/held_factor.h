@@ -53,9 +53,6 @@ class HeldFactor {
   Vector find_forces(const Vector& right, const Vector& at_contacts);
   const std::vector<int>& contacts() const { return differences_.contacts; }
 
-  // Solves for all columns of X at once, whose entries of held unknowns are 0. Only without contacts and released ones.
-  void solve(Eigen::MatrixXd& X) const { solver_.solve(X); }
-
  private:
   // The unknowns whose state differs from that in the factor, ascending.
   struct Differences {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel_failure.h"
+
 namespace reflines {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr int kMaxSteps = 60, kMaxSettlingSteps = 15;
 constexpr double kShareOfLongest = 0.995;
 
 // A factorization takes as long as ten solves: three further correctors took 14 instead of 19 factorizations, and more
-// saved none.
+// saved none. Of 400 solves of cages within random limits 6 instead of 9 end without all digits.
 constexpr int kFurtherCorrectors = 3;
 
 // Gondzio's range of the products of slack and force, relative to the wanted product.
@@ -29,6 +31,8 @@ constexpr double kGain = 0.5;
 // which it is meaningless.
 constexpr double kSettled = 0.02;
 constexpr double kSmallGap = 1e-5;
+
+constexpr int kBlock = 256;  // columns of the matrix that a thread sums at a time
 
 }  // namespace
 
@@ -80,11 +84,10 @@ SparseMatrix InteriorPoint::build_matrix() const {
     return result;
   }
   const SparseMatrix& rows = *limits_.rows;
-#pragma omp parallel if (rows.cols() > kWorthThreads)
-  {
-    Vector column = Vector::Zero(result.rows());
-#pragma omp for schedule(static)
-    for (int k = 0; k < result.cols(); ++k) {
+  const int size = static_cast<int>(result.cols());
+  run_parallel((size + kBlock - 1) / kBlock, 1, [&](int block) {
+    Vector column = Vector::Zero(size);
+    for (int k = block * kBlock; k < std::min(size, (block + 1) * kBlock); ++k) {
       for (decltype(by_unknown_)::InnerIterator own(by_unknown_, k); own; ++own) {
         const double weight = own.value() * diagonal(own.col());
         for (SparseMatrix::InnerIterator entry(rows, own.col()); entry; ++entry) {
@@ -96,7 +99,7 @@ SparseMatrix InteriorPoint::build_matrix() const {
         for (SparseMatrix::InnerIterator entry(rows, own.col()); entry; ++entry) column(entry.row()) = 0.0;
       }
     }
-  }
+  });
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/parallel_failure.h"
 #include "restoration/grid_cell.h"
 
 namespace reflines {
@@ -108,8 +109,7 @@ std::vector<DiskMean::Range> DiskMean::near(const Cell& cell) const {
 Eigen::MatrixXd DiskMean::of_columns(const Eigen::MatrixXd& values) const {
   Eigen::MatrixXd result(values.rows(), values.cols());
   const Eigen::ArrayXXd merged = merge(values);
-#pragma omp parallel for schedule(dynamic, 4)
-  for (int c = 0; c < static_cast<int>(cells_.size()); ++c) {
+  run_parallel(static_cast<int>(cells_.size()), 4, [&](int c) {
     const std::vector<Range> ranges = near(cells_[c]);
     Eigen::ArrayXd kernel;
     for (Eigen::Index k = begin_[c]; k < begin_[c + 1]; ++k) {
@@ -130,7 +130,7 @@ Eigen::MatrixXd DiskMean::of_columns(const Eigen::MatrixXd& values) const {
         result.row(p) = values.row(p);
       }
     }
-  }
+  });
   return result;
 }
 

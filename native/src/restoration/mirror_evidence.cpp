@@ -90,10 +90,7 @@ class Roughness {
 
   Vector of(const Vector& z) const {
     Vector result(z.size());
-    ParallelFailure failure;
-#pragma omp parallel for schedule(dynamic, 256)
-    for (Eigen::Index v = 0; v < z.size(); ++v) failure.run([&] { result(v) = at(static_cast<int>(v), z); });
-    failure.rethrow();
+    run_parallel(static_cast<int>(z.size()), 256, [&](int v) { result(v) = at(v, z); });
     return result;
   }
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel_failure.h"
 #include "reflection/reflection_function.h"
 #include "reflection/scalar_gradient.h"
 #include "reflines/errors.h"
 
 namespace reflines {
 namespace {
+
+constexpr int kColumns = 64;  // blurred by one thread at a time
 
 // The deviation, pixels, up to which the weights of a pixel's neighbours are 0 to the last bit; the square of one far
 // smaller is 0 too.
@@ -30,12 +33,11 @@ Vector compute_gaussian(double deviation) {
 Eigen::MatrixXd blur_columns(const Eigen::MatrixXd& image, const Vector& kernel) {
   const Eigen::Index rows = image.rows(), radius = kernel.size() / 2;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, image.cols());
-#pragma omp parallel for schedule(static) if (image.size() > kWorthThreads)
-  for (int c = 0; c < static_cast<int>(image.cols()); ++c) {
+  run_parallel(static_cast<int>(image.cols()), kColumns, [&](int c) {
     Vector column(rows + 2 * radius);
     column << Vector::Constant(radius, image(0, c)), image.col(c), Vector::Constant(radius, image(rows - 1, c));
     for (Eigen::Index k = 0; k < kernel.size(); ++k) result.col(c) += kernel(k) * column.segment(k, rows);
-  }
+  });
   return result;
 }
 
@@ -51,8 +53,7 @@ Eigen::MatrixXd box_blur_columns(Eigen::MatrixXd image, double deviation) {
   const Eigen::Index rows = image.rows();
   for (int pass = 0; pass < kPasses; ++pass) {
     const Eigen::Index radius = (pass < std::lround(short_passes) ? lower : lower + 2) / 2;
-#pragma omp parallel for schedule(static) if (image.size() > kWorthThreads)
-    for (int c = 0; c < static_cast<int>(image.cols()); ++c) {
+    run_parallel(static_cast<int>(image.cols()), kColumns, [&](int c) {
       Vector column = image.col(c);
       const auto at = [&](Eigen::Index r) { return column(std::clamp<Eigen::Index>(r, 0, rows - 1)); };
       double sum = (radius + 1) * column(0);
@@ -61,7 +62,7 @@ Eigen::MatrixXd box_blur_columns(Eigen::MatrixXd image, double deviation) {
         image(r, c) = sum / static_cast<double>(2 * radius + 1);
         sum += at(r + radius + 1) - at(r - radius);
       }
-    }
+    });
   }
   return image;
 }

@@ -70,7 +70,7 @@ TEST(RowLimits, BothMethodsSolveTheModel) {
   HeldFactor factor(solver);
   factor.factorize(model, limits.held, nullptr);
   Report counts;
-  ContactQuadratic contact(limits, factor, counts, nullptr);
+  ContactQuadratic contact(limits, factor, solver, counts, nullptr);
   const auto minimum = contact.minimize(gradient, limits.low, limits.high, limits.tolerance, {});
   ASSERT_TRUE(minimum);
   const Vector& d = minimum->d;

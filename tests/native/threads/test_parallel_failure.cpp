@@ -28,5 +28,16 @@ TEST(ParallelFailure, DoesAllWorkWhereNothingFails) {
   EXPECT_EQ(sum, 5050);
 }
 
+TEST(ParallelFailure, PiecesOfALoopAreDoneOnceUpToTheFirstFailure) {
+  std::atomic<int> sum = 0;
+  run_parallel(101, 7, [&sum](int k) { sum += k; });
+  EXPECT_EQ(sum, 5050);
+  EXPECT_THROW(run_parallel(101, 7,
+                            [](int k) {
+                              if (k == 50) throw std::bad_alloc();
+                            }),
+               std::bad_alloc);
+}
+
 }  // namespace
 }  // namespace reflines
