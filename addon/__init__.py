@@ -40,7 +40,7 @@ NAMES = (
     "write.solve_record", "write.vertex_attributes", "write.warp_lattice",
     "solver.formulation", "solver.live_optimizer", "solver.limited_solve", "solver.remarks", "solver.native_notes",
     "solver.solve", "solver.automatic_smooth", "solver.joint_smooth", "solver.brush", "solver.brushed_cage",
-    "solver.panel_check",
+    "solver.panel_check", "solver.shut_lines",
     "solver.panel_inspection",
     "ui.rows", "ui.automatic_values", "ui.tool_properties", "ui.stripe_properties",
     "ui.handle_properties", "ui.check_properties", "ui.inspection_properties", "ui.light_set_properties",

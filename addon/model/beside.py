@@ -35,6 +35,22 @@ class Beside:
                       np.concatenate([self.F, self.F[:, ::-1] + len(self.V)]), self.gap, self.reach)
 
 
+@dataclass(frozen=True)
+class Neighbors:
+    """The triangles of other objects near a panel, in world space."""
+    V: np.ndarray       # #W x 3
+    F: np.ndarray       # #G x 3
+    label: np.ndarray   # #G: number of the object that each is of
+    names: list[str]    # of these objects
+
+
+def label_soups(soups: dict[str, tuple[np.ndarray, np.ndarray]]) -> Neighbors:
+    """Joins meshes (vertices, triangles), by the names of their objects."""
+    V, F = join_soups(list(soups.values()))
+    label = np.repeat(np.arange(len(soups)), [len(F) for _, F in soups.values()])
+    return Neighbors(V, F, label, list(soups))
+
+
 def join_soups(soups: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
     """Joins meshes (vertices, triangles) to one."""
     starts = np.cumsum([0, *(len(V) for V, _ in soups)])

@@ -20,6 +20,11 @@ class TableRow:
     change: str = "unchanged"  # "better", "unchanged", "worse" against before
     better: int = 0      # edges that are better
     worse: int = 0
+    shut_line: int = 0   # that the line tells of, from 1; 0: of the whole panel
+    beside: str = ""     # the object across that shut line
+    x: float | None = None  # where it is, world units; None of what has no place
+    y: float | None = None
+    z: float | None = None
 
 
 def describe_solve(lines: tuple[float, float], move: float, limit: float | None) -> list[TableRow]:

@@ -4,19 +4,21 @@ import numpy as np
 
 from ..model import check_table
 from ..model.check_table import TableRow
-from ..model.patch import Patch
+from ..model.checked_surface import CheckedSurface
+from ..model.patch import Patch, compute_bounds
 from ..model.refusal import Refusal
-from ..read import mesh_checks, read_checked, read_mesh, read_patch, scene_objects
+from ..read import mesh_checks, read_beside, read_checked, read_mesh, read_patch, scene_objects
 from ..read.mesh_checks import Purpose
-from ..solver import live_optimizer, panel_check
+from ..solver import live_optimizer, panel_check, shut_lines
 from ..solver.panel_check import Checked
 from ..state import last_checks, solve_history
 from ..state.last_checks import DrawnCheck
+from ..view import view_and_light
 
 
 class REFLINES_OT_check(bpy.types.Operator):
-    """Measure borders and creases, and the deviation: what is better or worse than before the last run, and what is
-beyond its mark; without a run hold the selected faces against the marks"""
+    """Measure borders and creases, gap and flush of shut lines, and the deviation: what is better or worse than before
+the last run, and what is beyond its mark; without a run hold the selected faces against the marks"""
     bl_idname = "reflines.check"
     bl_label = "Check Panel"
     bl_options = {'REGISTER', 'UNDO'}
@@ -35,12 +37,14 @@ beyond its mark; without a run hold the selected faces against the marks"""
             with live_optimizer.convert_native_errors(patch):
                 surface = read_checked.read_checked_surface(ob, patch, positions)
                 found = panel_check.check_surface(surface, marks)
+                shut = check_shut_lines(context.scene, ob, surface)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
         stored = ob.reflection_lines.check
-        stored.fill([*found.rows, *own], len(found.passes), int((~found.passes).sum()), compared=bool(own))
-        last_checks.remember_check(ob.name_full, build_drawn(ob, found, compared=bool(own)))
+        stored.fill([*found.rows, *own, *shut.rows], len(found.passes), int((~found.passes).sum()),
+                    compared=bool(own))
+        last_checks.remember_check(ob.name_full, build_drawn(ob, found.join(shut), compared=bool(own)))
         self.report({'INFO'}, f"{ob.name}: {stored.headline()}")
         return {'FINISHED'}
 
@@ -62,6 +66,18 @@ beyond its mark; without a run hold the selected faces against the marks"""
 def find_limit(rows: list[TableRow]) -> float | None:
     """Returns the limit of the last run, which is the mark of its deviation, too; None where there is none."""
     return next((row.mark for row in rows if row.name == "move along the view"), None)
+
+
+def check_shut_lines(scene: bpy.types.Scene, ob: bpy.types.Object, surface: CheckedSurface) -> Checked:
+    """Measures the shut lines of an object's surface; how lines run across where the scene has view and light."""
+    V = surface.after[surface.F[surface.region]].reshape(-1, 3)
+    try:
+        seen = view_and_light.read_scene_view(scene, np.mean(compute_bounds(V), axis=0))
+    except Refusal:
+        seen = None
+    settings = scene.reflection_lines
+    return shut_lines.check_shut_lines(surface, ob.name, read_beside.read_neighbors(ob, V), seen,
+                                       2.0 * np.pi / settings.stripes.count, settings.marks.shut_line)
 
 
 def build_drawn(ob: bpy.types.Object, found: Checked, *, compared: bool) -> DrawnCheck:

@@ -6,11 +6,12 @@ import numpy as np
 
 from .. import native
 from ..model import triangulation
-from ..model.beside import Beside, Crossing, join_soups
+from ..model.beside import Beside, Crossing, Neighbors, join_soups, label_soups
 from ..model.patch import Patch, compute_bounds
 from . import read_mesh, read_surroundings, region_faces
 
 REACH_MARGIN = 1.05  # of the two lengths that a press takes in
+NEIGHBOR_MARGIN = 0.25  # of the diagonal: what lies across a gap, and enough of it to tell how it runs on
 SOLID = {'SOLID', 'TEXTURED'}  # objects drawn as bounds or wires are cutters and aids
 
 Box = tuple[np.ndarray, np.ndarray]  # lowest and highest corner
@@ -27,11 +28,22 @@ def read_beside(ob: bpy.types.Object, patch: Patch, whole: np.ndarray, crossing:
     low, high = compute_bounds(patch.V)
     box = low - gap - reach, high + gap + reach
     own = cut_near(ob.data, whole, ~patch.faces, box, turned=np.linalg.det(patch.matrix[:3, :3]) < 0.0)
-    return Beside(*join_soups([own, *read_others(ob, box, crossing)]), gap, reach)
+    others = [soup for _, soup in read_others(ob, box, crossing)]
+    return Beside(*join_soups([own, *others]), gap, reach)
 
 
-def read_others(ob: bpy.types.Object, box: Box, crossing: Crossing) -> Iterator[Soup]:
-    """Reads what other visible objects, and instances, have within a box."""
+def read_neighbors(ob: bpy.types.Object, V: np.ndarray) -> Neighbors:
+    """Reads what other objects have near the vertices V (#V x 3, world space) of an object's surface."""
+    low, high = compute_bounds(V)
+    margin = NEIGHBOR_MARGIN * float(np.linalg.norm(high - low))
+    soups = {}
+    for name, soup in read_others(ob, (low - margin, high + margin), Crossing(0.0, everywhere=True)):
+        soups[name] = join_soups([soups[name], soup]) if name in soups else soup  # instances have one name
+    return label_soups(soups)
+
+
+def read_others(ob: bpy.types.Object, box: Box, crossing: Crossing) -> Iterator[tuple[str, Soup]]:
+    """Reads what other visible objects, and instances, have within a box, with their names."""
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
         other, matrix = instance.object, np.array(instance.matrix_world, dtype=np.float64)
         original = other.original
@@ -40,7 +52,7 @@ def read_others(ob: bpy.types.Object, box: Box, crossing: Crossing) -> Iterator[
             continue
         if not instance.is_instance and not original.visible_get():
             continue
-        yield read_near(original if original.mode == 'EDIT' else other, matrix, box, crossing)
+        yield other.name, read_near(original if original.mode == 'EDIT' else other, matrix, box, crossing)
 
 
 def is_near(other: bpy.types.Object, matrix: np.ndarray, box: Box) -> bool:

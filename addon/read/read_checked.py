@@ -55,7 +55,8 @@ def build_cage_surface(patch: CagePatch, positions: np.ndarray) -> CheckedSurfac
     names = ("face_offsets", "face_vertices", "creases", "crease_sharpness", "corners", "corner_sharpness", "level",
              "limit", "boundary")
     subdivision = native.reflines.Subdivision(**{name: arguments[name] for name in names}, vertices=len(cage.V))
-    F = subdivision.faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    corners = [0, 1, 2, 0, 2, 3] if np.linalg.det(patch.matrix[:3, :3]) > 0.0 else [0, 2, 1, 0, 3, 2]
+    F = subdivision.faces[:, corners].reshape(-1, 3)
     return CheckedSurface(subdivision.positions(cage.V), subdivision.positions(move_cage(patch, positions)), F,
                           np.repeat(cage.region[subdivision.face_parent], 2), patch.creases.build_cage_arguments())
 

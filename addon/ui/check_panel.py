@@ -14,7 +14,7 @@ class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
         layout, marks = self.layout, context.scene.reflection_lines.marks
         layout.use_property_split, layout.use_property_decorate = True, False
         column = layout.column(align=True)
-        for name in ("gap", "angle", "curvature"):
+        for name in ("gap", "angle", "curvature", "shut_line"):
             column.prop(marks, name)
         layout.operator("reflines.check", icon='CHECKMARK')
         ob = context.view_layer.objects.active
@@ -25,10 +25,17 @@ class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
                    check: bpy.types.PropertyGroup) -> None:
         draw_paragraph(layout, context, check.headline(), 'INFO')
         for row in check.rows:
+            if row.shut_line:
+                continue
             change = row.change if check.compared else "better" if row.passes else "worse"
             line = layout.column(align=True)
             line.alert = change == "worse"
             draw_paragraph(line, context, row.describe(compared=check.compared), ICONS.get(change, 'DOT'))
+        for shut_line in check.list_shut_lines():
+            change = shut_line.find_change(compared=check.compared)
+            line = layout.column(align=True)
+            line.alert = change == "worse"
+            draw_paragraph(line, context, shut_line.describe(), ICONS[change])
         layout.operator("reflines.export_table", icon='EXPORT')
 
 

@@ -18,6 +18,7 @@ void bind_light_set(pybind11::module_& module);
 void bind_smooth_panel(pybind11::module_& module);
 void bind_solve_panel(pybind11::module_& module);
 void bind_check_panel(pybind11::module_& module);
+void bind_shut_lines(pybind11::module_& module);
 void bind_inspect_panel(pybind11::module_& module);
 void bind_gap_continuation(pybind11::module_& module);
 void bind_joint_smoother(pybind11::module_& module);

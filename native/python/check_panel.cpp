@@ -7,6 +7,7 @@
 
 #include "python/array_arguments.h"
 #include "python/bind.h"
+#include "python/change_names.h"
 #include "python/index_arrays.h"
 #include "python/native_call.h"
 #include "python/option_names.h"
@@ -35,17 +36,6 @@ py::object check(const Positions& before, const Positions& after, const Indices&
 std::string kind_name(SeamKind kind) {
   if (kind == SeamKind::kOpen) return "open";
   return kind == SeamKind::kCrease ? "crease" : "border";
-}
-
-std::string change_name(Change change) {
-  if (change == Change::kUnchanged) return "unchanged";
-  return change == Change::kWorse ? "worse" : "better";
-}
-
-std::vector<std::string> change_names(const PanelCheck& check) {
-  std::vector<std::string> names;
-  for (const Change change : check.change) names.push_back(change_name(change));
-  return names;
 }
 
 std::vector<std::string> kind_names(const PanelCheck& check) {
@@ -83,7 +73,7 @@ void bind_check_panel(py::module_& module) {
       .def_property_readonly("curvature_before", [](const PanelCheck& own) { return own.before.curvature; })
       .def_property_readonly("curvature_after", [](const PanelCheck& own) { return own.after.curvature; })
       .def_readonly("passes", &PanelCheck::passes)
-      .def_property_readonly("change", &change_names)
+      .def_property_readonly("change", [](const PanelCheck& own) { return change_names(own.change); })
       .def_readonly("deviation", &PanelCheck::deviation)
       .def_readonly("largest_deviation", &PanelCheck::largest_deviation)
       .def_readonly("deviation_95", &PanelCheck::deviation_95)

@@ -46,6 +46,7 @@ PYBIND11_MODULE(reflines, module) {
   reflines::bind_light_set(module);
   reflines::bind_smooth_panel(module);
   reflines::bind_check_panel(module);
+  reflines::bind_shut_lines(module);
   reflines::bind_inspect_panel(module);
   reflines::bind_gap_continuation(module);
   reflines::bind_joint_smoother(module);

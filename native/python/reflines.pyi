@@ -460,6 +460,43 @@ def check(before: np.ndarray, after: np.ndarray, F: np.ndarray, region: np.ndarr
     their other side, before and after, with pass marks; and its distance from the surface before. `before` and `after` are #V x 3
     with the neighbours of the region (three rings or more), F #F x 3. Raises InvalidInput."""
 
+class ShutMeasures:
+    """The measures of the edges of shut lines (#E); see native/include/reflines/shut_lines.h."""
+    gap: np.ndarray          # units of V
+    flush: np.ndarray        # by how much the other side is higher, units of V
+    kink: np.ndarray         # angle between the normals, degrees
+    line_angle: np.ndarray   # by which lines turn, degrees
+    line_offset: np.ndarray  # by which lines jump, percent of their spacing
+
+class ShutLine:
+    """A row of border edges across a gap from one surface."""
+    label: int           # of what lies beside; -1: other faces of the same mesh
+    edges: list[int]     # numbers in ShutLines.edges
+    length: float
+    rows: list[CheckRow]  # "smallest gap", "largest gap", "uneven gap", "lowest flush", "highest flush", "kink"; with
+                          # directions "line angle", "line offset"
+
+class ShutLines:
+    """The result of `check_shut_lines`."""
+    gap: float          # the widest that was looked for
+    edges: np.ndarray   # #E x 2
+    before: ShutMeasures
+    after: ShutMeasures
+    passes: np.ndarray  # #E bool
+    change: list[str]   # #E: "better", "unchanged", "worse" against before
+    list: list[ShutLine]
+
+def check_shut_lines(before: np.ndarray, after: np.ndarray, F: np.ndarray, region: np.ndarray, V_beside: np.ndarray = ...,
+                     F_beside: np.ndarray = ..., *, label: np.ndarray = ...,  # of each triangle beside
+                     gap: float | None = None,       # the widest that counts; None: AUTOMATIC_GAP times the diagonal
+                     view_direction: Sequence[float] | None = None,  # without them lines are not measured
+                     line_direction: Sequence[float] | None = None,
+                     spacing: float = 0.1,           # of the lines, radians of theta
+                     uneven: float = 5e-4, flush: float = 5e-4, kink: float = 0.3, line_angle: float = 5.0,  # pass marks
+                     line_offset: float = 2.0) -> ShutLines:
+    """Measures gap and flush of the region's border towards what lies across a gap: triangles beside (#W x 3, #G x 3), and
+    other faces of its own mesh. Raises InvalidInput as `check` does."""
+
 class WorstSpot:
     """A connected place whose lines deviate by more than the noise floor."""
     place: np.ndarray        # 3: on the panel, where the lines deviate most

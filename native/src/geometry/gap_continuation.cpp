@@ -44,10 +44,8 @@ struct Search {
   Vector3 outward(int v) const { return border.outward.row(v); }
 };
 
-// Returns whether a sheet lies over or under the region beside one of its border vertices.
 bool overlaps(const Search& search, const Sheet& sheet, int v) {
-  const double inside = std::max(search.gap, 0.5 * search.border.edge);
-  return sheet.surface.find(search.at(v) - inside * search.outward(v), 0.6 * inside).triangle >= 0;
+  return sheet.overlaps(search.at(v), search.outward(v), std::max(search.gap, 0.5 * search.border.edge));
 }
 
 // Returns the contact of a border vertex with one sheet, where that is its neighbour.

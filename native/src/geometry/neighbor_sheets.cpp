@@ -65,22 +65,28 @@ std::vector<std::vector<int>> find_components(const Triangles& neighbors) {
 
 }  // namespace
 
+bool Sheet::overlaps(const Vector3& at, const Vector3& outward, double inside) const {
+  return surface.find(at - inside * outward, 0.6 * inside).triangle >= 0;
+}
+
 void find_neighbor_sheets(const Positions& region, const OpenBorder& border, const Positions& V, const Triangles& F,
                           double reach, NeighborSheets& sheets) {
   const Mask facing = find_facing(region, border, V, F, reach);
   sheets.V = V;
   sheets.F.resize(facing.count(), 3);
   for (Eigen::Index t = 0, count = 0; t < F.rows(); ++t) {
-    if (facing(t)) sheets.F.row(count++) = F.row(t);
+    if (!facing(t)) continue;
+    sheets.F.row(count++) = F.row(t);
+    sheets.source.push_back(static_cast<int>(t));
   }
   join_doubled(V, sheets.F);
   sheets.neighbors = edge_neighbors(sheets.F);
-  for (std::vector<int>& triangles : find_components(sheets.neighbors)) {
+  for (const std::vector<int>& triangles : find_components(sheets.neighbors)) {
     Eigen::AlignedBox3d box;
     for (const int t : triangles) {
       for (const int v : sheets.F.row(t)) box.extend(sheets.V.row(v).transpose());
     }
-    sheets.list.push_back({box, NearestSurface(sheets.V, sheets.F, std::move(triangles))});
+    sheets.list.push_back({box, NearestSurface(sheets.V, sheets.F, triangles), triangles});
   }
 }
 

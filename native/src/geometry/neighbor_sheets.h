@@ -14,6 +14,11 @@ namespace reflines {
 struct Sheet {
   Eigen::AlignedBox3d box;
   NearestSurface surface;
+  std::vector<int> triangles;
+
+  // Returns whether the sheet lies over or under the region, whose border is at `at` and turned to `outward`: within
+  // 0.6 of `inside`, as far inside.
+  bool overlaps(const Vector3& at, const Vector3& outward, double inside) const;
 };
 
 // Refers to itself: neither copied nor moved.
@@ -23,7 +28,8 @@ struct NeighborSheets {
   NeighborSheets& operator=(const NeighborSheets&) = delete;
 
   Positions V;
-  Triangles F, neighbors;  // across edges
+  Triangles F, neighbors;   // across edges
+  std::vector<int> source;  // #F: the triangles that were given
   std::deque<Sheet> list;
 };
 

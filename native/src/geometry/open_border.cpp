@@ -68,7 +68,7 @@ OpenBorder find_open_border(const Positions& V, const Triangles& F, const Surrou
       const Vector3 along = V.row(b) - V.row(a), across = along.cross(n.normalized());
       border.outward.row(a) += across.normalized();
       border.outward.row(b) += across.normalized();
-      border.edges.push_back({a, b});
+      border.edges.push_back({a, b, t});
       border.edge += along.norm();
     }
   }

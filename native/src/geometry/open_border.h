@@ -10,6 +10,7 @@ namespace reflines {
 
 struct BorderEdge {
   int first, second;  // vertices, in the order of the region's triangle
+  int triangle;
 };
 
 struct OpenBorder {

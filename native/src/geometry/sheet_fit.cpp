@@ -59,8 +59,11 @@ std::vector<int> gather_vertices(const NeighborSheets& sheets, int t, const Vect
   return vertices;
 }
 
-// Fits a polynomial of this degree to heights, with a weight each; returns its coefficients 1, x, y, or nothing.
-std::optional<Vector3> fit(const PlanePositions& points, const Vector& heights, const Vector& weight, int degree) {
+using Quadratic = Eigen::Matrix<double, 6, 1>;
+
+// Fits a polynomial of this degree to heights, with a weight each; returns its coefficients 1, x, y, xx, xy, yy, or
+// nothing.
+std::optional<Quadratic> fit(const PlanePositions& points, const Vector& heights, const Vector& weight, int degree) {
   const Eigen::ArrayXd x = points.col(0).array(), y = points.col(1).array();
   Eigen::MatrixXd M(points.rows(), degree == 3 ? 10 : 6);
   if (M.rows() < M.cols()) return std::nullopt;
@@ -70,7 +73,7 @@ std::optional<Vector3> fit(const PlanePositions& points, const Vector& heights, 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(kDetermined);
   if (decomposition.compute(M).rank() < M.cols()) return std::nullopt;
-  return decomposition.solve(weight.cwiseProduct(heights)).eval().head<3>();
+  return decomposition.solve(weight.cwiseProduct(heights)).eval().head<6>();
 }
 
 }  // namespace
@@ -90,9 +93,11 @@ std::optional<SheetPoint> fit_sheet(const NeighborSheets& sheets, int t, const V
   points /= size;
   const Vector weight = (1.0 - 0.98 * points.rowwise().squaredNorm().array()).matrix();
   for (const int degree : {3, 2}) {
-    if (const std::optional<Vector3> c = fit(points, heights, weight, degree)) {
-      const Vector2 slope = c->tail<2>() / size;
-      return SheetPoint{at + (*c)(0) * normal, (normal - slope.x() * x - slope.y() * y).normalized()};
+    if (const std::optional<Quadratic> c = fit(points, heights, weight, degree)) {
+      const Vector2 slope = c->segment<2>(1) / size;
+      const Vector3 second = Vector3(2 * (*c)(3), (*c)(4), 2 * (*c)(5)) / (size * size);
+      return SheetPoint{
+          at + (*c)(0) * normal, (normal - slope.x() * x - slope.y() * y).normalized(), x, y, slope, second};
     }
   }
   return std::nullopt;

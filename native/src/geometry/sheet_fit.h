@@ -11,6 +11,9 @@ namespace reflines {
 struct SheetPoint {
   Vector3 place;   // of the sheet, along the normal given
   Vector3 normal;  // of the sheet there
+  Vector3 x, y;    // axes across the normal given
+  Vector2 slope;   // of the sheet's height over them
+  Vector3 second;  // its second derivatives f_xx, f_xy, f_yy
 };
 
 // Fits the sheet around its triangle t over the plane through `at` across `normal`. The weights of vertices fall to

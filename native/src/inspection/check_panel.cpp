@@ -3,58 +3,24 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <string>
 
-#include "geometry/mesh.h"
 #include "geometry/nearest_surface.h"
+#include "inspection/check_input.h"
+#include "inspection/compare_values.h"
 #include "inspection/seams.h"
 #include "inspection/side_fit.h"
-#include "reflines/errors.h"
 
 namespace reflines {
 namespace {
 
 constexpr double kMost = 0.95;  // share of the vertices that deviation_95 stands for
 
-void check_mark(double mark, const char* name) {
-  if (mark >= 0 && std::isfinite(mark)) return;
-  throw InvalidInput(std::string("The pass mark for the ") + name + " must be 0 or a positive finite number.");
-}
-
-void check_sizes(const Positions& before, const Positions& after, const Triangles& F, const Mask& region) {
-  if (after.rows() != before.rows()) {
-    throw InvalidInput("There are " + std::to_string(before.rows()) + " vertices before and " +
-                       std::to_string(after.rows()) + " after; give the same mesh.");
-  }
-  if (region.size() != F.rows()) {
-    throw InvalidInput("The region's mask has " + std::to_string(region.size()) + " entries for " +
-                       std::to_string(F.rows()) + " triangles; give one for each.");
-  }
-}
-
 // Throws where the region is no surface, or a neighbour's vertex is nowhere.
 void check_input(const Positions& before, const Positions& after, const Triangles& F, const Mask& region,
                  const CheckOptions& options) {
-  check_sizes(before, after, F, region);
-  check_indices(before, F);
-  Triangles own(region.count(), 3);
-  int count = 0;
-  for (int t = 0; t < F.rows(); ++t) {
-    if (region(t)) own.row(count++) = F.row(t);
-  }
-  check_surface(before, own);
-  check_surface(after, own);
-  int nowhere = 0;
-  for (int t = 0; t < F.rows(); ++t) {
-    const bool placed = before(F.row(t), Eigen::all).allFinite() && after(F.row(t), Eigen::all).allFinite();
-    nowhere += !placed;
-  }
-  if (nowhere > 0) {
-    throw InvalidInput(std::to_string(nowhere) +
-                       " triangles beside the region have a coordinate that is not a finite number.");
-  }
+  check_compared(before, after, F, region);
   check_mark(options.gap, "gap");
   check_mark(options.angle, "angle");
   check_mark(options.curvature, "curvature");
@@ -138,15 +104,9 @@ void measure_deviation(const Positions& before, const Positions& after, const Tr
   check.deviation_95 = sorted[static_cast<size_t>(std::ceil(kMost * static_cast<double>(sorted.size()))) - 1];
 }
 
-Change compare(double before, double after, double mark) {
-  const auto grew = [mark](double from, double to) { return to - from > mark || (from <= mark && to > mark); };
-  if (grew(before, after)) return Change::kWorse;
-  return grew(after, before) ? Change::kBetter : Change::kUnchanged;
-}
-
 // Returns how a value of a seam changed.
 Change compare_seam(SeamKind kind, double before, double after, double mark) {
-  if (kind == SeamKind::kBorder) return compare(before, after, mark);
+  if (kind == SeamKind::kBorder) return compare_values(before, after, mark);
   const bool changed = kind == SeamKind::kCrease && std::abs(after - before) > mark;
   return changed ? Change::kWorse : Change::kUnchanged;
 }
@@ -196,14 +156,6 @@ void fill_rows(const Positions& after, const CheckOptions& marks, PanelCheck& ch
   check.rows.push_back({"deviation", "length", 0, check.largest_deviation, marks.deviation, within, after.row(furthest),
                         within ? Change::kUnchanged : Change::kWorse});
   check.rows.push_back({"deviation of 95 %", "length", 0, check.deviation_95, -1, true, after.row(furthest)});
-}
-
-// Returns the most telling of changes: one for the worse, else one for the better.
-Change sum_up(std::initializer_list<Change> changes) {
-  for (const Change told : {Change::kWorse, Change::kBetter}) {
-    if (std::find(changes.begin(), changes.end(), told) != changes.end()) return told;
-  }
-  return Change::kUnchanged;
 }
 
 void judge(const CheckOptions& marks, PanelCheck& check) {

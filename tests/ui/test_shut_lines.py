@@ -1,0 +1,63 @@
+"""The shut line of a checked panel is drawn: green within its mark, red beyond it; and told in the panel."""
+import sys
+
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+import scenes
+import window
+from picture import Steps, pixels, prepare
+
+GAP, CELLS = 0.02, 24
+
+
+def half(name: str, low: float, high: float, step: float) -> bpy.types.Object:
+    columns, rows = np.linspace(low, high, CELLS + 1), np.linspace(-1.0, 1.0, 2 * CELLS + 1)
+    points = [(x, y, scenes.crown(x, y) + step * (1.0 + y)) for y in rows for x in columns]
+    faces = [(i, i + 1, i + CELLS + 2, i + CELLS + 1) for j in range(2 * CELLS)
+             for i in range(j * (CELLS + 1), j * (CELLS + 1) + CELLS)]
+    return scenes.linked(name, points, faces)
+
+
+def read_colors(driver: window.Window, ob: bpy.types.Object) -> Steps:
+    """Returns how much redder than green each edge of the shut line is drawn: #E, ascending y."""
+    pictures = []
+    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_VIEW')
+    driver.redraw()
+    while not pictures:
+        yield 0.1
+    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+    picture, found = pictures[-1][:, :, :3].astype(float), []
+    segments = sys.modules["reflection_lines"].state.last_checks.find_check(ob.name).segments
+    for middle in sorted(segments.mean(axis=1).tolist(), key=lambda place: place[1])[2:-2]:
+        at = location_3d_to_region_2d(driver.region(), driver.region_3d(), middle)
+        near = picture[int(at.y), int(at.x) - 3:int(at.x) + 4]
+        color = near[np.ptp(near, axis=1).argmax()]
+        found.append(color[0] - color[1])
+    return np.array(found)
+
+
+def test_the_shut_line_is_green_within_the_mark_and_red_beyond(driver: window.Window) -> Steps:
+    with driver.override():
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+        half("Wing", 0.5 * GAP, 1.0, 0.0004)
+        ob = half("Door", -1.0, -0.5 * GAP, 0.0)
+        scenes.look_from_above()
+        bpy.context.view_layer.update()
+    prepare(driver, ob)
+    bpy.context.scene.reflection_lines.stripes.scope = 'VISIBLE'
+    with driver.override():
+        scenes.activate(ob)
+        scenes.edit(ob)
+        scenes.select_faces(ob, lambda _face: True)
+        assert bpy.ops.reflines.check('EXEC_DEFAULT', True) == {'FINISHED'}
+    colors = yield from read_colors(driver, ob)
+    height = np.linspace(-1.0, 1.0, len(colors))
+    assert colors[height < 0.1].max() < -50.0 and colors[height > 0.4].min() > 50.0  # a step of half a millimetre
+    yield from window.take_picture(driver, "shut_line")
+    assert any("Shut line 1, Wing: gap" in shown.describe() for shown in ob.reflection_lines.check.list_shut_lines())
+
+
+window.run(test_the_shut_line_is_green_within_the_mark_and_red_beyond)
