@@ -221,10 +221,16 @@ class SolveTool:
         # The status bar shows the last report, and cuts off its end.
         self.report({'INFO'}, f"{stored.report.headline()} ({ob.name}{faces if self.region_stored else ''})")
 
+    def is_automatic(self) -> bool:
+        """Returns whether the automatic press takes the place of a solve, which that of Smooth alone can."""
+        return False
+
     def record_surroundings(self, ob: bpy.types.Object, patch: Patch) -> tuple[str, ...]:
         """Records for the buttons of the result what is wrong with the mesh itself; returns the sentences about it."""
         scene, report = bpy.context.scene, ob.reflection_lines.report
-        unjoined, turn = unjoined_border.find_unjoined(scene, ob, patch), shown_surface.measure_rounding(patch)
+        # The automatic press smooths parts of a region that touch as one.
+        unjoined = unjoined_border.find_unjoined(scene, ob, patch, within=not self.is_automatic())
+        turn = shown_surface.measure_rounding(patch)
         report.merge_distance, report.rounding = unjoined.distance if unjoined.own else 0.0, turn
         told = unjoined.describe() if self.border != "follow" else ()  # then the lines do not break there
         return (*shown_surface.describe_rounding(scene, patch, turn), *told)

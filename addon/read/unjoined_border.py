@@ -61,15 +61,19 @@ def count_edges(count: int) -> str:
     return f"{count} edge{'s of the border lie' if count > 1 else ' of the border lies'} on"
 
 
-def find_unjoined(scene: bpy.types.Scene, ob: bpy.types.Object, patch: Patch) -> UnjoinedBorder:
-    """Finds the edges of a region's border that lie on open edges of its mesh or of other visible objects."""
+def find_unjoined(scene: bpy.types.Scene, ob: bpy.types.Object, patch: Patch, *, within: bool) -> UnjoinedBorder:
+    """Finds the edges of a region's border that lie on open edges of its mesh or of other visible objects; `within` also
+    those that lie on the region's own.
+    """
     if len(patch.faces) != len(ob.data.polygons):
         return UnjoinedBorder()
     every = read_open_edges(ob.data, read_mesh.read_coordinates(ob, patch.key))
     border = every.choose(patch.faces[every.faces])
     if not len(border.faces):
         return UnjoinedBorder()
-    pairs, distance = match_edges(border, every, np.flatnonzero(patch.faces[every.faces]))
+    own = patch.faces[every.faces]
+    pairs, distance = match_edges(border, every, np.flatnonzero(own)) if within else match_edges(border,
+                                                                                                 every.choose(~own))
     world = border.transform(patch.matrix)
     others = [(other.name, len(match_edges(world, edges)[0])) for other, edges in read_others(scene, ob, world)]
     return UnjoinedBorder(len(pairs), choose_distance(patch, distance), tuple(each for each in others if each[1]))

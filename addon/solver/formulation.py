@@ -192,9 +192,10 @@ class Formulation:
 
     async def build_smoother(self, border: str, settings: PressSettings, *, fair: bool) -> "native.PanelSmoother":
         """Builds the native smoother, where `fair` with a border that moves, too; raises the module's errors."""
-        mesh = self.choose_press_mesh()
+        mesh, beside = self.choose_press_mesh(), self.read_beside()
         return await call(
             native.reflines.PanelSmoother.create, **mesh, **self.choose_press_directions(),
+            parts_gap=None if beside is None or not self.find_following(border).any() else beside.gap,
             **await self.choose_press_edges(mesh["V"], mesh["F"], border, fair=fair), **settings)
 
     def build_joint_panel(self, border: str, settings: PressSettings) -> "native.JointPanel":

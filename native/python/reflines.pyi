@@ -270,13 +270,13 @@ class PanelSmoother:
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                  border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                  around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
-                 fair_border: np.ndarray | None = None, lights: Literal["crossed", "single"] = "crossed",
+                 fair_border: np.ndarray | None = None, parts_gap: float | None = None, lights: Literal["crossed", "single"] = "crossed",
                  light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> None: ...
     @staticmethod
     def create(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
-               fair_border: np.ndarray | None = None, lights: Literal["crossed", "single"] = "crossed",
+               fair_border: np.ndarray | None = None, parts_gap: float | None = None, lights: Literal["crossed", "single"] = "crossed",
                light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother:
         """Builds one as the constructor does; `start` runs it in the background."""
     @staticmethod
@@ -357,6 +357,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  around: tuple[np.ndarray, np.ndarray] | None = None,  # as in ShapeOptimizer
                  face_of_triangle: np.ndarray | None = None,        # #F, as in ShapeOptimizer
                  fair_border: np.ndarray | None = None,             # #V bool: border vertices that move, too, see below
+                 parts_gap: float | None = None,  # widest between parts that no edge joins, which are smoothed as one; None: touching
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
                  light_set: LightSet | None = None,                 # takes the place of these and of line_direction
                  judges: LightSet | None = None,                    # take no part; see HealedFlaws.worse_for_judges

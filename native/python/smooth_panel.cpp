@@ -27,9 +27,9 @@ BuildSmoother prepare_smoother(const Positions& V, const Indices& F, const Vecto
                                const Vector3& line_direction, const Codes& border, const std::optional<Mask>& fixed,
                                const std::optional<Indices>& partner, const Around& around,
                                const std::optional<Indices>& face_of_triangle, const std::optional<Mask>& fair_border,
-                               const std::string& lights, const std::optional<LightSet>& set,
-                               const std::optional<LightSet>& judges, const std::optional<double>& length,
-                               double flaw_size, bool symmetric) {
+                               const std::optional<double>& parts_gap, const std::string& lights,
+                               const std::optional<LightSet>& set, const std::optional<LightSet>& judges,
+                               const std::optional<double>& length, double flaw_size, bool symmetric) {
   SmoothPanelOptions options = options_of(lights, set, judges, length, flaw_size, symmetric);
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -37,6 +37,7 @@ BuildSmoother prepare_smoother(const Positions& V, const Indices& F, const Vecto
   options.around = surroundings_of(around);
   if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
   if (fair_border) options.fair_border = *fair_border;
+  options.parts_gap = given(parts_gap, "The gap between parts");
   return [=, triangles = triangles_of(F)] {
     return std::make_unique<PanelSmoother>(V, triangles, view_direction, line_direction, options);
   };
@@ -147,9 +148,9 @@ void bind_smooth_panel(py::module_& module) {
     define(py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),
            py::arg("border") = "clamped", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
            py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
-           py::arg("fair_border") = py::none(), py::arg("lights") = "crossed", py::arg("light_set") = py::none(),
-           py::arg("judges") = py::none(), py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
-           py::arg("symmetric") = defaults.symmetric);
+           py::arg("fair_border") = py::none(), py::arg("parts_gap") = py::none(), py::arg("lights") = "crossed",
+           py::arg("light_set") = py::none(), py::arg("judges") = py::none(), py::arg("length") = py::none(),
+           py::arg("flaw_size") = defaults.flaw_size, py::arg("symmetric") = defaults.symmetric);
   };
   const SubdivisionOptions subdivision;
   const auto define_cage = [&](const auto& define) {

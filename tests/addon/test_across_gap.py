@@ -118,6 +118,38 @@ def test_halves_of_one_mesh_that_are_not_joined_follow_each_other() -> None:
     assert np.array_equal(after[~own], before[~own])
 
 
+@pytest.mark.parametrize("border", ["clamped", "free"])
+def test_halves_of_one_mesh_that_touch_are_smoothed_as_if_they_were_joined(border: str) -> None:
+    half("Right", 0.0, 1.0, lambda x, y: bent(-x, y), 17)
+    left = half("Left", -1.0, 0.0, bent)
+    count = len(left.data.vertices)
+    scenes.activate(bpy.data.objects["Right"])
+    scenes.activate(left)
+    bpy.ops.object.join()
+    start(left)
+    before = places(left)
+    assert scenes.smooth(border=border) == {'FINISHED'}
+    after = places(left)
+    assert kink(before[:count], before[count:], 0.0) > 5.0 and kink(after[:count], after[count:], 0.0) < 0.3
+    assert np.abs(flush(after[:count], after[count:], 0.0) - flush(before[:count], before[count:], 0.0)).max() < 3e-5
+    assert "not joined" not in left.reflection_lines.report.notes
+
+
+@pytest.mark.parametrize("border", ["clamped", "free"])
+def test_halves_that_are_split_at_their_vertices_never_tear(border: str) -> None:
+    half("Right", 0.0, 1.0, dented)
+    left = half("Left", -1.0, 0.0, dented)
+    count = len(left.data.vertices)
+    scenes.activate(bpy.data.objects["Right"])
+    scenes.activate(left)
+    bpy.ops.object.join()
+    start(left)
+    assert scenes.smooth(border=border) == {'FINISHED'}
+    after = places(left)
+    (_, one), (_, other) = rim_heights(after[:count], 0.0), rim_heights(after[count:], 0.0)
+    assert np.array_equal(one, other) and np.abs(after[:, 2] - scenes.crown(after[:, 0], after[:, 1])).max() < 1.6e-3
+
+
 def over(x: float, y: float) -> float:
     return scenes.crown(x, y) + 0.003
 

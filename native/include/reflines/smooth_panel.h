@@ -41,6 +41,9 @@ struct SmoothPanelOptions {
   // instead of being held. A border that is held keeps its flaws, and the lines beside it run into them. Where there
   // are no faces beside it that can be used it is held all the same, and the report says so. Not for cages.
   Mask fair_border;
+  // The widest gap, in units of V, across which parts of the region that no edge joins are smoothed as one (see
+  // JointSmoother); 0: a tenth of the border's edges, so parts that touch. Not for cages.
+  double parts_gap = 0.0;
   Lights lights = Lights::kCrossed;
   LightSet set;            // or none; where it exists it takes the place of the light lines given and of `lights`
   LightSet judges;         // or none: lights with eyes that take no part; see HealedFlaws::worse_for_judges

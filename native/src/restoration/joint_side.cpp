@@ -96,14 +96,23 @@ JointSide::Rings JointSide::continue_region(const Positions& V, const Surroundin
   return {std::move(found.around), std::move(found.followed)};
 }
 
+JointSide::Rings JointSide::take_around() const {
+  Rings rings{shape_.around, Mask::Constant(V_.rows(), false)};
+  for (const int v : shape_.around.F.reshaped()) {
+    if (v < V_.rows()) rings.followed(v) = true;
+  }
+  return rings;
+}
+
 void JointSide::face(const Skin& others) {
   if (!follows(shape_.border)) return;
   Mask wanted(V_.rows());
   for (Eigen::Index v = 0; v < wanted.size(); ++v) wanted(v) = shape_.border[v] == Border::kFollow;
   const Rings joint = continue_region(V_, shape_.around, others, panel_.gap.reach);
   joint_ = joint.followed && wanted;
-  rings_still_ = continue_region(V_, combine(shape_.around, joint.around, V_.rows()),
-                                 {panel_.V_beside, panel_.F_beside}, panel_.gap.reach);
+  rings_still_ = panel_.around_is_followed ? take_around()
+                                           : continue_region(V_, combine(shape_.around, joint.around, V_.rows()),
+                                                             {panel_.V_beside, panel_.F_beside}, panel_.gap.reach);
   still_ = rings_still_.followed && wanted && !joint_;
   own_ = leave_surroundings(shape_);
   turned_border_ = own_.border;

@@ -84,6 +84,7 @@ class JointSide {
     Mask followed;  // #V
   };
   Rings continue_region(const Positions& V, const Surroundings& around, const Skin& beside, double reach) const;
+  Rings take_around() const;  // the faces around, which are followed
   JoinedMesh join(const Positions& V, const Skin& others) const;
   ShapeOptions choose_joined_shape(const JoinedMesh& joined) const;
   ShapeOptions clamp_joint() const;

@@ -9,6 +9,7 @@
 #include "restoration/faired_border.h"
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
+#include "restoration/parted_region.h"
 #include "restoration/press.h"
 #include "restoration/press_checks.h"
 #include "restoration/press_rules.h"
@@ -62,6 +63,12 @@ class MeshPress : public Press {
   std::unique_ptr<Press> press_;
 };
 
+std::unique_ptr<Press> prepare_mesh(const Positions& V, const Triangles& F, const Vector3& view, const Vector3& lines,
+                                    const SmoothPanelOptions& options, const PressAmount& amount) {
+  std::unique_ptr<Press> parted = prepare_parted_region(V, F, view, lines, options, amount);
+  return parted ? std::move(parted) : std::make_unique<MeshPress>(V, F, view, lines, options, amount);
+}
+
 class CagePress : public Press {
  public:
   CagePress(const Cage& cage, const Positions& V, const Vector3& view, const Vector3& lines, CageOptions cage_options,
@@ -94,7 +101,7 @@ PressAmount amount_of(const SmoothPanelOptions& options) {
 PanelSmoother::PanelSmoother(const Positions& V, const Triangles& F, const Vector3& view_direction,
                              const Vector3& line_direction, const SmoothPanelOptions& options)
     : control_count_(V.rows()), prepare_([=](const PressAmount& amount) {
-        return std::make_unique<MeshPress>(V, F, view_direction, line_direction, options, amount);
+        return prepare_mesh(V, F, view_direction, line_direction, options, amount);
       }) {
   check_press_options(options, V.rows());
   check_surroundings(options.around, V.rows());

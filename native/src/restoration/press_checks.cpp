@@ -55,6 +55,8 @@ void check_amount(const PressAmount& amount, Eigen::Index vertex_count) {
 void check_press_options(const SmoothPanelOptions& options, Eigen::Index vertex_count) {
   require(options.length >= 0 && std::isfinite(options.length),
           "The length must be a positive length, or 0 for automatic.");
+  require(options.parts_gap >= 0 && std::isfinite(options.parts_gap),
+          "The gap between parts must be a positive length, or 0 for automatic.");
   require(options.flaw_size > 0 && std::isfinite(options.flaw_size), "The flaw size must be a number above 0.");
   if (!options.border.empty() && static_cast<Eigen::Index>(options.border.size()) != vertex_count) {
     throw InvalidInput("There are " + std::to_string(options.border.size()) + " border codes for " +

@@ -1,0 +1,190 @@
+#include "restoration/joint_press.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/union_find.h"
+#include "restoration/press_rules.h"
+#include "restoration/region_result.h"
+#include "restoration/used_vertices.h"
+#include "solver/mirror_coupling.h"
+
+namespace reflines {
+namespace {
+
+// Returns the amount for the vertices of a panel that are in faces.
+PressAmount narrow(const JointSide& side, const JointPanel& panel, PressAmount amount) {
+  if (amount.limit_share.exists()) {
+    const UsedVertices used = find_used_vertices(panel.F, static_cast<int>(panel.V.rows()));
+    amount.limit_share = {amount.limit_share.lowest(used.index), amount.limit_share.highest(used.index)};
+  }
+  amount.limit_share = intersect_limits(amount.limit_share, side.partner());
+  return amount;
+}
+
+}  // namespace
+
+JointPress::JointPress(std::vector<JointPanel> panels, const std::vector<PressAmount>& amounts)
+    : panels_(std::move(panels)) {
+  for (size_t k = 0; k < panels_.size(); ++k) sides_.push_back(std::make_unique<JointSide>(panels_[k], amounts[k]));
+  for (size_t k = 0; k < sides_.size(); ++k) sides_[k]->face(others_of(k));
+  widen_flaws();
+}
+
+std::vector<SmoothPanelResult> JointPress::run(std::vector<PressAmount> amounts) {
+  for (size_t k = 0; k < sides_.size(); ++k) amounts[k] = narrow(*sides_[k], panels_[k], amounts[k]);
+  std::vector<SmoothPanelResult> results = press_jointly(amounts);
+  for (size_t k = 0; k < sides_.size(); ++k) results[k].positions = widen(k, results[k].positions);
+  return results;
+}
+
+Positions JointPress::widen(size_t k, const Positions& used_positions) const {
+  Positions all = panels_[k].V;
+  all(find_used_vertices(panels_[k].F, static_cast<int>(all.rows())).index, Eigen::all) = used_positions;
+  return all;
+}
+
+Skin JointPress::others_of(size_t own) const {
+  Eigen::Index vertices = 0, triangles = 0;
+  std::vector<Skin> skins;
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (k == own) continue;
+    skins.push_back(sides_[k]->skin());
+    vertices += skins.back().V.rows();
+    triangles += skins.back().F.rows();
+  }
+  Skin all{Positions(vertices, 3), Triangles(triangles, 3)};
+  vertices = triangles = 0;
+  for (const Skin& skin : skins) {
+    all.V.middleRows(vertices, skin.V.rows()) = skin.V;
+    all.F.middleRows(triangles, skin.F.rows()) = skin.F.array() + static_cast<int>(vertices);
+    vertices += skin.V.rows();
+    triangles += skin.F.rows();
+  }
+  return all;
+}
+
+// Gives the panels that face each other, directly or by others, the size of all of them.
+void JointPress::widen_flaws() {
+  UnionFind joined(static_cast<int>(sides_.size()));
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    for (int v = 0; v < sides_[k]->joint().size(); ++v) {
+      const Across across = sides_[k]->joint()(v) ? find_across(k, v) : Across{};
+      if (across.side >= 0) joined.unite(static_cast<int>(k), across.side);
+    }
+  }
+  std::vector<Eigen::AlignedBox3d> boxes(sides_.size());
+  for (size_t k = 0; k < sides_.size(); ++k) boxes[joined.find(static_cast<int>(k))].extend(sides_[k]->box());
+  for (size_t k = 0; k < sides_.size(); ++k)
+    sides_[k]->widen_flaws(boxes[joined.find(static_cast<int>(k))].diagonal().norm());
+}
+
+// Returns the turns of the joint sides as all are at present.
+std::vector<Turn> JointPress::find_turns(double lengths) const {
+  std::vector<Turn> turns(sides_.size());
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (is_joint(k)) turns[k] = sides_[k]->find_turn(others_of(k), lengths);
+  }
+  return turns;
+}
+
+void JointPress::turn_after() {
+  const std::vector<Turn> turns = find_turns(kRules.border.turned_after);
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (is_joint(k)) sides_[k]->turn_after(turns[k].change);
+  }
+}
+
+// Begins again with the sides turned by the kinks that a press has left; returns whether there are any. What a limit
+// has left of a dent is none.
+bool JointPress::begin_turned() {
+  if (is_limited()) return false;
+  const std::vector<Turn> turns = find_turns(kRules.border.turned_before);
+  const auto is_kink = [](const Turn& turn) { return turn.degrees > kRules.joint.kink; };
+  if (std::none_of(turns.begin(), turns.end(), is_kink)) return false;
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (is_joint(k)) sides_[k]->begin_turned(is_kink(turns[k]) ? turns[k].change : 0 * turns[k].change);
+  }
+  return true;
+}
+
+// Finds the nearest rim across from a vertex of a rim, by the shapes at the start.
+JointPress::Across JointPress::find_across(size_t own, int v) const {
+  Across best;
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (k == own) continue;
+    const RimPlace found = sides_[k]->find_rim(sides_[own]->place(v), kRules.joint.across * sides_[own]->gap());
+    if (found.first < 0 || (best.side >= 0 && found.distance >= best.place.distance)) continue;
+    best = {static_cast<int>(k), found};
+  }
+  return best;
+}
+
+// Returns by how much more a vertex of a joint rim is to move, so that both sides of the gap move by the mean of what
+// they found; where the other side is held, by what that does.
+double JointPress::find_difference(size_t own, int v) const {
+  const JointSide& side = *sides_[own];
+  const auto [number, place] = find_across(own, v);
+  if (number < 0 || !is_joint(number)) return -side.move()(v);
+  const JointSide& other = *sides_[number];
+  const auto between = [share = place.share](double a, double b) { return (1 - share) * a + share * b; };
+  const double movable = between(other.joint()(place.first), other.joint()(place.second));
+  const double across = between(other.move()(place.first), other.move()(place.second));
+  return (1 - 0.5 * movable) * (across * other.axis().dot(side.axis()) - side.move()(v));
+}
+
+void JointPress::even_rims() {
+  std::vector<Vector> changes(sides_.size());
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    changes[k] = Vector::Zero(sides_[k]->joint().size());
+    for (int v = 0; v < changes[k].size(); ++v) {
+      if (sides_[k]->joint()(v)) changes[k](v) = find_difference(k, v);
+    }
+  }
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (is_joint(k)) sides_[k]->even(changes[k]);
+  }
+  if (!is_limited()) return;
+  for (size_t k = 0; k < sides_.size(); ++k) {  // all of them, so that rims still move alike
+    if (is_joint(k)) sides_[k]->saturate();
+  }
+}
+
+bool JointPress::is_limited() const {
+  return std::any_of(sides_.begin(), sides_.end(),
+                     [](const auto& side) { return side->is_joint() && side->is_beyond_limit(); });
+}
+
+void JointPress::find_moves(const std::vector<PressAmount>& amounts) {
+  std::vector<Skin> others;
+  for (size_t k = 0; k < sides_.size(); ++k) others.push_back(others_of(k));
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (is_joint(k)) sides_[k]->press(others[k], amounts[k]);
+  }
+  even_rims();
+}
+
+void JointPress::move_jointly(const std::vector<PressAmount>& amounts) {
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (is_joint(k)) sides_[k]->begin(amounts[k]);
+  }
+  find_moves(amounts);
+  if (begin_turned()) find_moves(amounts);
+  for (int pass = 0; pass < kRules.joint.turns_after; ++pass) turn_after();
+}
+
+std::vector<SmoothPanelResult> JointPress::press_jointly(const std::vector<PressAmount>& amounts) {
+  move_jointly(amounts);
+  std::vector<SmoothPanelResult> results(sides_.size());
+  bool good = true;
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    results[k] = is_joint(k) ? sides_[k]->judge(amounts[k]) : sides_[k]->press_alone(amounts[k]);
+    if (is_joint(k)) good = good && results[k].report.applied && !has_worse_place(results[k].report.healed);
+  }
+  for (size_t k = 0; k < sides_.size() && !good; ++k) {
+    if (is_joint(k)) results[k] = sides_[k]->press_clamped(amounts[k]);
+  }
+  return results;
+}
+
+}  // namespace reflines

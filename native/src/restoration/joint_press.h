@@ -1,0 +1,44 @@
+// The press of several panels that face each other, prepared to be repeated with other amounts.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "reflines/joint_smoother.h"
+#include "restoration/joint_side.h"
+
+namespace reflines {
+
+class JointPress {
+ public:
+  // Takes what JointSmoother does, checked; of the amounts their progress alone.
+  JointPress(std::vector<JointPanel> panels, const std::vector<PressAmount>& amounts);
+
+  std::vector<SmoothPanelResult> run(std::vector<PressAmount> amounts);
+
+ private:
+  struct Across {
+    int side = -1;
+    RimPlace place{};
+  };
+
+  Positions widen(size_t k, const Positions& used_positions) const;
+  Skin others_of(size_t own) const;
+  void widen_flaws();
+  bool is_joint(size_t k) const { return sides_[k]->is_joint(); }
+  bool is_limited() const;
+  std::vector<Turn> find_turns(double lengths) const;
+  void turn_after();
+  bool begin_turned();
+  Across find_across(size_t own, int v) const;
+  double find_difference(size_t own, int v) const;
+  void even_rims();
+  void find_moves(const std::vector<PressAmount>& amounts);
+  void move_jointly(const std::vector<PressAmount>& amounts);
+  std::vector<SmoothPanelResult> press_jointly(const std::vector<PressAmount>& amounts);
+
+  std::vector<JointPanel> panels_;
+  std::vector<std::unique_ptr<JointSide>> sides_;  // refer to panels_
+};
+
+}  // namespace reflines
