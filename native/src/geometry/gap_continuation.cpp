@@ -63,13 +63,15 @@ std::optional<Contact> touch(const Search& search, int k, int v) {
   return Contact{k, d.norm(), (d - n * n.dot(d)).norm(), flush, *point};
 }
 
-Contact find_contact(const Search& search, int v) {
-  Contact best;
+// Returns the contacts of a border vertex, the nearest first.
+std::vector<Contact> list_contacts(const Search& search, int v) {
+  std::vector<Contact> contacts;
   for (int k = 0; k < static_cast<int>(search.sheets.list.size()); ++k) {
-    const std::optional<Contact> contact = touch(search, k, v);
-    if (contact && contact->distance < best.distance) best = *contact;
+    if (const std::optional<Contact> contact = touch(search, k, v)) contacts.push_back(*contact);
   }
-  return best;
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Contact& one, const Contact& other) { return one.distance < other.distance; });
+  return contacts;
 }
 
 // Follows the sheet outwards from a border vertex; returns the places of the rings, moved by the step.
@@ -181,8 +183,11 @@ GapContinuation continue_over_gap(const Positions& V, const Triangles& F, const 
   std::vector<std::vector<Vector3>> places(V.rows());
   run_parallel(static_cast<int>(V.rows()), 16, [&](int v) {
     if (!border.vertices(v)) return;
-    contacts[v] = find_contact(search, v);
-    if (contacts[v].sheet >= 0) places[v] = follow(search, contacts[v], v, reach);
+    for (const Contact& contact : list_contacts(search, v)) {  // at a corner one of several may not lie outwards
+      contacts[v] = contact;
+      places[v] = follow(search, contact, v, reach);
+      if (!places[v].empty()) break;
+    }
   });
   Rings rings{std::vector<std::vector<int>>(V.rows()), {}, {}};
   for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
