@@ -46,7 +46,11 @@ Mask find_facing(const Positions& region, const OpenBorder& border, const Positi
 // Names equal vertices of the triangles alike.
 void join_doubled(const Positions& V, Triangles& F) {
   std::map<std::array<double, 3>, int> first;
-  for (int& v : F.reshaped()) v = first.try_emplace({V(v, 0), V(v, 1), V(v, 2)}, v).first->second;
+  std::vector<int> name(V.rows(), -1);  // most vertices are corners of six triangles
+  for (int& v : F.reshaped()) {
+    if (name[v] < 0) name[v] = first.try_emplace({V(v, 0), V(v, 1), V(v, 2)}, v).first->second;
+    v = name[v];
+  }
 }
 
 std::vector<std::vector<int>> find_components(const Triangles& neighbors) {

@@ -22,7 +22,7 @@ namespace reflines {
 namespace {
 
 constexpr double kNear = 0.25;    // diagonals of a part within which its other sides lie
-constexpr double kSparse = 0.25;  // diagonals of the region: lines further apart have no angle that is seen
+constexpr double kSparse = 0.05;  // diagonals of the region: lines further apart have no angle that is seen
 constexpr double kCorner = 0.77;  // cosine of 40 degrees, by which a border turns at a corner
 constexpr size_t kFewest = 3;     // edges of a shut line
 
