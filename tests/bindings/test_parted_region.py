@@ -83,3 +83,12 @@ def test_a_gap_that_is_no_length_is_refused() -> None:
     (V, F), _ = parts(0.0)
     with pytest.raises(reflines.InvalidInput, match="gap between parts"):
         reflines.smooth_panel(V, F, **DIRECTIONS, parts_gap=-1.0)
+
+
+def test_a_scrap_that_touches_keeps_nothing_from_being_healed() -> None:
+    """A part without an inner vertex stays as it is."""
+    (V, F), (W, G) = parts(0.0)
+    corner = V[np.argmax(np.where(rim(V, 0.0), V[:, 1], -1.0))]
+    scrap = corner + np.array([[0.0, 0.0, 0.0], [0.02, 0.0, 0.0], [0.0, 0.02, 0.0]])
+    (left, _, last), told = press((change(V, dent(V)), F), (change(W, dent(W)), G), (scrap, np.array([[0, 1, 2]])))
+    assert told.applied and off(left).max() < 0.3 * np.abs(dent(V)).max() and np.array_equal(last, scrap)

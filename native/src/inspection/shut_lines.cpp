@@ -151,8 +151,9 @@ void judge(const ShutLineOptions& marks, ShutLines& lines) {
                                    compare_values(first.line_offset(k), last.line_offset(k), marks.line_offset)}));
   }
   for (const ShutLine& line : lines.list) {
-    const double smallest = line.rows.front().after;
-    for (const int k : line.edges) lines.passes(k) = lines.passes(k) && last.gap(k) - smallest <= marks.uneven;
+    const double middle = 0.5 * (line.rows[0].after + line.rows[1].after);  // of the smallest and largest gap
+    for (const int k : line.edges)
+      lines.passes(k) = lines.passes(k) && std::abs(last.gap(k) - middle) <= 0.5 * marks.uneven;
   }
 }
 

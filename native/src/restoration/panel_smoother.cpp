@@ -65,8 +65,9 @@ class MeshPress : public Press {
 
 std::unique_ptr<Press> prepare_mesh(const Positions& V, const Triangles& F, const Vector3& view, const Vector3& lines,
                                     const SmoothPanelOptions& options, const PressAmount& amount) {
-  std::unique_ptr<Press> parted = prepare_parted_region(V, F, view, lines, options, amount);
-  return parted ? std::move(parted) : std::make_unique<MeshPress>(V, F, view, lines, options, amount);
+  const PreparePress prepare_whole = [=] { return std::make_unique<MeshPress>(V, F, view, lines, options, amount); };
+  std::unique_ptr<Press> parted = prepare_parted_region(V, F, view, lines, options, amount, prepare_whole);
+  return parted ? std::move(parted) : prepare_whole();
 }
 
 class CagePress : public Press {

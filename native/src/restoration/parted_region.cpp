@@ -10,6 +10,7 @@
 #include "base/union_find.h"
 #include "geometry/bounding_box.h"
 #include "geometry/mesh.h"
+#include "reflines/errors.h"
 #include "restoration/joint_press.h"
 #include "restoration/merged_report.h"
 #include "restoration/press_rules.h"
@@ -74,6 +75,11 @@ Triangles list_others(const Whole& whole, size_t own) {
   return whole.F(others, Eigen::all);
 }
 
+bool has_inner_vertex(const Whole& whole, const std::vector<int>& triangles) {
+  const UsedVertices used = find_used_vertices(whole.F(triangles, Eigen::all), static_cast<int>(whole.V.rows()));
+  return !find_border_vertices(used.F, static_cast<int>(used.index.size())).all();
+}
+
 // Marks the vertices (#V) of a part at which its border goes on into another one and may move.
 Mask find_facing(const Whole& whole, size_t own) {
   const auto count = static_cast<int>(whole.V.rows());
@@ -131,15 +137,28 @@ double measure_area(const Positions& V, const Triangles& F, const std::vector<in
 class PartedPress : public Press {
  public:
   PartedPress(const Whole& whole, Lists lists, std::vector<JointPanel> panels, const Vector3& view,
-              const PressAmount& amount)
+              const PressAmount& amount, PreparePress prepare_whole)
       : V_(whole.V),
         F_(whole.F),
         axis_(view.normalized()),
         partner_(whole.options.partner),
         lists_(std::move(lists)),
+        prepare_whole_(std::move(prepare_whole)),
         press_(std::move(panels), std::vector<PressAmount>(lists_.size(), amount)) {}
 
   SmoothPanelResult run(const PressAmount& amount) override {
+    try {
+      if (!whole_) return run_parts(amount);
+    } catch (const InvalidInput&) {  // what one part cannot is no reason to refuse the others
+      whole_ = prepare_whole_();
+    } catch (const SolverFailure&) {
+      whole_ = prepare_whole_();
+    }
+    return whole_->run(amount);
+  }
+
+ private:
+  SmoothPanelResult run_parts(const PressAmount& amount) {
     const std::vector<SmoothPanelResult> results = press_.run(std::vector<PressAmount>(lists_.size(), amount));
     std::vector<PressedPart> pressed;
     Positions positions = V_;
@@ -154,7 +173,6 @@ class PartedPress : public Press {
     return {std::move(positions), merge_reports(pressed, F_.rows())};
   }
 
- private:
   // Gives vertices of the region that lie on each other the mean of their moves.
   void even_doubled(Positions& positions) const {
     std::map<std::array<double, 3>, std::vector<int>> at;
@@ -184,14 +202,16 @@ class PartedPress : public Press {
   Vector3 axis_;
   IndexVector partner_;
   Lists lists_;  // the triangles of each panel
+  PreparePress prepare_whole_;
   JointPress press_;
+  std::unique_ptr<Press> whole_;  // null while the parts can be solved
 };
 
 }  // namespace
 
 std::unique_ptr<Press> prepare_parted_region(const Positions& V, const Triangles& F, const Vector3& view,
                                              const Vector3& lines, const SmoothPanelOptions& options,
-                                             const PressAmount& amount) {
+                                             const PressAmount& amount, const PreparePress& prepare_whole) {
   if (options.fair_border.any() || continues_curvature(options.border)) return nullptr;
   Whole whole{V, F, options, find_parts(F), {}};
   if (whole.parts.size() < 2 || static_cast<int>(whole.parts.size()) > kRules.joint.most_parts) return nullptr;
@@ -209,7 +229,8 @@ std::unique_ptr<Press> prepare_parted_region(const Positions& V, const Triangles
   std::vector<int> alone;  // triangles of the parts that face no other: one panel
   std::vector<JointPanel> panels;
   for (size_t k = 0; k < whole.parts.size(); ++k) {
-    const Mask facing = find_facing(whole, k);
+    const Mask facing =
+        has_inner_vertex(whole, whole.parts[k]) ? find_facing(whole, k) : Mask(Mask::Constant(V.rows(), false));
     if (!facing.any()) {
       alone.insert(alone.end(), whole.parts[k].begin(), whole.parts[k].end());
       continue;
@@ -218,11 +239,11 @@ std::unique_ptr<Press> prepare_parted_region(const Positions& V, const Triangles
     lists.push_back(whole.parts[k]);
   }
   if (panels.empty()) return nullptr;
-  if (!alone.empty()) {
+  if (has_inner_vertex(whole, alone)) {
     panels.push_back(build_panel(whole, alone, Mask::Constant(V.rows(), false), view, lines));
     lists.push_back(alone);
   }
-  return std::make_unique<PartedPress>(whole, std::move(lists), std::move(panels), view, amount);
+  return std::make_unique<PartedPress>(whole, std::move(lists), std::move(panels), view, amount, prepare_whole);
 }
 
 }  // namespace reflines
