@@ -62,8 +62,8 @@ def count_edges(count: int) -> str:
 
 
 def find_unjoined(scene: bpy.types.Scene, ob: bpy.types.Object, patch: Patch, *, within: bool) -> UnjoinedBorder:
-    """Finds the edges of a region's border that lie on open edges of its mesh or of other visible objects; `within` also
-    those that lie on the region's own.
+    """Finds the edges of a region's border that lie on open edges of its mesh or of other visible objects; `within`
+    also those that lie on the region's own.
     """
     if len(patch.faces) != len(ob.data.polygons):
         return UnjoinedBorder()

@@ -1,4 +1,4 @@
-"""Parts of one region that no edge joins but that touch: lines are smoothed as if they were joined, and nothing tears."""
+"""Parts of one region that touch without a common edge: lines are smoothed as if joined, and nothing tears."""
 import numpy as np
 import pytest
 import reflines

@@ -22,8 +22,8 @@ struct JointPanel {
   Positions V_beside;  // #W x 3: what stays
   Triangles F_beside;  // #G x 3
   GapOptions gap;
-  // Whether border vertices with Border::kFollow that `options.around` has triangles at follow these, as in
-  // smooth_panel, instead of `V_beside`.
+  // True: border vertices with Border::kFollow that `options.around` has triangles at follow these, as in smooth_panel,
+  // instead of `V_beside`.
   bool around_is_followed = false;
 };
 
