@@ -37,7 +37,7 @@ OPERATIONS = (
         direction='ANGLE', angle=0.35, border='free', centre='EVERYWHERE')),
     Operation("density", "plate.blend", lambda: bpy.ops.reflines.direction(
         density=1.8, centre='REGION', radius=0.4, border='clamped')),
-    Operation("untwist", "fender.blend", lambda: bpy.ops.reflines.untwist()),
+    Operation("turn", "fender.blend", lambda: bpy.ops.reflines.direction()),
     Operation("warp", "hood_warp.blend", lambda: bpy.ops.reflines.warp()),
     Operation("cage", "cage_hood.blend", lambda: bpy.ops.reflines.smooth()),
     Operation("cage_creased", "cage_fender.blend", lambda: bpy.ops.reflines.smooth()),

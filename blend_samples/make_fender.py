@@ -21,9 +21,9 @@ def main() -> None:
     fender = studio.stage("Fender", V, quads, np.ones(len(V), bool), SHOT)
     y, z = panel_shapes.TWIST_CENTRE
     bpy.context.scene.cursor.location = (panel_shapes.fender_clean(y, z), y, z)
-    settings = bpy.context.scene.reflection_lines.untwist
+    settings = bpy.context.scene.reflection_lines.direction
     settings.angle, settings.centre = 0.8 * panel_shapes.TWIST, 'CURSOR'
-    settings.border = 'free'  # of a whole fender: no face beside it could be creased
+    bpy.context.scene.reflection_lines.border = 'free'  # of a whole fender: no face beside it could be creased
     settings.radius = 1.4 * panel_shapes.TWIST_RADIUS
     studio.save(fender, str(HERE / "fender.blend"))
 

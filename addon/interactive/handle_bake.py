@@ -48,14 +48,14 @@ class HandleBake:
         self.lines = LineBuild(scene)
         self.progress = native.reflines.Progress()
 
-    def begin(self, start: int, end: int, step: int) -> None:
+    def begin(self, step: int) -> None:
         """Finds the frames and the start, in Object Mode, where shape keys are made; refuses what cannot be baked."""
         ob = bpy.data.objects[self.name]
         if ob.mode != 'OBJECT':
             bpy.ops.object.mode_set(mode='OBJECT')
         if not ob.reflection_lines.handles.read(ob.data):
             raise Refusal(f"{ob.name} has no handles: pull a line first")
-        self.frames = choose_frames(ob, start, end, step)
+        self.frames = choose_frames(ob, step)
         self.run = read_run(ob)
         self.start = read_start(ob, self.run.result)
         baked_keys.refuse_foreign_action(ob)
@@ -154,15 +154,19 @@ class HandleBake:
                 f"({self.name})")
 
 
-def choose_frames(ob: bpy.types.Object, start: int, end: int, step: int) -> tuple[float, ...]:
-    """Returns the frames to bake; refuses handles that no key or driver changes."""
+def choose_frames(ob: bpy.types.Object, step: int) -> tuple[float, ...]:
+    """Returns the frames to bake: within the preview range where that is in use, else within the keys, or of handles
+    that only drivers change within the scene; refuses handles that neither changes.
+    """
     keyed = handle_keys.list_keyed_frames(ob)
     if not keyed and not handle_keys.has_animated_handles(ob):
         raise Refusal(f"The handles of {ob.name} have no keys: key the place of a handle first, by a right click on it "
                       "in the sidebar")
-    if not keyed and end <= start:
-        raise Refusal(f"The handles of {ob.name} have no keys of their own: give the range by Start and End")
-    return bake_frames.choose_frames(keyed, start, end, step)
+    scene = bpy.context.scene
+    first, last = (min(keyed), max(keyed)) if keyed else (scene.frame_start, scene.frame_end)
+    if scene.use_preview_range:
+        first, last = scene.frame_preview_start, scene.frame_preview_end
+    return bake_frames.choose_frames(keyed, first, last, step)
 
 
 def read_run(ob: bpy.types.Object) -> line_run.LineRun:

@@ -15,8 +15,6 @@ class InspectionRequest:
     """A request for one inspection."""
     patch: Patch
     wanted: Inspected
-    flaw_size: float
-    noise_floor: float
 
 
 @dataclass(frozen=True)
@@ -38,8 +36,7 @@ class InspectionJob:
     async def run(self, request: InspectionRequest) -> InspectionOutcome:
         try:
             with live_optimizer.convert_native_errors(request.patch):
-                return InspectionOutcome(await panel_inspection.inspect_surface(
-                    request.wanted, request.flaw_size, request.noise_floor, self.progress))
+                return InspectionOutcome(await panel_inspection.inspect_surface(request.wanted, self.progress))
         except Refusal as refusal:
             return InspectionOutcome(refusal=str(refusal))
         except native.Cancelled as cancelled:

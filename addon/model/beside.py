@@ -8,7 +8,6 @@ import numpy as np
 @dataclass(frozen=True)
 class Crossing:
     """The choice of what a border follows."""
-    gap: float        # widest gap that is crossed, world units; 0: automatic
     everywhere: bool  # whether the whole border does, or only the segments that are set so
     joint: frozenset[str] = frozenset()  # names of objects that are solved with this one
 
@@ -18,7 +17,7 @@ class Beside:
     """Triangles beside a region, in world space, whose normals point outwards."""
     V: np.ndarray  # #S x 3
     F: np.ndarray  # #G x 3
-    gap: float     # see Crossing
+    gap: float     # widest gap that is crossed, world units
     reach: float   # how far beyond the gap they were read, world units
 
     def same(self, other: "Beside") -> bool:

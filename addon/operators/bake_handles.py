@@ -36,11 +36,10 @@ the scene moves the panel"""
         """Begins the bake; settings that are not given are the scene's."""
         context.view_layer.update()
         settings = context.scene.reflection_lines.bake
-        for name in ("start", "end", "step"):
-            if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(settings, name))
+        if not self.properties.is_property_set("step"):
+            self.step = settings.step
         self.bake = HandleBake(context.scene, scene_objects.find_active_object(context))
-        self.bake.begin(self.start, self.end, self.step)
+        self.bake.begin(self.step)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:

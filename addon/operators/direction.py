@@ -19,8 +19,8 @@ from .dragged_tool import DraggedTool, build_radius_handle
 
 
 class REFLINES_OT_direction(DraggedTool, DirectionSettings, bpy.types.Operator):
-    """Move the vertices of the selected faces along the view so that their reflection lines run in one direction,
-evenly spaced"""
+    """Move the vertices of the selected faces along the view so that their reflection lines turn, run straight in one
+direction, or lie closer together"""
     bl_idname = "reflines.direction"
     bl_label = "Direction and Density"
 
@@ -29,7 +29,7 @@ evenly spaced"""
 
     def build_handles(self) -> tuple[Handle, ...]:
         angle = Handle("angle", "Angle", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE')
-        return (*([angle] if self.direction == 'ANGLE' else []),
+        return (*([angle] if self.direction in {'PRESENT', 'ANGLE'} else []),
                 Handle("density", "Density", per_pixel=1.0 / 150.0, low=1e-3, high=1e6, doubles=True),
                 Handle("strength", "Strength", per_pixel=1.0 / 300.0, low=0.0, high=1.0),
                 *build_radius_handle(self.centre))
@@ -40,12 +40,16 @@ evenly spaced"""
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         scene = context.scene
         settings = Direction(
-            self.find_line_direction(scene), self.density, self.density_end, self.axis,
+            self.find_line_direction(scene), self.angle, self.density, self.density_end, self.axis,
             strength=self.strength, falloff=self.read_falloff(context, ob, patch))
         return partial(direction.build_direction_target, settings=settings)
 
-    def find_line_direction(self, scene: bpy.types.Scene) -> np.ndarray:
-        """Returns the wanted direction of the lines in world space; zero stands for the region's mean."""
+    def find_line_direction(self, scene: bpy.types.Scene) -> np.ndarray | None:
+        """Returns the direction of straight lines in world space, where zero stands for the region's mean; None where
+        lines keep their course.
+        """
+        if self.direction == 'PRESENT':
+            return None
         if self.direction == 'ANGLE':
             return view_and_light.find_picture_direction(scene.reflection_lines.camera, self.angle)
         if self.direction == 'MEAN':

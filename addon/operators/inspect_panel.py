@@ -1,7 +1,7 @@
 """The operator Inspect."""
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty
+from bpy.props import EnumProperty
 
 from ..interactive import running_operators
 from ..interactive.inspection_job import InspectionJob, InspectionOutcome, InspectionRequest
@@ -30,10 +30,6 @@ of the set. Nothing is changed; Esc cancels"""
 
     lights: EnumProperty(name="Lights", items=LIGHTS, default='WALK', options={'SKIP_SAVE'},
                          description="In which lights and from where the panel is looked at")
-    flaw_size: FloatProperty(name="Flaw Size", default=1.0, min=0.1, max=10.0, description="Size of the flaws to look "
-                             "for, relative to the automatic one, which is a 14th of the panel's diagonal")
-    noise_floor: FloatProperty(name="Noise Floor", default=0.1, min=0.01, max=45.0,
-                               description="Degrees: places whose lines deviate by less are not listed")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -50,7 +46,7 @@ of the set. Nothing is changed; Esc cancels"""
         try:
             request = self.build_request(context, ob)
             with live_optimizer.convert_native_errors(request.patch):
-                found = run_now(panel_inspection.inspect_surface(request.wanted, self.flaw_size, self.noise_floor))
+                found = run_now(panel_inspection.inspect_surface(request.wanted))
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
@@ -69,11 +65,11 @@ of the set. Nothing is changed; Esc cancels"""
         if self.lights == 'SET' and light_set is None:
             raise Refusal("The set has no light that can be used: add one, or walk around")
         wanted = Inspected(surface, facing.read_patch_view(context.scene, patch), up, patch.center, light_set)
-        return InspectionRequest(patch, wanted, self.flaw_size, self.noise_floor)
+        return InspectionRequest(patch, wanted)
 
     def store(self, ob: bpy.types.Object, found: Inspection) -> None:
         stored = ob.reflection_lines.inspection
-        stored.fill(found, self.noise_floor)
+        stored.fill(found, panel_inspection.NOISE_FLOOR)
         self.report({'INFO'}, f"{ob.name}: {stored.summary}")
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:

@@ -3,7 +3,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 
 # The look: what belongs to a scene, as its collection, image and frozen eye, is no part of a preset.
-LOOK = ("mode", "eye", "per_point", "scope", "image_rotation", "map_range", "cage_on_top", "count", "width", "softness",
+LOOK = ("mode", "eye", "scope", "image_rotation", "count", "width", "softness",
         "color", "gap_color", "opacity")
 
 

@@ -137,7 +137,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         if not self.is_automatic():
             return None
         joint = [ob.name for ob in self.find_subjects(bpy.context) if ob.mode == 'EDIT']
-        return Crossing(self.gap, self.border == 'follow', frozenset(joint))
+        return Crossing(self.border == 'follow', frozenset(joint))
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         """Returns the objects in the order of their names, so that no result depends on the order of their selection.

@@ -16,6 +16,7 @@ from ..read import gather, modifiers, read_mesh, region_faces, scene_objects, sh
 from ..read.mesh_checks import Purpose
 from ..solver.live_optimizer import BuildTarget
 from ..state import optimizer_cache, press_cache, solve_history
+from ..ui import automatic_values
 from ..ui.properties import result_property, solve_for_property
 from ..ui.tool_properties import border_property
 from ..view import facing, read_light_set, view_and_light
@@ -83,8 +84,9 @@ class SolveTool:
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         for about in self.properties.bl_rna.properties:
-            if about.identifier != "rna_type" and not about.is_hidden and self.has_use(context, about.identifier):
-                layout.prop(self, about.identifier)
+            name = about.identifier
+            if name != "rna_type" and not about.is_hidden and self.has_use(context, name):
+                automatic_values.draw_plain_value(layout, self, name)
 
     def has_use(self, context: bpy.types.Context, name: str) -> bool:
         """Returns whether a setting acts: what is solved for can be chosen where there is a cage."""

@@ -2,7 +2,7 @@
 from math import radians
 
 import bpy
-from bpy.props import IntProperty
+from bpy.props import BoolProperty, IntProperty
 from mathutils import Vector
 
 from ..read import scene_objects
@@ -11,12 +11,6 @@ from ..write import select_faces
 
 FRAMED = 5.0  # sizes of the spot that the view shows
 ELSEWHERE = radians(2.0)  # from the view camera's direction
-
-
-def has_spots(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    ob = scene_objects.read_active_object(context)
-    operator.poll_message_set("Make a panel active that was inspected and has spots")
-    return ob is not None and ob.type == 'MESH' and len(ob.reflection_lines.inspection.spots) > 0
 
 
 def show_spot(context: bpy.types.Context, ob: bpy.types.Object, index: int) -> str:
@@ -76,47 +70,47 @@ are selected"""
 
     index: IntProperty(name="Spot", min=-1, default=-1, options={'HIDDEN', 'SKIP_SAVE'},
                        description="From 0, the worst; -1: the next one, after the last the first")
+    worse: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Show the place that the last press made worse")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip of a spot's line; empty for the button, which has the docstring."""
+        """Returns the tooltip of a spot's line and of the result's button; empty for the other, which has the
+        docstring.
+        """
+        if properties.worse:
+            return ("Look at the place that the last press made worse: the view frames it, the light turns to the one "
+                    "in which it is worse, and its faces are selected")
         return ("Look at this spot: the view frames it, the light turns to what shows it best, and its faces are "
                 "selected") if properties.index >= 0 else ""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return has_spots(cls, context)
+        ob = scene_objects.read_active_object(context)
+        cls.poll_message_set("Make a panel active that was inspected and has spots")
+        return ob is not None and ob.type == 'MESH' and (len(ob.reflection_lines.inspection.spots) > 0
+                                                         or ob.reflection_lines.report.worse != "")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = scene_objects.read_active_object(context)
+        if self.worse:
+            return self.show_worse(context, ob)
         stored = ob.reflection_lines.inspection
         count = len(stored.spots)
-        if self.index >= count:
-            self.report({'ERROR'}, f"{ob.name} has {count} spots: there is no number {self.index + 1}")
+        if self.index >= count or not count:
+            missing = f"there is no number {self.index + 1}" if count else "press Inspect first"
+            self.report({'ERROR'}, f"{ob.name} has {count} spots: {missing}")
             return {'CANCELLED'}
         index = (stored.active + 1) % count if self.index < 0 else self.index
         self.report({'INFO'}, show_spot(context, ob, index))
         return {'FINISHED'}
 
-
-class REFLINES_OT_show_worse(bpy.types.Operator):
-    """Look at the place that the last run made worse: the view frames it from where it shows, the light turns to the
-one in which it is worse, and its faces are selected"""
-    bl_idname = "reflines.show_worse"
-    bl_label = "Show Worse Place"
-    bl_options = {'REGISTER', 'UNDO'}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        ob = scene_objects.read_active_object(context)
-        cls.poll_message_set("Make a panel active on which a tool made a place worse")
-        return ob is not None and ob.type == 'MESH' and ob.reflection_lines.report.worse != ""
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        ob = scene_objects.read_active_object(context)
+    def show_worse(self, context: bpy.types.Context, ob: bpy.types.Object) -> set[str]:
+        if not ob.reflection_lines.report.worse:
+            self.report({'ERROR'}, f"{ob.name}: the last press made no place worse")
+            return {'CANCELLED'}
         look_at_spot(context, ob, ob.reflection_lines.report.worse_spot)
         self.report({'INFO'}, f"{ob.name}: {ob.reflection_lines.report.worse}")
         return {'FINISHED'}
 
 
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_show_spot, REFLINES_OT_show_worse])
+register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_show_spot])

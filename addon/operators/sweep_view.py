@@ -28,9 +28,10 @@ it about the vertical, the wheel tilts it; the lights stay where they are"""
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
     navigates = False
 
-    turn: FloatProperty(name="Turn", subtype='ANGLE', options={'SKIP_SAVE'},
+    turn: FloatProperty(name="Turn", subtype='ANGLE', options={'HIDDEN', 'SKIP_SAVE'},
                         description="Of the view about the vertical, from where it is")
-    tilt: FloatProperty(name="Tilt", subtype='ANGLE', min=-TILT_LIMIT, max=TILT_LIMIT, options={'SKIP_SAVE'},
+    tilt: FloatProperty(name="Tilt", subtype='ANGLE', min=-TILT_LIMIT, max=TILT_LIMIT,
+                        options={'HIDDEN', 'SKIP_SAVE'},
                         description="Of the view up or down, from where it is")
 
     @classmethod

@@ -236,7 +236,7 @@ def build_map(settings: bpy.types.PropertyGroup, solution: LastSolve) -> tuple[n
     if settings.mode == 'VERDICT':
         return solve_maps.build_verdict_map(solution)
     make = solve_maps.build_residual_map if settings.mode == 'RESIDUAL' else solve_maps.build_deviation_map
-    return make(solution, settings.map_range)
+    return make(solution)
 
 
 def build_shape_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,

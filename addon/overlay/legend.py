@@ -28,7 +28,7 @@ def find_full_value(context: bpy.types.Context, settings: bpy.types.PropertyGrou
         solution = solve_history.find_last_solve(ob.name_full)
         if solution is not None:
             values = solve_maps.compute_values(solution, settings.mode)
-            return settings.map_range or float(np.abs(values).max(initial=0.0))
+            return float(np.abs(values).max(initial=0.0))
     return None
 
 

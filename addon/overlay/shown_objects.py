@@ -100,10 +100,11 @@ def explain_light(scene: bpy.types.Scene, ob: bpy.types.Object) -> str:
     """Says what the directions of view and light lack for stripes on an object."""
     settings = scene.reflection_lines
     if not settings.present(settings.light):
-        return settings.describe_absent(settings.light) or "No light direction: press Add Light Direction"
+        return settings.describe_absent(settings.light) or (
+            "No light direction: press Add Light Direction in View and Light")
     if settings.picture_camera() is None:
         return settings.describe_absent(settings.camera) or (
-            "No view camera: the stripes are as this view sees them. Press Add View Camera")
+            "No view camera: the stripes are as this view sees them. Press Set Up from This View")
     center = np.array(view_and_light.measure_extent(ob)[0])
     try:
         view = view_and_light.build_view(settings.camera, settings.light, center)

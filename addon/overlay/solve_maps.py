@@ -35,12 +35,12 @@ def has_moved(solution: LastSolve) -> bool:
     return not np.array_equal(left, before)
 
 
-def build_residual_map(solution: LastSolve, full: float) -> Arrays:
+def build_residual_map(solution: LastSolve) -> Arrays:
     """Builds the map of the residual, constant on each triangle, so with own vertices; empty where it is not known."""
     F = solution.patch.F if len(solution.residual) == len(solution.patch.F) else solution.patch.F[:0]
     residual = solution.residual[:len(F)]
     V = compute_left_positions(solution)[F].reshape(-1, 3)
-    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(scale_values(residual, full), 3)
+    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(scale_values(residual), 3)
 
 
 def build_verdict_map(solution: LastSolve) -> Arrays:
@@ -52,10 +52,10 @@ def build_verdict_map(solution: LastSolve) -> Arrays:
     return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(verdict, 3)
 
 
-def build_deviation_map(solution: LastSolve, full: float) -> Arrays:
+def build_deviation_map(solution: LastSolve) -> Arrays:
     """Builds the map of the distances that the vertices moved, positive outwards."""
     V = compute_left_positions(solution)
-    return V, solution.patch.F, np.zeros_like(V), scale_values(compute_values(solution, 'DEVIATION'), full)
+    return V, solution.patch.F, np.zeros_like(V), scale_values(compute_values(solution, 'DEVIATION'))
 
 
 def compute_values(solution: LastSolve, mode: str) -> np.ndarray:
@@ -71,6 +71,6 @@ def compute_values(solution: LastSolve, mode: str) -> np.ndarray:
     return np.copysign(np.linalg.norm(move, axis=1), outwards)
 
 
-def scale_values(values: np.ndarray, full: float) -> np.ndarray:
-    """Returns the values as shares of `full`, or of the largest where that is 0."""
-    return values / (full or np.abs(values).max(initial=0.0) or 1.0)
+def scale_values(values: np.ndarray) -> np.ndarray:
+    """Returns the values as shares of the largest."""
+    return values / (np.abs(values).max(initial=0.0) or 1.0)

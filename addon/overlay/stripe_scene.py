@@ -23,8 +23,7 @@ def is_split(settings: bpy.types.PropertyGroup) -> bool:
 def identify_content(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> tuple:
     """Returns the settings that determine what is uploaded; all others change uniforms only."""
     is_map = settings.mode in MAPS
-    return is_map and settings.mode, is_map and settings.map_range, settings.before, is_part_only(ob, settings), \
-        is_split(settings)
+    return is_map and settings.mode, settings.before, is_part_only(ob, settings), is_split(settings)
 
 
 def is_part_only(ob: bpy.types.Object, settings: bpy.types.PropertyGroup) -> bool:
@@ -58,9 +57,7 @@ def choose_eye(context: bpy.types.Context, settings: bpy.types.PropertyGroup, ob
         return build_frozen_eye(np.array(settings.frozen_eye, dtype=np.float64), center)
     if settings.eye != 'CAMERA' or seen is None:
         return build_viewport_eye(context.region_data)
-    scene = context.scene.reflection_lines
-    place = np.array(scene.camera.matrix_world.translation, dtype=np.float64)
-    return Eye(seen, place if settings.per_point and scene.is_perspective() else None)
+    return Eye(seen, None)  # one direction for the whole panel, as the solver takes it
 
 
 def build_frozen_eye(value: np.ndarray, center: np.ndarray) -> Eye:

@@ -23,7 +23,7 @@ def read_beside(ob: bpy.types.Object, patch: Patch, whole: np.ndarray, crossing:
     visible faces, and those of other objects as their modifiers leave them. In Edit Mode the mesh must have been
     updated from it. Nothing of it is changed.
     """
-    gap = crossing.gap or native.reflines.AUTOMATIC_GAP * patch.diagonal
+    gap = native.reflines.AUTOMATIC_GAP * patch.diagonal
     reach = REACH_MARGIN * native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * patch.diagonal
     low, high = compute_bounds(patch.V)
     box = low - gap - reach, high + gap + reach

@@ -11,6 +11,7 @@ from ..model.light_set import LightSet
 from ..model.view import View
 from ..native_call import call
 
+NOISE_FLOOR = 0.1  # degrees: places whose lines deviate by less are not listed
 LEAST_SEEN = 0.05  # share of the panel: a view that sees less of it does not tell of it
 
 
@@ -60,12 +61,11 @@ def find_unique(directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return directions[first[order]], np.argsort(order)[number.ravel()]
 
 
-async def inspect_surface(wanted: Inspected, flaw_size: float, noise_floor: float,
-                          progress: "native.Progress | None" = None) -> Inspection:
+async def inspect_surface(wanted: Inspected, progress: "native.Progress | None" = None) -> Inspection:
     """Inspects the region of a surface; all else of the surface may hide it. Raises the native module's errors."""
     surface = wanted.surface
-    look = partial(call, native.reflines.inspect_panel, surface.after, surface.F[surface.region], flaw_size=flaw_size,
-                   noise_floor=noise_floor, blockers=choose_blockers(surface), progress=progress)
+    look = partial(call, native.reflines.inspect_panel, surface.after, surface.F[surface.region], flaw_size=1.0,
+                   noise_floor=NOISE_FLOOR, blockers=choose_blockers(surface), progress=progress)
     if wanted.light_set is not None:
         pairs = Pairs(wanted)
         return pairs.read(await look(views=pairs.views, lines=pairs.lines, pairs=pairs.mask))

@@ -1,4 +1,4 @@
-"""The target of lines of one direction and density."""
+"""The target of lines of another direction and density."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,11 +10,12 @@ from .falloff import Falloff, compute_influence, compute_weight, project_to_plan
 
 @dataclass(frozen=True)
 class Direction:
-    """The wanted direction, in world space, and density. A zero direction keeps the mean direction of the region's
-    lines.
+    """The wanted direction and density. Straight lines run in a direction of world space, or where that is zero in the
+    mean direction of the region's; without a direction lines keep their course, turned by the angle.
     """
-    direction: np.ndarray      # 3
-    density: float = 1.0       # a factor of the mean's
+    direction: np.ndarray | None = None  # 3
+    angle: float = 0.0         # radians, counter-clockwise as the viewer sees it; of lines that keep their course
+    density: float = 1.0       # a factor: of the mean, or of each place's own where lines keep their course
     density_end: float = 1.0   # at the far end of the axis
     axis: str = 'NONE'         # along which the density varies: 'ALONG' or 'ACROSS' the lines
     strength: float = 1.0
@@ -22,16 +23,17 @@ class Direction:
 
 
 async def build_direction_target(optimizer: "native.ShapeOptimizer", settings: Direction) -> "native.Target":
-    """Builds a target of constant direction and linearly varying density, blended with the present lines by the
-    influence.
+    """Builds a target of that direction and linearly varying density, blended with the present lines by the influence.
     """
     influence = await compute_influence(optimizer, settings.falloff, settings.strength)
-    direction = project_to_plane(optimizer, settings.direction)
+    straight = settings.direction is not None
+    direction = project_to_plane(optimizer, settings.direction) if straight else np.zeros(2)
     axis = compute_density_axis(optimizer, direction, settings.axis)
-    return await call(
-        native.reflines.uniform, optimizer, direction=direction, density=settings.density,
-        relative=True, density_end=settings.density_end if axis.any() else -1.0, axis=axis,
-        influence=influence, weight=compute_weight(influence))
+    wanted = {"density": settings.density, "density_end": settings.density_end if axis.any() else -1.0, "axis": axis,
+              "influence": influence, "weight": compute_weight(influence)}
+    if straight:
+        return await call(native.reflines.uniform, optimizer, direction=direction, relative=True, **wanted)
+    return await call(native.reflines.turn, optimizer, angle=settings.angle, **wanted)
 
 
 def compute_density_axis(optimizer: "native.ShapeOptimizer", direction: np.ndarray, kind: str) -> np.ndarray:

@@ -1,10 +1,13 @@
-"""Lengths for which 0 means automatic: they are drawn as what 0 stood for in the last run, beside a switch."""
+"""Lengths for which 0 means automatic: they are drawn as what 0 stood for in the last run, where that is told, beside a
+switch.
+"""
 import bpy
 from bpy.props import BoolProperty, FloatProperty
 
 from ..blender import units
 
-UNKNOWN_SHARE = 0.01  # of the object's size: what the switch turned off begins with where no run told a value
+# Of the object's size: what the switch turned off begins with where no run told a value.
+UNKNOWN_SHARES = {"length": 0.01, "limit": 0.01, "radius": 0.25, "width": 0.5}
 HIDDEN = {'options': {'HIDDEN', 'SKIP_SAVE'}}  # they are other faces of a setting, which keeps the value
 
 
@@ -13,13 +16,15 @@ def find_automatic_value(name: str) -> float:
     is not known.
     """
     ob = bpy.context.view_layer.objects.active
-    return float(f"{getattr(ob.reflection_lines.report, f'automatic_{name}'):.2g}") if ob is not None else 0.0
+    told = getattr(ob.reflection_lines.report, f"automatic_{name}", 0.0) if ob is not None else 0.0
+    return float(f"{told:.2g}")
 
 
 def choose_own_value(name: str) -> float:
     """Returns the value that a setting begins with when it is automatic no longer."""
     ob = bpy.context.view_layer.objects.active
-    return find_automatic_value(name) or UNKNOWN_SHARE * (ob.dimensions.length if ob is not None else 0.0) or 1.0
+    unknown = UNKNOWN_SHARES[name] * (ob.dimensions.length if ob is not None else 0.0)
+    return find_automatic_value(name) or unknown or 1.0
 
 
 def shown_property(name: str, label: str) -> object:
@@ -49,10 +54,14 @@ def draw_value(layout: bpy.types.UILayout, settings: object, name: str) -> None:
 
 
 def draw_plain_value(layout: bpy.types.UILayout, settings: object, name: str) -> None:
-    """Draws a setting of an operator, and below it what its 0 stood for. An operator has no other faces of a setting:
-    its command, which Blender shows and the artist copies, would set the value twice.
+    """Draws a setting of an operator, and below it what its 0 stands for, where that means automatic. An operator has
+    no other faces of a setting: its command, which Blender shows and the artist copies, would set the value twice.
     """
     layout.prop(settings, name)
+    if name not in UNKNOWN_SHARES or getattr(settings, name):
+        return
     value = find_automatic_value(name)
-    if value and not getattr(settings, name):
-        layout.label(text=f"0: automatic, {units.format_length(value, bpy.context.scene, precision=2)}")
+    told = f", {units.format_length(value, bpy.context.scene, precision=2)}" if value else ""
+    row = layout.row()
+    row.active, row.alignment = False, 'RIGHT'
+    row.label(text=f"0: automatic{told}")

@@ -58,12 +58,6 @@ class VIEW3D_PT_reflines_handles(ReflinesPanel, bpy.types.Panel):
     def draw_bake(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
         column = layout.column(align=True)
         column.use_property_split, column.use_property_decorate = True, False
-        for name in ("start", "end"):
-            column.prop(settings, name)
-        if settings.end <= settings.start:
-            row = column.row()
-            row.active, row.alignment = False, 'RIGHT'
-            row.label(text="range of the keys")
         column.prop(settings, "step")
         layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
 

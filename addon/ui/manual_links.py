@@ -12,9 +12,8 @@ PAGE = Path(__file__).resolve().parents[1] / "manual" / "index.html"
 
 # Pattern of a setting's lower-case RNA identifier, and its section. Blender takes the first pattern that matches.
 SETTINGS = (
-    *((f"bpy.types.reflines{tool}.{name}", "#falloff")
-      for tool in ("direction", "untwist") for name in ("centre", "radius", "shape")),
-    *((f"bpy.types.reflines{tool}.*", f"#reflines.{tool}") for tool in ("direction", "untwist", "warp", "pattern")),
+    *((f"bpy.types.reflinesdirection.{name}", "#falloff") for name in ("centre", "radius", "shape")),
+    *((f"bpy.types.reflines{tool}.*", f"#reflines.{tool}") for tool in ("direction", "warp", "pattern")),
     ("bpy.types.reflinesscene.camera", "#view-and-light"),
     ("bpy.types.reflinesscene.light*", "#view-and-light"),
     *((f"bpy.types.reflinesscene.{name}", "#region") for name in ("border", "show_borders", "solve_for", "result")),

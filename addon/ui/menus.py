@@ -3,15 +3,13 @@ import bpy
 
 # (operator, icon), in the order of the work.
 DRAGGED = (
-    ("reflines.smooth", 'MOD_SMOOTH'), ("reflines.direction", 'ALIGN_JUSTIFY'), ("reflines.untwist", 'LOOP_BACK'),
+    ("reflines.smooth", 'MOD_SMOOTH'), ("reflines.direction", 'ALIGN_JUSTIFY'),
     ("reflines.warp", 'MOD_LATTICE'), ("reflines.pattern", 'IMAGE_DATA'),
 )
 TOOLS = (*DRAGGED, ("reflines.pull_line", 'VIEW_PAN'), ("reflines.fair_brush", 'BRUSH_DATA'),
          ("reflines.fit", 'MOD_SHRINKWRAP'))
 SETUP = (
-    ("reflines.set_up", 'VIEW_CAMERA'),
-    ("reflines.add_view_camera", 'CAMERA_DATA'),
-    ("reflines.look_through", 'HIDE_OFF'), ("reflines.add_light_direction", 'EMPTY_SINGLE_ARROW'),
+    ("reflines.set_up", 'VIEW_CAMERA'), ("reflines.look_through", 'HIDE_OFF'),
     ("reflines.sweep_light", 'LIGHT_SUN'), ("reflines.sweep_view", 'ORIENTATION_GIMBAL'),
     ("reflines.export_film", 'RENDER_ANIMATION'),
     ("reflines.add_warp_lattice", 'LATTICE_DATA'),
@@ -36,7 +34,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         stripes = context.scene.reflection_lines.stripes
         layout.prop(stripes, "show")
         layout.prop(stripes, "before")
-        layout.prop_menu_enum(stripes, "mode")
+        layout.prop_menu_enum(stripes, "mode", text="Stripes Mode")
         layout.operator("reflines.install_matcap", icon='MATSPHERE')
         layout.operator("reflines.resolve", icon='FILE_REFRESH')
         layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')

@@ -1,6 +1,7 @@
 """The panels of the sidebar tab "Reflection": first Smooth Lines with its button, below it the result, and folded what
 is set up once (stripes, in stripes_panel.py, view and light, region), and the other tools.
 """
+import re
 import textwrap
 
 import bpy
@@ -10,14 +11,19 @@ from . import automatic_values, rows
 
 
 BIG = 1.5  # height of the one button to press, in rows
+UNITS = ("km", "m", "cm", "mm", "\u00b5m", "mi", "ft", "in", "thou")
 ENDED = {"converged", "already_optimal"}  # how a solve ends that found the best shape
+
+
+# Spaces at which no line ends: before a unit, and on both sides of an arrow.
+HELD_SPACE = re.compile(rf"(?<=\d) (?=(?:{'|'.join(UNITS)})\b)| (?=\u2192)|(?<=\u2192) ")
 
 
 def draw_paragraph(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str) -> None:
     """Draws a sentence over as many lines as the sidebar's width needs."""
     letters = max(20, int((context.region.width - 60) / (6.5 * context.preferences.system.ui_scale)))
     column = layout.column(align=True)
-    for number, line in enumerate(textwrap.wrap(text, letters)):
+    for number, line in enumerate(textwrap.wrap(HELD_SPACE.sub("\u00a0", text), letters)):
         column.label(text=line, icon='BLANK1' if number else icon)
 
 
@@ -41,10 +47,9 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
         if settings.picture_camera() is not None:
             through = context.window_manager.reflection_lines.is_looking_through(context)
             row.operator("reflines.look_through", text="", icon='HIDE_OFF', depress=through)
-            row.operator("reflines.add_view_camera", text="", icon='ADD')
-            column.operator("reflines.set_up", icon='VIEW_CAMERA')
-        else:
-            column.operator("reflines.add_view_camera", icon='ADD')
+            row.operator("reflines.set_up", text="", icon='ADD').part = 'CAMERA'
+        column.operator("reflines.set_up", icon='VIEW_CAMERA')
+        column.operator("reflines.sweep_view", icon='ORIENTATION_GIMBAL')
         ob = context.view_layer.objects.active
         if ob is not None and ob.reflection_lines.has_other_view(context.scene):
             column.operator("reflines.use_panel_view", icon='LOOP_BACK')
@@ -55,7 +60,7 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
         column.prop(settings, "light", text="", icon='EMPTY_SINGLE_ARROW')
         self.draw_unfollowed(column, context, settings.light)
         if not settings.present(settings.light):
-            column.operator("reflines.add_light_direction", icon='ADD')
+            column.operator("reflines.set_up", text="Add Light Direction", icon='ADD').part = 'LIGHT'
         else:
             self.draw_light(column, settings)
 
@@ -72,7 +77,6 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
         column = row.column(align=True)
         column.prop(settings, "light_turn")
         column.prop(settings, "light_tilt")
-        column.operator("reflines.sweep_light", icon='LIGHT_SUN')
 
 
 class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
@@ -83,10 +87,13 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         layout = self.layout
         layout.label(text=self.region_text(context.view_layer.objects.active), icon='FACESEL')
         layout.use_property_split, layout.use_property_decorate = True, False
-        layout.prop(context.scene.reflection_lines, "result")
+        settings = context.scene.reflection_lines
+        layout.prop(settings, "result")
+        automatic_values.draw_value(layout, settings, "limit")
+        layout.prop(settings, "border")
         ob = context.view_layer.objects.active
         if ob is not None and ob.type == 'MESH':
-            self.draw_borders(layout, context.scene.reflection_lines)
+            self.draw_borders(layout, settings)
             layout.prop(ob.reflection_lines, "limit_side")
             layout.prop_search(ob.reflection_lines, "limit_group", ob, "vertex_groups")
             self.draw_creases(layout, ob.reflection_lines)
@@ -127,14 +134,8 @@ class ToolPanel(ReflinesPanel):
         self.layout.use_property_split, self.layout.use_property_decorate = True, False
         self.draw_tool(self.layout, context, context.scene.reflection_lines)
 
-    def draw_buttons(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, name: str, icon: str, *,
-                     by_two_lights: bool = True) -> None:
-        """Draws what restrains the tool, its button, and beside that the handle that drags the tool in the 3D view."""
-        scene = bpy.context.scene.reflection_lines
-        if by_two_lights:
-            layout.prop(scene, "lights")
-        automatic_values.draw_value(layout, scene, "limit")
-        layout.prop(settings, "border")
+    def draw_buttons(self, layout: bpy.types.UILayout, name: str, icon: str) -> None:
+        """Draws the button of a tool, and beside it the handle that drags the tool in the 3D view."""
         row = layout.row(align=True)
         row.operator(name, icon=icon)
         row.operator(name, text="", icon='ARROW_LEFTRIGHT').follow_mouse = True
@@ -144,8 +145,7 @@ class ToolPanel(ReflinesPanel):
         layout.prop(settings, "centre")
         if settings.centre == 'EVERYWHERE':
             return
-        layout.prop(settings, "radius")
-        rows.draw_zero(layout, settings, "radius", "0: automatic")
+        automatic_values.draw_value(layout, settings, "radius")
         layout.prop(settings, "shape")
         if settings.shape == 'CURVE' and curve is not None and len(curve.nodes):
             layout.template_curve_mapping(curve.nodes[0], "mapping")
@@ -158,9 +158,12 @@ class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
     def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
                   settings: bpy.types.PropertyGroup) -> None:
         self.draw_problem(layout, context)
+        is_set_up = not settings.missing()
+        if not is_set_up:
+            self.draw_first_steps(layout, context)
         row = layout.row(align=True)
         row.scale_y = BIG
-        if settings.picture_camera() is None or not settings.present(settings.light):
+        if not is_set_up:
             row.operator("reflines.set_up", icon='VIEW_CAMERA')
             return
         row.operator("reflines.smooth", icon='MOD_SMOOTH')
@@ -168,13 +171,20 @@ class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
         layout.prop(settings, "strength")
         self.draw_hands(layout)
 
+    def draw_first_steps(self, layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+        """Draws what an artist does before the first press, as far as it is not done."""
+        ob = context.view_layer.objects.active
+        if ob is None or ob.type != 'MESH' or ob.mode != 'EDIT' or not ob.data.total_face_sel:
+            draw_paragraph(layout, context, "Select the panel's faces in Edit Mode", 'FACESEL')
+        draw_paragraph(layout, context, "Turn the view until they face you", 'ORIENTATION_VIEW')
+
     def draw_hands(self, layout: bpy.types.UILayout) -> None:
         """Draws what is done by hand where the press has left something."""
-        hands = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
-        hands.operator("reflines.fair_brush", text="Brush", icon='BRUSH_DATA')
-        hands.operator("reflines.pull_line", text="Pull", icon='VIEW_PAN')
-        hands.operator("reflines.pull_line", text="Draw", icon='GREASEPENCIL').draws = True
-        hands.operator("reflines.sweep_light", text="Sweep", icon='LIGHT_SUN')
+        hands = layout.column(align=True)
+        hands.operator("reflines.fair_brush", icon='BRUSH_DATA')
+        hands.operator("reflines.pull_line", icon='VIEW_PAN')
+        hands.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
+        hands.operator("reflines.sweep_light", icon='LIGHT_SUN')
 
     def draw_problem(self, layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
         session = context.window_manager.reflection_lines
@@ -190,11 +200,13 @@ class VIEW3D_PT_reflines_smooth_settings(ToolPanel, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_reflines_smooth"
     bl_options = {'DEFAULT_CLOSED'}
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return not context.scene.reflection_lines.missing()
+
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         settings.draw_smooth(layout, automatic_values.draw_value)
         layout.prop(settings, "lights")
-        automatic_values.draw_value(layout, settings, "limit")
-        layout.prop(settings, "border")
 
 
 class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
@@ -204,14 +216,10 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
     def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
                   settings: bpy.types.PropertyGroup) -> None:
         own = settings.pull
-        layout.prop(own, "radius")
-        rows.draw_zero(layout, own, "radius", "0: automatic")
-        layout.prop(own, "border")
+        automatic_values.draw_value(layout, own, "radius")
         ob = context.view_layer.objects.active
         if ob is not None and ob.type == 'MESH':
             layout.prop_search(ob.reflection_lines, "follow_group", ob, "vertex_groups")
-        layout.operator("reflines.pull_line", icon='VIEW_PAN')
-        layout.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
         pins = layout.row(align=True)
         pins.operator("reflines.pin_lines", icon='PINNED')
         pins.operator("reflines.pin_lines", text="", icon='UNPINNED').unpin = True
@@ -226,10 +234,6 @@ class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):
         layout.prop(own, "size")
         layout.prop(own, "strength")
         automatic_values.draw_value(layout, settings, "length")
-        layout.prop(settings, "lights")
-        automatic_values.draw_value(layout, settings, "limit")
-        layout.prop(own, "border")
-        layout.operator("reflines.fair_brush", icon='BRUSH_DATA')
 
 
 class VIEW3D_PT_reflines_design(ReflinesPanel, bpy.types.Panel):
@@ -249,7 +253,7 @@ class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         own = settings.direction
         layout.prop(own, "direction")
-        if own.direction == 'ANGLE':
+        if own.direction in {'PRESENT', 'ANGLE'}:
             layout.prop(own, "angle")
         elif own.direction == 'POINTS':
             layout.operator("reflines.pick_direction", icon='EYEDROPPER')
@@ -257,20 +261,10 @@ class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
         layout.prop(own, "axis")
         if own.axis != 'NONE':
             layout.prop(own, "density_end")
-        layout.prop(own, "strength")
+        if own.direction != 'PRESENT':
+            layout.prop(own, "strength")
         self.draw_falloff(layout, own, settings.curve)
-        self.draw_buttons(layout, own, "reflines.direction", 'ALIGN_JUSTIFY')
-
-
-class VIEW3D_PT_reflines_untwist(ToolPanel, bpy.types.Panel):
-    bl_label = "Turn Lines"
-    bl_parent_id = "VIEW3D_PT_reflines_design"
-    bl_options = {'DEFAULT_CLOSED'}
-
-    def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
-        layout.prop(settings.untwist, "angle")
-        self.draw_falloff(layout, settings.untwist, settings.curve)
-        self.draw_buttons(layout, settings.untwist, "reflines.untwist", 'LOOP_BACK')
+        self.draw_buttons(layout, "reflines.direction", 'ALIGN_JUSTIFY')
 
 
 class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
@@ -291,7 +285,7 @@ class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
         layout.operator("reflines.live_warp", icon='PLAY')
         if context.mode == 'EDIT_LATTICE':
             draw_paragraph(layout, context, "Leave the lattice's Edit Mode to warp", 'INFO')
-        self.draw_buttons(layout, settings, "reflines.warp", 'MOD_LATTICE')
+        self.draw_buttons(layout, "reflines.warp", 'MOD_LATTICE')
 
     def draw_live(self, layout: bpy.types.UILayout, context: bpy.types.Context, live: bpy.types.PropertyGroup) -> None:
         says = context.window_manager.reflection_lines.live
@@ -314,11 +308,10 @@ class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
         rows.draw_choice(layout, own, "fit")
         for name in ("strength", "blur"):
             layout.prop(own, name)
-        layout.prop(own, "width")
-        rows.draw_zero(layout, own, "width", "0: as the region")
+        automatic_values.draw_value(layout, own, "width")
         layout.prop(own, "angle")
         layout.prop(own, "offset")
-        self.draw_buttons(layout, settings, "reflines.pattern", 'IMAGE_DATA', by_two_lights=False)
+        self.draw_buttons(layout, "reflines.pattern", 'IMAGE_DATA')
 
 
 class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
@@ -358,7 +351,7 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if ob.type == 'MESH':
             self.draw_mesh_remedies(ob, report)
         if report.worse:
-            self.layout.operator("reflines.show_worse", icon='VIEWZOOM')
+            self.layout.operator("reflines.show_spot", text="Show Worse Place", icon='VIEWZOOM').worse = True
         if report.longer_waves and run.operator:
             self.layout.operator("reflines.resolve", text="Take Longer Waves Too").flaw_size = 2.0
         self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
@@ -419,5 +412,5 @@ register, unregister = bpy.utils.register_classes_factory([
     VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth,
     VIEW3D_PT_reflines_smooth_settings, VIEW3D_PT_reflines_pull,
     VIEW3D_PT_reflines_brush, VIEW3D_PT_reflines_design, VIEW3D_PT_reflines_direction,
-    VIEW3D_PT_reflines_untwist, VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
+    VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
     VIEW3D_PT_reflines_kept, VIEW3D_PT_reflines_numbers])

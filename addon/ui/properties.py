@@ -18,7 +18,7 @@ from .inspection_properties import ReflinesInspection, ReflinesSpot
 from .light_set_properties import ReflinesLightSet
 from .stripe_properties import ReflinesStripes
 from .tool_properties import (ReflinesBake, ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
-                              ReflinesUntwist, ReflinesWarp, SmoothSettings)
+                              ReflinesWarp, SmoothSettings)
 
 LONGEST = 1e15  # length that is read from a file
 FLOAT_EPSILON = 2.0**-23  # of the coordinates of a mesh
@@ -307,7 +307,6 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
                                description="Draw the borders that were set by segment: green Free, orange Position, "
                                "blue Tangent, violet Curvature, red Flow, cyan Neighbours")
     direction: PointerProperty(type=ReflinesDirection)
-    untwist: PointerProperty(type=ReflinesUntwist)
     pull: PointerProperty(type=ReflinesPull)
     bake: PointerProperty(type=ReflinesBake)
     brush: PointerProperty(type=ReflinesBrush)
@@ -323,7 +322,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
         """Returns what is missing before any tool can run, as a sentence; empty where nothing is."""
         if self.picture_camera() is None:
             return self.describe_absent(self.camera) or (
-                "No view camera: press Add View Camera, or pick one in the sidebar's Reflection tab")
+                "No view camera: press Set Up from This View, or pick one in the sidebar's Reflection tab")
         return self.missing_light()
 
     def missing_light(self) -> str:
@@ -331,7 +330,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
         if self.present(self.light):
             return ""
         return self.describe_absent(self.light) or (
-            "No light direction: press Add Light Direction, or pick an empty in the sidebar's Reflection tab")
+            "No light direction: press Add Light Direction in the sidebar's panel View and Light, or pick an empty")
 
     def describe_absent(self, ob: bpy.types.Object | None) -> str:
         """Returns which other scene an object is in, as a sentence; empty where it is in none."""

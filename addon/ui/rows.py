@@ -14,11 +14,3 @@ def draw_choice(layout: bpy.types.UILayout, settings: object, name: str) -> None
     row = layout.row()
     row.use_property_split = False
     row.prop(settings, name, text="")
-
-
-def draw_zero(layout: bpy.types.UILayout, settings: object, name: str, meaning: str) -> None:
-    """Draws what the 0 of a number means, below it, where it is 0."""
-    if not getattr(settings, name):
-        row = layout.row()
-        row.active, row.alignment = False, 'RIGHT'
-        row.label(text=meaning)

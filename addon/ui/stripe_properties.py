@@ -55,9 +55,6 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     mode: EnumProperty(name="Mode", items=MODES, default='REFLECTION')
     eye: EnumProperty(name="Seen From", items=EYES, default='CAMERA',
                       update=lambda self, context: self.freeze_if_asked(context))
-    per_point: BoolProperty(name="Per Point",
-                            description="With a perspective view camera: from every point towards it, as renders show "
-                            "it. Off: one direction for the whole panel, as the solver takes it")
     frozen_eye: FloatVectorProperty(name="Frozen Eye", size=4,
                                     description="Place, and 1; of a view without perspective the direction, and 0")
     scope: EnumProperty(name="On", items=SCOPES, default='OBJECT')
@@ -65,11 +62,9 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     image: PointerProperty(name="Image", type=bpy.types.Image,
                            description="Equirectangular, like the images of World environments")
     image_rotation: FloatProperty(name="Rotation", subtype='ANGLE', description="Turns the image around the world's Z")
-    map_range: FloatProperty(name="Full Scale", min=0.0, precision=5,
-                             description="Value with the last colour of the map; 0 takes the largest")
-    cage_on_top: BoolProperty(name="Cage on Top", default=True,
-                              description="In Edit Mode, draw edges and what is selected over the stripes; edges of a "
-                              "few pixels fade away, unless few are selected")
+    cage_on_top: BoolProperty(name="Cage on Top", default=True, options={'HIDDEN'},
+                              description="For pictures. In Edit Mode, draw edges and what is selected over the "
+                              "stripes; edges of a few pixels fade away, unless few are selected")
     count: IntProperty(name="Count", default=60, min=1, soft_max=200, max=2000,
                        description="Line lights in a full turn around the light direction")
     width: FloatProperty(name="Width", default=0.5, min=0.0, max=1.0, subtype='FACTOR',

@@ -36,15 +36,9 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         if stripes.mode in MAPS:
             self.draw_map(layout, context.view_layer.objects.active)
         else:
-            self.draw_eye(layout, settings)
-            rows.draw_switch(layout, stripes, "before")
+            layout.prop(stripes, "eye")
         if stripes.mode == 'IMAGE':
             self.draw_image(layout, stripes)
-
-    def draw_eye(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
-        layout.prop(settings.stripes, "eye")
-        if settings.stripes.eye == 'CAMERA' and settings.is_perspective():
-            layout.prop(settings.stripes, "per_point")
 
     def draw_map(self, layout: bpy.types.UILayout, ob: bpy.types.Object | None) -> None:
         if ob is None or not ob.reflection_lines.report.termination:
@@ -59,7 +53,7 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
 
 
 class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
-    bl_label = "Look"
+    bl_label = "Adjust Look"
     bl_parent_id = "VIEW3D_PT_reflines_stripes"
     bl_options = {'DEFAULT_CLOSED'}
 
@@ -69,13 +63,12 @@ class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         for name in self.list_settings(settings.stripes.mode):
             layout.prop(settings.stripes, name)
-        rows.draw_switch(layout, settings.stripes, "cage_on_top")
         if settings.stripes.mode == 'REFLECTION':
             layout.operator("reflines.install_matcap", icon='MATSPHERE')
 
     def list_settings(self, mode: str) -> tuple[str, ...]:
         bands = ("count", "width", "softness", "color", "gap_color") if mode in BANDS else ()
-        own = {'IMAGE': ("image_rotation",), 'RESIDUAL': ("map_range",), 'DEVIATION': ("map_range",)}.get(mode, ())
+        own = ("image_rotation",) if mode == 'IMAGE' else ()
         return (*bands, *own, "opacity")
 
 

@@ -3,13 +3,13 @@
 Operators do not remember values from run to run (SKIP_SAVE): what is not given is taken from the scene.
 """
 from collections.abc import Callable
-from math import radians
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
 from ..model.border import NAMES
 from ..read import falloff_curve
+from .automatic_values import switch_property
 from .rows import draw_switch
 
 CENTRES = (
@@ -25,10 +25,12 @@ SHAPES = (
     ('SHARP', "Sharp", "Steeply down at the centre, then flat"),
     ('CURVE', "Curve", "Your own curve, from the centre on the left to the radius on the right"),
 )
+# With the numbers that files hold: a new direction gets a new one.
 DIRECTIONS = (
-    ('MEAN', "Keep Mean", "The mean direction of the lines as they are"),
-    ('ANGLE', "Angle", "An angle in the view camera's picture"),
-    ('POINTS', "Two Points", "From one picked point to another"),
+    ('PRESENT', "As They Run", "The lines keep their course, turned by the angle; by 0 nothing changes", 'NONE', 3),
+    ('MEAN', "Straight", "Straight lines in the mean direction of those that are there", 'NONE', 0),
+    ('ANGLE', "At an Angle", "Straight lines at an angle in the view camera's picture", 'NONE', 1),
+    ('POINTS', "Two Points", "Straight lines from one picked point to another", 'NONE', 2),
 )
 AXES = (
     ('NONE', "Constant", "The same density everywhere"),
@@ -42,8 +44,8 @@ SPLINES = (
     ('KEY_BSPLINE', "BSpline", "Near the control points, smoothest"),
 )
 FITS = (
-    ('GRADIENT', "Direction and Density", "The lines run as wanted, wherever each of them lies"),
-    ('VALUE', "Place of Each Line", "Each line lies where it is wanted. A border limits that: clamped, the two "
+    ('GRADIENT', "How Lines Run", "The lines run as wanted, wherever each of them lies"),
+    ('VALUE', "Where Each Line Lies", "Each line lies where it is wanted. A border limits that: clamped, the two "
      "outermost rows of vertices stay, fixed the outermost one, and the lines there too; only a free border follows"),
 )
 LIGHTS = (
@@ -53,7 +55,6 @@ LIGHTS = (
     ('SET', "The Set", "In Smooth the set's lights, each with its own view, but for Along the Lines; other tools keep "
      "the crossed lines, and the set judges what they make"),
 )
-LAST_FRAME = 1048574  # of Blender
 SAVED = {'options': {'SKIP_SAVE'}}
 # With the numbers that files hold: a new border gets a new one.
 BORDERS = (
@@ -100,7 +101,6 @@ def ensure_curve(settings: "FalloffSettings", context: bpy.types.Context) -> Non
 
 
 class FalloffSettings:
-    border: border_property()
     centre: EnumProperty(name="Acts", items=CENTRES, default='REGION', **SAVED)
     radius: FloatProperty(name="Radius", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
                           description="How far the tool reaches from its centre; 0: a third of the region's diagonal, "
@@ -127,9 +127,6 @@ class SmoothSettings:
     fair_border: BoolProperty(name="Fair Border", **SAVED,
                               description="With the automatic length, move the border of the region, too, to where the "
                               "faces beside it tell that it should run: a border that is held keeps its flaws")
-    gap: FloatProperty(name="Widest Gap", unit='LENGTH', min=0.0, soft_max=0.1, precision=4, **SAVED,
-                       description="Across gaps up to this the border follows its neighbours, where it is to. 0, "
-                       "automatic: 12 thousandths of the region's diagonal")
     limit: limit_property()
 
     def draw_smooth(self, layout: bpy.types.UILayout, draw_value: Callable) -> None:
@@ -143,28 +140,23 @@ class SmoothSettings:
         automatic.prop(self, "flaw_size")
         draw_switch(automatic, self, "symmetric")
         draw_switch(automatic, self, "fair_border")
-        if self.border == 'follow':
-            automatic.prop(self, "gap")
 
 
 class DirectionSettings(FalloffSettings):
-    direction: EnumProperty(name="Direction", items=DIRECTIONS, default='MEAN', **SAVED)
+    direction: EnumProperty(name="Direction", items=DIRECTIONS, default='PRESENT', **SAVED)
     angle: FloatProperty(name="Angle", subtype='ANGLE', **SAVED,
-                         description="Of the lines, counter-clockwise from the horizontal of the camera's picture")
+                         description="Counter-clockwise in the camera's picture: how far lines that keep their course "
+                         "are turned, and of straight ones from the horizontal")
     start: FloatVectorProperty(name="From", subtype='XYZ', unit='LENGTH', **SAVED, description="In world space")
     end: FloatVectorProperty(name="To", subtype='XYZ', unit='LENGTH', **SAVED, description="In world space")
     density: FloatProperty(name="Density", default=1.0, min=0.0, soft_max=10.0, precision=3, **SAVED,
-                           description="How close together the lines are: a factor of their present mean density")
+                           description="How close together the lines are: a factor of what they are, of straight ones "
+                           "of their mean")
     axis: EnumProperty(name="Varies", items=AXES, default='NONE', **SAVED)
     density_end: FloatProperty(name="At the End", default=1.0, min=0.0, soft_max=10.0, precision=3, **SAVED,
                                description="Density at the far end")
     strength: FloatProperty(name="Strength", default=1.0, min=0.0, max=1.0, subtype='FACTOR', **SAVED,
                             description="0 leaves the panel as it is")
-
-
-class UntwistSettings(FalloffSettings):
-    angle: FloatProperty(name="Angle", subtype='ANGLE', default=radians(10.0), **SAVED,
-                         description="How far the lines are turned, counter-clockwise in the camera's picture")
 
 
 class FitSettings:
@@ -191,24 +183,18 @@ class PatternSettings(FitSettings):
 
 
 class PullSettings:
-    border: border_property()
     radius: FloatProperty(name="Radius", unit='LENGTH', min=0.0, soft_max=10.0, precision=4, **SAVED,
                           description="How far from a new handle lines may move; 0: a third of the region's diagonal, "
                           "at most half its width")
 
 
 class BakeSettings:
-    start: IntProperty(name="Start", min=-LAST_FRAME, max=LAST_FRAME, **SAVED,
-                       description="First frame; where the end is not after it, the range is that of the handles' keys")
-    end: IntProperty(name="End", min=-LAST_FRAME, max=LAST_FRAME, **SAVED,
-                     description="Last frame; 0 with the start 0: the range of the handles' keys")
     step: IntProperty(name="Step", default=5, min=1, soft_max=50, max=10000, **SAVED,
                       description="Frames from one solve to the next; keyed frames are solved besides, and between the "
                       "shapes run evenly")
 
 
 class BrushSettings:
-    border: border_property()
     size: IntProperty(name="Size", default=60, min=2, soft_max=500, max=5000, subtype='PIXEL', **SAVED,
                       description="Radius of the brush on the screen")
     strength: FloatProperty(name="Strength", default=0.5, min=0.0, max=1.0, subtype='FACTOR', **SAVED,
@@ -217,14 +203,12 @@ class BrushSettings:
 
 class ReflinesDirection(DirectionSettings, bpy.types.PropertyGroup):
     """The scene's settings of Direction and Density."""
-
-
-class ReflinesUntwist(UntwistSettings, bpy.types.PropertyGroup):
-    """The scene's settings of Turn Lines."""
+    radius_automatic: switch_property("radius", "Radius")
 
 
 class ReflinesPull(PullSettings, bpy.types.PropertyGroup):
     """The scene's settings of Pull Line."""
+    radius_automatic: switch_property("radius", "Radius")
 
 
 class ReflinesBake(BakeSettings, bpy.types.PropertyGroup):
@@ -247,8 +231,9 @@ class ReflinesWarp(WarpSettings, bpy.types.PropertyGroup):
 
 class ReflinesPattern(PatternSettings, bpy.types.PropertyGroup):
     """The scene's settings of Image Pattern."""
+    width_automatic: switch_property("width", "Width")
     image: PointerProperty(name="Image", type=bpy.types.Image, description="Its grey values say how the lines bend")
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    ReflinesDirection, ReflinesUntwist, ReflinesPull, ReflinesBake, ReflinesBrush, ReflinesWarp, ReflinesPattern])
+    ReflinesDirection, ReflinesPull, ReflinesBake, ReflinesBrush, ReflinesWarp, ReflinesPattern])

@@ -4,7 +4,7 @@ Object Mode.
 import bpy
 
 from ..overlay import brush_circle
-from . import gizmos, handle_gizmos
+from . import automatic_values, gizmos, handle_gizmos
 
 LOOK_THROUGH = ("reflines.look_through", {"type": 'NUMPAD_0', "value": 'PRESS'}, None)  # of all tools
 PRESS = {"type": 'LEFTMOUSE', "value": 'PRESS'}
@@ -45,8 +45,8 @@ class PullLineTool:
     @staticmethod
     def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, _tool: object) -> None:
         """Draws the settings that new handles get, in the header and in the tab Tool."""
-        settings = context.scene.reflection_lines.pull
-        layout.prop(settings, "radius")
+        settings = context.scene.reflection_lines
+        automatic_values.draw_value(layout, settings.pull, "radius")
         layout.prop(settings, "border")
 
 
@@ -80,7 +80,7 @@ class FairBrushTool:
         settings = context.scene.reflection_lines
         layout.prop(settings.brush, "size")
         layout.prop(settings.brush, "strength")
-        layout.prop(settings, "length")
+        automatic_values.draw_value(layout, settings, "length")
 
     @staticmethod
     def draw_cursor(context: bpy.types.Context, _tool: object, place: tuple[int, int]) -> None:

@@ -603,10 +603,11 @@ def uniform(optimizer: ShapeOptimizer, *, direction: Sequence[float] = (0, 0), d
     """Builds the target of lines of one direction ((0, 0): that of the region's median) and density (a factor of the median's, or
     |grad theta| in radians / length); along `axis` the density goes linearly from density to density_end."""
 
-def turn(optimizer: ShapeOptimizer, *, angle: float, influence: np.ndarray | None = None, weight: np.ndarray | None = None,
+def turn(optimizer: ShapeOptimizer, *, angle: float = 0.0, density: float = 1.0, density_end: float = -1.0,
+         axis: Sequence[float] = (0, 0), influence: np.ndarray | None = None, weight: np.ndarray | None = None,
          family: int = 0) -> Target:
-    """Builds the target of the current gradients turned by `angle` radians, counter-clockwise in the image plane, times the
-    influence."""
+    """Builds the target of the current gradients turned by `angle` radians, counter-clockwise in the image plane, and scaled by
+    `density`, which goes linearly to `density_end` along `axis`; both times the influence."""
 
 def keep(optimizer: ShapeOptimizer, *, family: int) -> Target:
     """Builds the target of the lines as they are, with a hundredth of the weight: solved for together with new lines of another

@@ -44,9 +44,12 @@ py::object uniform(ShapeOptimizer& optimizer, const Vector2& direction, double d
   });
 }
 
-py::object turn(ShapeOptimizer& optimizer, double angle, const Maybe& influence, const Maybe& weight, int family) {
+py::object turn(ShapeOptimizer& optimizer, double angle, double density, double density_end, const Vector2& axis,
+                const Maybe& influence, const Maybe& weight, int family) {
+  const TurnOptions options{angle, density, density_end, axis};
   return call_native(optimizer, [=, &optimizer] {
-    return set_weight(build_turned_target(optimizer.region_field(family), angle, influence.value_or(Vector())), weight);
+    return set_weight(build_turned_target(optimizer.region_field(family), options, influence.value_or(Vector())),
+                      weight);
   });
 }
 
@@ -121,8 +124,11 @@ void bind_builders(py::module_& module) {
              py::arg("relative") = uniform_defaults.relative, py::arg("density_end") = uniform_defaults.density_end,
              py::arg("axis") = uniform_defaults.axis, py::arg("influence") = py::none(), py::arg("weight") = py::none(),
              py::arg("family") = 0);
-  module.def("turn", &turn, py::arg("optimizer"), py::kw_only(), py::arg("angle"), py::arg("influence") = py::none(),
-             py::arg("weight") = py::none(), py::arg("family") = 0);
+  const TurnOptions turn_defaults;
+  module.def("turn", &turn, py::arg("optimizer"), py::kw_only(), py::arg("angle") = turn_defaults.angle,
+             py::arg("density") = turn_defaults.density, py::arg("density_end") = turn_defaults.density_end,
+             py::arg("axis") = turn_defaults.axis, py::arg("influence") = py::none(), py::arg("weight") = py::none(),
+             py::arg("family") = 0);
   module.def("keep", &keep, py::arg("optimizer"), py::kw_only(), py::arg("family"));
   module.def("falloff", &falloff_at, py::arg("optimizer"), py::kw_only(), py::arg("centre"), py::arg("radius"),
              py::arg("curve"));

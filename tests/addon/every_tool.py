@@ -15,9 +15,10 @@ PULL = json.dumps([{"start": [0.1, 0.0, 0.0], "end": [0.1, 0.1, 0.0], "radius": 
 CHANGING = {
     "smooth": {}, "smooth by length": {"length": 0.5}, "smooth to the border": {"border": 'free', "length": 0.3},
     "direction": {"density": 2.0, "axis": 'ALONG', "centre": 'EVERYWHERE'}, "direction of most lines": {"density": 1e6},
-    "direction as set": {}, "untwist": {"angle": 0.5}, "warp": {}, "warp by place": {"fit": 'VALUE'}, "pattern": {},
+    "direction as set": {}, "direction turned": {"angle": 0.5}, "direction straight": {"direction": 'MEAN'},
+    "warp": {}, "warp by place": {"fit": 'VALUE'}, "pattern": {},
     "pattern by place": {"fit": 'VALUE', "blur": 0.0}, "pull_line": {"handles": PULL}, "fit": {}, "check": {},
-    "inspect": {}, "inspect in the set": {"lights": 'SET'}, "show_spot": {}, "show_worse": {},
+    "inspect": {}, "inspect in the set": {"lights": 'SET'}, "show_spot": {}, "show_spot worse": {"worse": True},
     "show_spot of none": {"index": 10**6},
     "set_border": {"border": 'fixed'}, "pin_lines": {}, "resolve": {}, "bake_handles": {},
     "smooth into a key": {"result": 'SHAPE_KEY'}, "smooth for the set": {"lights": 'SET'},
@@ -25,8 +26,8 @@ CHANGING = {
 # Of the scene rather than of the object.
 OTHERS = {
     "add_warp_lattice": {}, "live_warp": {}, "live_warp kept": {"action": 'APPLY'},
-    "live_warp taken back": {"action": 'DISCARD'}, "set_up": {}, "use_panel_view": {}, "add_light_direction": {},
-    "add_view_camera": {},
+    "live_warp taken back": {"action": 'DISCARD'}, "set_up": {}, "use_panel_view": {},
+    "set_up of a light": {"part": 'LIGHT'}, "set_up of another camera": {"part": 'CAMERA'},
     "delete_handles": {}, "walk_around": {}, "add_set_light": {}, "remove_set_light": {},
 }
 

@@ -229,7 +229,7 @@ def set_mesh_property(name: str, value: object, ob: bpy.types.Object) -> None:
 def take_curve(ob: bpy.types.Object) -> None:
     """A fall-off curve that is of another kind of nodes."""
     settings = bpy.context.scene.reflection_lines
-    settings.direction.shape = settings.untwist.shape = 'CURVE'
+    settings.direction.shape = 'CURVE'
     settings.curve = bpy.data.node_groups.new("Other", 'GeometryNodeTree')
 
 
@@ -248,10 +248,10 @@ def save_past_the_addon(path: str | Path) -> None:
 
 
 CHOICES = ("border", "solve_for", "result", "lights", "stripes.mode", "stripes.eye", "stripes.scope",
-           "direction.border", "direction.centre", "direction.shape", "direction.direction", "direction.axis",
-           "warp.fit", "pattern.fit", "untwist.shape", "pull.border", "brush.border")
-NUMBERS = ("length", "limit", "strength", "stripes.map_range", "stripes.image_rotation", "direction.density",
-           "direction.radius", "untwist.angle", "warp.amount", "pattern.width", "pattern.blur", "pull.radius",
+           "direction.centre", "direction.shape", "direction.direction", "direction.axis",
+           "warp.fit", "pattern.fit")
+NUMBERS = ("length", "limit", "strength", "stripes.image_rotation", "direction.density",
+           "direction.radius", "direction.angle", "warp.amount", "pattern.width", "pattern.blur", "pull.radius",
            "marks.gap", "marks.curvature")
 COUNTS = {"stripes.count": -5, "brush.size": -7}
 REPORT = ("length", "score_before", "score_after", "largest_move", "cage_move", "residual_before", "residual_after",

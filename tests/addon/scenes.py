@@ -47,9 +47,9 @@ def activate(ob: bpy.types.Object) -> None:
 
 def look_from_above(light_degrees: float = 70.0) -> None:
     """An orthographic view along -Z, and line lights in the xz-plane at an angle from the view direction."""
-    bpy.ops.reflines.add_view_camera(direction=(0.0, 0.0, 1.0))
+    bpy.ops.reflines.set_up(part='CAMERA', direction=(0.0, 0.0, 1.0))
     angle = radians(light_degrees)
-    bpy.ops.reflines.add_light_direction(direction=(np.sin(angle), 0.0, np.cos(angle)))
+    bpy.ops.reflines.set_up(part='LIGHT', direction=(np.sin(angle), 0.0, np.cos(angle)))
 
 
 def smooth(**settings: object) -> set[str]:

@@ -233,7 +233,7 @@ def half_of_a_dented_bonnet() -> bpy.types.Object:
         vertex.co = (x, y, bonnet(x, y) - 0.004 * np.exp(-(x**2 + (y - 0.2)**2) / 0.1**2))
     ob.modifiers.new("Mirror", 'MIRROR')
     scenes.look_from_above()
-    bpy.ops.reflines.add_light_direction(direction=(1.0, 0.0, 0.0))  # as symmetric as the view
+    bpy.ops.reflines.set_up(part='LIGHT', direction=(1.0, 0.0, 0.0))  # as symmetric as the view
     scenes.edit(ob)
     scenes.select_faces(ob, lambda face: face % CELLS < CELLS - 1 and 0 < face // CELLS < CELLS - 1)
     return ob

@@ -40,14 +40,14 @@ def nothing(_: bmesh.types.BMesh) -> None:
 
 def test_no_camera() -> None:
     ob = scenes.panel()
-    bpy.ops.reflines.add_light_direction()
+    bpy.ops.reflines.set_up(part='LIGHT')
     scenes.edit_inner(ob)
-    refused(ob, "No view camera: press Add View Camera")
+    refused(ob, "No view camera: press Set Up from This View")
 
 
 def test_no_light() -> None:
     ob = scenes.panel()
-    bpy.ops.reflines.add_view_camera()
+    bpy.ops.reflines.set_up(part='CAMERA')
     scenes.edit_inner(ob)
     refused(ob, "No light direction: press Add Light Direction")
 
@@ -73,7 +73,7 @@ def test_light_without_direction() -> None:
 
 
 def test_no_mesh() -> None:
-    bpy.ops.reflines.add_light_direction()
+    bpy.context.scene.reflection_lines.light = bpy.data.objects.new("Light Direction", None)
     with pytest.raises(RuntimeError, match="Make the panel's mesh the active object"):
         scenes.smooth()
 
@@ -102,7 +102,7 @@ def test_no_stored_region() -> None:
 def test_buttons_are_grey_where_there_are_no_faces_to_work_on() -> None:
     """Those that a press in the view begins say why then instead; a cage is fitted without a region."""
     tools, pressed = ([getattr(bpy.ops.reflines, name) for name in names]
-                      for names in (("smooth", "direction", "untwist", "warp", "pattern"),
+                      for names in (("smooth", "direction", "warp", "pattern"),
                                     ("pull_line", "fair_brush", "fit")))
     ob = scenes.panel()
     scenes.look_from_above()

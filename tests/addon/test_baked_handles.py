@@ -132,16 +132,18 @@ def test_results_behind_baked_keys_say_so_and_the_start_is_still_known(panel) ->
 def test_fractions_of_frames_drivers_and_a_range_of_ones_own(panel) -> None:
     keyed(panel)
     key(panel, 4.5, LOW["end"])
-    assert bake(start=3, end=6) == {'FINISHED'}
+    scene = bpy.context.scene
+    scene.use_preview_range, scene.frame_preview_start, scene.frame_preview_end = True, 3, 6
+    assert bake() == {'FINISHED'}
+    scene.use_preview_range = False
     assert find_baked(panel) == [f"{FRAME} {frame}" for frame in ("3", "4.5", "6")]
     fresh()
     ob = bpy.context.view_layer.objects.active
     assert pull(UP) == {'FINISHED'}
     kept(ob).driver_add("place", 1).driver.expression = "0.001 * frame"
-    with pytest.raises(RuntimeError, match="give the range by Start and End"):
-        bake()
-    assert ob.mode == 'EDIT'
-    assert bake(start=1, end=11, step=10) == {'FINISHED'} and len(find_baked(ob)) == 2
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 1, 11
+    assert bake(step=10) == {'FINISHED'} and len(find_baked(ob)) == 2
 
 
 def test_a_bake_that_is_refused_at_once_leaves_changes_without_a_key(panel) -> None:
@@ -171,7 +173,8 @@ def test_what_cannot_be_baked_is_refused_and_changes_no_bit(panel) -> None:
         bake(step=4)
     assert scenes.fingerprint(panel) == before and bpy.context.scene.frame_current == 1
     with pytest.raises(RuntimeError, match="more than 1000 frames"):
-        bake(start=0, end=2000, step=1)
+        bpy.context.scene.use_preview_range, bpy.context.scene.frame_preview_end = True, 2000
+        bake(step=1)
     bpy.ops.reflines.smooth('EXEC_DEFAULT', True)
     with pytest.raises(RuntimeError, match="shape before its handles is not known"):
         bake()

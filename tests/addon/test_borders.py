@@ -60,12 +60,12 @@ HANDLES = json.dumps([{"start": (0.0, 0.0, 0.0), "end": (0.0, 0.1, 0.0), "radius
 
 def run(tool: str) -> set[str]:
     settings = {"smooth": {"length": 0.6}, "press": {}, "direction": {"density": 1.3, "border": "clamped"},
-                "untwist": {"angle": 0.2, "border": "clamped"}, "pull_line": {"handles": HANDLES}}[tool]
-    name = "smooth" if tool == "press" else tool
+                "turn": {"angle": 0.2, "border": "clamped"}, "pull_line": {"handles": HANDLES}}[tool]
+    name = {"press": "smooth", "turn": "direction"}.get(tool, tool)
     return getattr(bpy.ops.reflines, name)('EXEC_DEFAULT', True, **settings)
 
 
-@pytest.mark.parametrize("tool", ["smooth", "press", "direction", "untwist", "pull_line"])
+@pytest.mark.parametrize("tool", ["smooth", "press", "direction", "turn", "pull_line"])
 def test_every_tool_obeys_the_segments(tool: str) -> None:
     ob = segmented_panel()
     before = scenes.positions(ob)

@@ -180,8 +180,8 @@ def half_panel() -> bpy.types.Object:
 @pytest.mark.parametrize("direction", [(0.0, 0.0, 1.0), (0.3, 0.0, 1.0)])
 def test_a_mirror_below_keeps_symmetry_and_its_seam(direction: tuple) -> None:
     ob = half_panel()
-    bpy.ops.reflines.add_view_camera(direction=direction)
-    bpy.ops.reflines.add_light_direction(direction=(0.0, 1.0, 0.2))
+    bpy.ops.reflines.set_up(part='CAMERA', direction=direction)
+    bpy.ops.reflines.set_up(part='LIGHT', direction=(0.0, 1.0, 0.2))
     before = scenes.positions(ob)
     seam = np.abs(before[:, 0]) < 1e-6
     scenes.edit(ob)
@@ -323,7 +323,7 @@ def test_what_could_not_be_reached_is_known_for_the_cages_faces_and_stored() -> 
     pairs = solution.residual.reshape(-1, 2)  # of the triangles of a quad
     assert np.array_equal(pairs[:, 0], pairs[:, 1])
     assert len(np.unique(pairs)) > 10
-    V, F, _, share = solve_maps.build_residual_map(solution, 0.0)
+    V, F, _, share = solve_maps.build_residual_map(solution)
     assert len(V) == 3 * len(F) == 3 * len(solution.patch.F)
     assert share.max() == 1.0
     bpy.ops.reflines.store_result('EXEC_DEFAULT', True)

@@ -12,7 +12,7 @@ CELLS = 40
 PRESSES = {
     "angle": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='ANGLE', angle=0.2),
     "density": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.3),
-    "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True),
+    "turn": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, angle=np.radians(10.0)),
 }
 
 
@@ -48,7 +48,7 @@ def test_a_press_with_the_defaults_does_not_bend_the_rim(panel, press) -> None:
     assert bend(panel) < before + 0.1 and "border of the region bends" not in panel.reflection_lines.report.notes
 
 
-@pytest.mark.parametrize("press", ["angle", "untwist"])
+@pytest.mark.parametrize("press", ["angle", "turn"])
 def test_what_the_border_keeps_from_its_target_is_offered_and_what_that_bends_is_said_and_offered_back(panel,
                                                                                                        press) -> None:
     before = bend(panel)
@@ -69,7 +69,7 @@ def test_the_automatic_fall_off_ends_inside_a_long_region(panel) -> None:
     for radius in ({}, {"radius": 0.2}):
         scenes.select_faces(panel, lambda face: 16 <= face // CELLS < 24)
         bpy.ops.ed.undo_push(message="select")
-        bpy.ops.reflines.untwist('EXEC_DEFAULT', True, **radius)
+        bpy.ops.reflines.direction('EXEC_DEFAULT', True, angle=np.radians(10.0), **radius)
         results.append(scenes.positions(panel))
         bpy.ops.ed.undo()
         panel = bpy.context.view_layer.objects.active
@@ -79,7 +79,7 @@ def test_the_automatic_fall_off_ends_inside_a_long_region(panel) -> None:
 @pytest.mark.parametrize(("border", "name"), [('clamped', "Tangent (G1)"), ('fixed', "Position (G0)")])
 def test_a_border_in_the_way_is_named_and_the_remedy_does_it(panel, border, name) -> None:
     settings = {"angle": 0.1, "centre": 'EVERYWHERE'}
-    bpy.ops.reflines.untwist('EXEC_DEFAULT', True, border=border, **settings)
+    bpy.ops.reflines.direction('EXEC_DEFAULT', True, border=border, **settings)
     report = panel.reflection_lines.report
     assert reached(panel) < 0.2 and report.remedy == "free"
     first = report.notes.splitlines()[0]
@@ -90,7 +90,7 @@ def test_a_border_in_the_way_is_named_and_the_remedy_does_it(panel, border, name
     bpy.ops.ed.undo()
     bpy.ops.ed.undo()
     panel = bpy.context.view_layer.objects.active
-    bpy.ops.reflines.untwist('EXEC_DEFAULT', True, border='free', **settings)
+    bpy.ops.reflines.direction('EXEC_DEFAULT', True, border='free', **settings)
     assert np.array_equal(scenes.positions(panel), remedied)
 
 

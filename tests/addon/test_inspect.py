@@ -131,7 +131,7 @@ def test_unusable_input_gets_one_sentence() -> None:
 
 class Settings:
     """The settings of the operator, without Blender's."""
-    lights, flaw_size, noise_floor = 'WALK', 1.0, 0.1
+    lights = 'WALK'
 
 
 def begin_job(ob: bpy.types.Object) -> InspectionJob:

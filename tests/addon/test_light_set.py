@@ -273,7 +273,7 @@ def test_the_place_that_became_worse_is_told_and_shown() -> None:
     assert "; one place worse in Its light: " in report.headline()
     before = settings().light.matrix_world.copy()
     settings().light.rotation_euler.z += 1.0
-    assert bpy.ops.reflines.show_worse('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.ops.reflines.show_spot('EXEC_DEFAULT', True, worse=True) == {'FINISHED'}
     bpy.context.view_layer.update()
     assert np.allclose(np.array(settings().light.matrix_world)[:3, 2], np.array(before)[:3, 2], atol=1e-5)
     place = np.array(report.worse_spot.find_place())
@@ -281,7 +281,7 @@ def test_the_place_that_became_worse_is_told_and_shown() -> None:
     ob.update_from_editmode()
     assert 0 < sum(face.select for face in ob.data.polygons) < 200
     press(strength=0.0)
-    assert not report.worse and not bpy.ops.reflines.show_worse.poll()
+    assert not report.worse and not bpy.ops.reflines.show_spot.poll()
 
 
 def look_for_worse(ob: bpy.types.Object, name: str) -> None:
@@ -290,7 +290,7 @@ def look_for_worse(ob: bpy.types.Object, name: str) -> None:
     entry = next(each for each in settings().light_set.entries if each.name == name)
     assert f"; one place worse in {name}: " in report.headline()
     assert np.allclose(worse.eye, entry.eye, atol=1e-6) and np.allclose(worse.line, entry.line, atol=1e-6)
-    assert bpy.ops.reflines.show_worse('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.ops.reflines.show_spot('EXEC_DEFAULT', True, worse=True) == {'FINISHED'}
     bpy.context.view_layer.update()
     assert np.allclose(np.array(settings().light.matrix_world)[:3, 2], entry.line, atol=1e-5)
 

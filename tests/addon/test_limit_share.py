@@ -8,7 +8,7 @@ from reflection_lines import native
 
 TOOLS = {"press": ("smooth", {}), "smooth": ("smooth", {"length": 0.6}),
          "direction": ("direction", {"density": 1.2, "border": "clamped"}),
-         "untwist": ("untwist", {"angle": 0.1, "border": "clamped"})}
+         "turn": ("direction", {"angle": 0.1, "border": "clamped"})}
 LIMIT = 0.001
 ROUNDING = 5e-7  # of single precision, in which Blender keeps and subdivides positions of up to 1
 

@@ -34,8 +34,8 @@ def edit_half(ob: bpy.types.Object) -> None:
 
 
 def seen(light: tuple[float, float, float]) -> None:
-    bpy.ops.reflines.add_view_camera(direction=(0.0, 0.0, 1.0))
-    bpy.ops.reflines.add_light_direction(direction=light)
+    bpy.ops.reflines.set_up(part='CAMERA', direction=(0.0, 0.0, 1.0))
+    bpy.ops.reflines.set_up(part='LIGHT', direction=light)
 
 
 def columns(ob: bpy.types.Object) -> np.ndarray:
@@ -102,8 +102,8 @@ def test_the_seam_of_a_mirror_about_an_object_stays(transform) -> None:
     ob = half()
     about_an_empty(ob, transform)
     axes = np.array(ob.matrix_world)[:3, :3]
-    bpy.ops.reflines.add_view_camera(direction=axes @ (0.5, 0.0, 1.0))
-    bpy.ops.reflines.add_light_direction(direction=axes @ (0.0, 1.0, 0.1))
+    bpy.ops.reflines.set_up(part='CAMERA', direction=axes @ (0.5, 0.0, 1.0))
+    bpy.ops.reflines.set_up(part='LIGHT', direction=axes @ (0.0, 1.0, 0.1))
     edit_half(ob)
     before = columns(ob)
     assert scenes.smooth(border='free', length=0.5) == {'FINISHED'}
@@ -134,8 +134,8 @@ def test_mirror_x_keeps_every_bit_symmetric(transform, light) -> None:
     matrix = scenes.TRANSFORMS[transform]
     ob.matrix_world = matrix
     axes = np.array(matrix)[:3, :3]
-    bpy.ops.reflines.add_view_camera(direction=axes @ (0.0, 0.0, 1.0))
-    bpy.ops.reflines.add_light_direction(direction=axes @ light)
+    bpy.ops.reflines.set_up(part='CAMERA', direction=axes @ (0.0, 0.0, 1.0))
+    bpy.ops.reflines.set_up(part='LIGHT', direction=axes @ light)
     mesh.use_mirror_x = True
     scenes.edit_inner(ob, CELLS)
     before = scenes.positions(ob)
@@ -159,17 +159,17 @@ def test_mirror_x_says_why_a_result_is_not_symmetric() -> None:
     assert "have no mirror image in it" in ob.reflection_lines.report.notes
 
 
-@pytest.mark.parametrize("tool", ["untwist", "smooth"])
+@pytest.mark.parametrize("tool", ["direction", "smooth"])
 def test_solved_without_symmetry_the_middle_moves_along_the_view(tool) -> None:
     """The middle got its old x back: 0.017 beside the view for a move of 0.121."""
     ob = scenes.panel("Aslant")
     ob.data.use_mirror_x = True
-    bpy.ops.reflines.add_view_camera(direction=(0.25, 0.0, 1.0))
-    bpy.ops.reflines.add_light_direction(direction=(1.0, 0.2, 0.1))
+    bpy.ops.reflines.set_up(part='CAMERA', direction=(0.25, 0.0, 1.0))
+    bpy.ops.reflines.set_up(part='LIGHT', direction=(1.0, 0.2, 0.1))
     scenes.edit_inner(ob)
     before = scenes.positions(ob).astype(float)
-    if tool == "untwist":
-        bpy.ops.reflines.untwist(angle=0.3)
+    if tool == "direction":
+        bpy.ops.reflines.direction(angle=0.3)
     else:
         scenes.smooth(length=0.3)
     move = scenes.positions(ob).astype(float) - before

@@ -8,7 +8,7 @@ from reflection_lines.model.looks import LOOKS
 
 import installation
 
-KEPT = ("mode", "count", "width", "eye", "scope", "cage_on_top")
+KEPT = ("mode", "count", "width", "eye", "scope")
 
 
 def stripes() -> bpy.types.PropertyGroup:
@@ -17,8 +17,7 @@ def stripes() -> bpy.types.PropertyGroup:
 
 def test_a_preset_brings_the_look_back_to_other_files(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(made(tmp_path / path)))
-    look = {"mode": 'ISOPHOTE', "count": 17, "width": 0.25, "eye": 'VIEWPORT', "scope": 'VISIBLE',
-            "cage_on_top": False}
+    look = {"mode": 'ISOPHOTE', "count": 17, "width": 0.25, "eye": 'VIEWPORT', "scope": 'VISIBLE'}
     for name, value in look.items():
         setattr(stripes(), name, value)
     stripes().color = (0.25, 0.5, 0.75, 1.0)
@@ -40,7 +39,8 @@ def made(folder: Path) -> Path:
 
 def test_a_preset_has_every_setting_of_the_look() -> None:
     own = {each.identifier for each in stripes().bl_rna.properties}
-    left_out = {"rna_type", "name", "show", "before", "side_by_side", "look", "collection", "image", "frozen_eye"}
+    left_out = {"rna_type", "name", "show", "before", "side_by_side", "cage_on_top", "look", "collection", "image",
+                "frozen_eye"}
     operator = bpy.types.REFLINES_OT_save_stripes_preset
     paths = {f"bpy.context.scene.reflection_lines.stripes.{name}" for name in own - left_out}
     assert paths == set(operator.preset_values)

@@ -82,7 +82,7 @@ def test_a_limit_that_nothing_reaches_changes_no_bit() -> None:
 def test_the_crossed_light_counts_unless_it_is_left_out() -> None:
     changes = {}
     for lights in ('SINGLE', 'CROSSED'):
-        panel, before, after = press("untwist", angle=0.3, border='free', lights=lights)
+        panel, before, after = press("direction", angle=0.3, border='free', lights=lights)
         now, then = read_fields(panel, after), read_fields(panel, before)
         changes[lights] = [np.linalg.norm(now[k] - then[k]) for k in (0, 1)]
     assert 0.0 < changes['CROSSED'][1] < 0.95 * changes['SINGLE'][1]

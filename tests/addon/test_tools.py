@@ -1,4 +1,4 @@
-"""Direction, untwist, directional smoothing and pattern, through the user's door."""
+"""Direction and density, directional smoothing and pattern, through the user's door."""
 from collections.abc import Callable
 from math import radians
 
@@ -36,7 +36,8 @@ def pattern(**settings: object) -> set[str]:
 IDENTITIES = {
     "smooth": lambda: scenes.smooth(strength=0.0, directional=True),
     "direction": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=3.0, strength=0.0),
-    "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True, angle=0.0),
+    "direction as set": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True),
+    "direction along lines": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, axis='ALONG'),
     "warp": lattice_at_rest,
     "pattern": lambda: pattern(strength=0.0),
     "pattern by value": lambda: pattern(strength=0.0, fit='VALUE'),
@@ -51,9 +52,11 @@ CHANGES = {
                                                  **CLAMPED),
     "density": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.1, axis='ACROSS', density_end=0.9,
                                                   **CLAMPED),
+    "straight": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='MEAN', density=1.1, axis='ALONG',
+                                                   density_end=0.9, **CLAMPED),
     "density in the middle": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2, **INSIDE),
     "curve": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2, **(CLAMPED | CURVE)),
-    "untwist": lambda: bpy.ops.reflines.untwist('EXEC_DEFAULT', True, angle=0.1, radius=0.7, **INSIDE),
+    "turn": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, angle=0.1, radius=0.7, **INSIDE),
     "pattern": pattern,
     "pattern by value": lambda: pattern(fit='VALUE'),
 }
@@ -115,9 +118,9 @@ def test_the_angle_is_that_of_the_lines_in_the_picture(panel) -> None:
     assert np.arctan2(across[0], -across[1]) == pytest.approx(radians(8.0), abs=radians(0.5))
 
 
-def test_untwist_turns_the_middle_counter_clockwise(panel) -> None:
+def test_as_they_run_turns_the_middle_counter_clockwise(panel) -> None:
     before = lines_of(panel).field()
-    bpy.ops.reflines.untwist(angle=0.2, centre='REGION', radius=0.8, border='free')
+    bpy.ops.reflines.direction(angle=0.2, centre='REGION', radius=0.8, border='free')
     optimizer = lines_of(panel)
     inside = near(optimizer, 0.2)
     old, new = before[inside].mean(axis=0), optimizer.field()[inside].mean(axis=0)
@@ -128,30 +131,30 @@ def test_untwist_turns_the_middle_counter_clockwise(panel) -> None:
 def test_the_cursor_is_the_centre(panel) -> None:
     bpy.context.scene.cursor.location = (0.5, 0.0, 0.0)
     before = scenes.positions(panel)
-    bpy.ops.reflines.untwist(angle=0.3, centre='CURSOR', radius=0.3, border='clamped')
+    bpy.ops.reflines.direction(angle=0.3, centre='CURSOR', radius=0.3, border='clamped')
     moved = np.abs(scenes.positions(panel) - before)[:, 2]
     assert (moved @ before[:, 0]) / moved.sum() > 0.2
 
 
 def test_the_active_vertex_is_the_centre_and_missing_refused(panel) -> None:
     with pytest.raises(RuntimeError, match="no active vertex"):
-        bpy.ops.reflines.untwist(angle=0.3, centre='ACTIVE')
+        bpy.ops.reflines.direction(angle=0.3, centre='ACTIVE')
 
 
 def test_settings_come_from_the_scene_unless_given(panel) -> None:
-    bpy.context.scene.reflection_lines.untwist.angle = 0.1
+    bpy.context.scene.reflection_lines.direction.angle = 0.1
     bpy.ops.ed.undo_push(message="start")
-    bpy.ops.reflines.untwist('EXEC_DEFAULT', True)
+    bpy.ops.reflines.direction('EXEC_DEFAULT', True)
     from_scene = scenes.positions(panel)
     bpy.ops.ed.undo()
     panel = bpy.context.view_layer.objects.active
-    bpy.ops.reflines.untwist(angle=0.1)
+    bpy.ops.reflines.direction(angle=0.1)
     assert np.array_equal(scenes.positions(panel), from_scene)
 
 
 def test_the_curve_is_saved_with_the_file(panel, tmp_path) -> None:
     settings = bpy.context.scene.reflection_lines
-    settings.untwist.shape = 'CURVE'
+    settings.direction.shape = 'CURVE'
     points = settings.curve.nodes[0].mapping.curves[0].points
     points[0].location = (0.0, 0.25)
     scenes.object_mode()

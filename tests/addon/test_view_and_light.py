@@ -1,4 +1,4 @@
-"""Add View Camera and Add Light Direction."""
+"""Set Up from This View by its parts: another view camera, and the light direction."""
 from pathlib import Path
 
 import bpy
@@ -23,7 +23,7 @@ def settings() -> bpy.types.PropertyGroup:
 def test_in_background_the_camera_looks_at_the_panels_mean_normal(angles) -> None:
     ob = scenes.panel(height=scenes.crown)
     ob.matrix_world = Euler(angles).to_matrix().to_4x4()
-    bpy.ops.reflines.add_view_camera()
+    bpy.ops.reflines.set_up(part='CAMERA')
     camera = settings().camera
     assert camera.data.type == 'ORTHO'
     assert axis_z(camera) == pytest.approx(np.array(ob.matrix_world)[:3, 2], abs=1e-5)
@@ -35,14 +35,14 @@ def test_in_edit_mode_the_selected_faces_count() -> None:
     scenes.edit(ob)
     right = next(face.index for face in ob.data.polygons if face.normal.x > 0.9)
     scenes.select_faces(ob, lambda face: face == right)
-    bpy.ops.reflines.add_view_camera()
+    bpy.ops.reflines.set_up(part='CAMERA')
     assert axis_z(settings().camera) == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
 
 
 def test_the_whole_object_is_in_the_picture() -> None:
     ob = scenes.panel()
     ob.location = (5.0, 6.0, 7.0)
-    bpy.ops.reflines.add_view_camera(direction=(1.0, 2.0, 1.5))
+    bpy.ops.reflines.set_up(part='CAMERA', direction=(1.0, 2.0, 1.5))
     camera = settings().camera
     bpy.context.view_layer.update()
     seen = (scenes.world(ob) - np.array(camera.matrix_world)[:3, 3]) @ np.array(camera.matrix_world)[:3, :3]
@@ -54,8 +54,8 @@ def test_the_whole_object_is_in_the_picture() -> None:
 @pytest.mark.parametrize("direction", [(0.0, 0.0, 1.0), (1.0, 1.0, 1.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)])
 def test_the_first_light_is_across_the_view(direction) -> None:
     scenes.panel()
-    bpy.ops.reflines.add_view_camera(direction=direction)
-    bpy.ops.reflines.add_light_direction()
+    bpy.ops.reflines.set_up(part='CAMERA', direction=direction)
+    bpy.ops.reflines.set_up(part='LIGHT')
     assert settings().light.type == 'EMPTY'
     assert settings().light.empty_display_type == 'SINGLE_ARROW'
     assert abs(axis_z(settings().camera) @ axis_z(settings().light)) < 1e-6
@@ -63,13 +63,13 @@ def test_the_first_light_is_across_the_view(direction) -> None:
 
 def test_a_light_of_a_given_direction() -> None:
     scenes.panel()
-    bpy.ops.reflines.add_light_direction(direction=(1.0, -2.0, 0.5))
+    bpy.ops.reflines.set_up(part='LIGHT', direction=(1.0, -2.0, 0.5))
     assert axis_z(settings().light) == pytest.approx(np.array([1.0, -2.0, 0.5]) / np.sqrt(5.25), abs=1e-6)
 
 
 def test_a_camera_needs_a_mesh() -> None:
     with pytest.raises(RuntimeError, match="Make the panel's mesh the active object"):
-        bpy.ops.reflines.add_view_camera()
+        bpy.ops.reflines.set_up(part='CAMERA')
 
 
 def test_the_selection_stays() -> None:
@@ -82,7 +82,7 @@ def test_the_selection_stays() -> None:
 def test_undo_takes_camera_and_light_away() -> None:
     scenes.panel()
     bpy.ops.ed.undo_push(message="start")
-    bpy.ops.reflines.add_view_camera('EXEC_DEFAULT', True)
+    bpy.ops.reflines.set_up('EXEC_DEFAULT', True, part='CAMERA')
     bpy.ops.ed.undo()
     assert settings().camera is None
     assert not bpy.data.cameras

@@ -154,7 +154,7 @@ def test_a_panel_keeps_its_view() -> None:
     assert not bpy.ops.reflines.use_panel_view.poll()
     one.select_set(False)
     other = scenes.panel("Two")
-    bpy.ops.reflines.add_view_camera(direction=(0.3, 0.0, 1.0))
+    bpy.ops.reflines.set_up(part='CAMERA', direction=(0.3, 0.0, 1.0))
     assert settings().camera != first[0]
     assert not bpy.ops.reflines.use_panel_view.poll()
     scenes.activate(one)

@@ -27,6 +27,7 @@ def identities(solver):
     nobody = np.zeros(len(solver.centers))
     image = np.random.default_rng(0).random((20, 30))
     return [reflines.turn(solver, angle=0.0), reflines.turn(solver, angle=1.0, influence=nobody),
+            reflines.turn(solver, density=1.0, density_end=1.0, axis=(1, 0)),
             reflines.uniform(solver, density=3.0, influence=nobody), warped(solver, lambda p: p)[0],
             reflines.pattern(solver, image=image, strength=0.0), reflines.smooth(solver, length=0.3, strength=0.0)]
 
@@ -42,6 +43,16 @@ def test_turn_turns_every_gradient(solver):
     before, after = solver.field(), reflines.turn(solver, angle=0.3).gradient
     turned = before @ np.array([[np.cos(0.3), np.sin(0.3)], [-np.sin(0.3), np.cos(0.3)]])
     assert np.allclose(after, turned, atol=1e-14)
+
+
+def test_turn_scales_every_gradient_by_a_density_along_an_axis(solver):
+    axis = np.array([1.0, 0.0])
+    target = reflines.turn(solver, density=1.5, density_end=0.5, axis=axis)
+    position = solver.centers @ axis
+    share = (position - position.min()) / np.ptp(position)
+    assert np.allclose(target.gradient, solver.field() * (1.5 - share)[:, None], atol=1e-14)
+    half = reflines.turn(solver, density=3.0, influence=np.full(len(position), 0.5))
+    assert np.allclose(half.gradient, 2.0 * solver.field(), atol=1e-14)
 
 
 def test_uniform_lines_have_the_direction_and_the_density(solver):
@@ -180,6 +191,7 @@ def warp_of(solver, nodes, low=(0, 0), **sizes):
     (lambda s: reflines.uniform(s, influence=np.full(len(s.centers), 2.0)), "influence"),
     (lambda s: reflines.uniform(s, influence=np.ones(3)), "influence"),
     (lambda s: reflines.turn(s, angle=float("nan")), "angle"),
+    (lambda s: reflines.turn(s, density=-1.0), "density"),
     (lambda s: reflines.falloff(s, centre=(0, 0), radius=0.0, curve=np.ones(2)), "radius"),
     (lambda s: reflines.pattern(s, image=np.zeros((0, 0))), "image"),
     (lambda s: reflines.pattern(s, image=np.ones((2, 2)), width=0.0), "width"),

@@ -69,7 +69,7 @@ Target read_target(Bytes& bytes, ShapeOptimizer& optimizer) {
       return build_uniform_target(optimizer.region_field(0), options, {});
     }
     case 2:
-      return build_turned_target(optimizer.region_field(0), bytes.number(), {});
+      return build_turned_target(optimizer.region_field(0), {.angle = bytes.number()}, {});
     default: {
       Target target;
       target.gradient = PlaneVectors::Constant(optimizer.triangle_count(), 2, bytes.number());

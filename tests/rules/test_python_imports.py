@@ -48,7 +48,7 @@ MAY_IMPORT = {
     "ui.stripe_properties": {"model"},
     "ui.rows": set(),
     "ui.automatic_values": {*SCENE},
-    "ui.tool_properties": {*SCENE, "model", "ui.rows"},
+    "ui.tool_properties": {*SCENE, "model", "ui.automatic_values", "ui.rows"},
     "ui.handle_properties": {*SCENE, "model"},
     "ui.handles_panel": {"model", "ui.panels"},
     "ui.check_properties": {*SCENE, "model"},
@@ -69,14 +69,14 @@ MAY_IMPORT = {
     "ui.menus": set(),
     "ui.keymaps": set(),
     "ui.manual_links": set(),
-    "ui.toolbar": {"ui.gizmos", "ui.handle_gizmos", "overlay.brush_circle"},
+    "ui.toolbar": {"ui.automatic_values", "ui.gizmos", "ui.handle_gizmos", "overlay.brush_circle"},
     "ui.preferences": {"bl_info", "native", "ui.keymaps", "ui.manual_links"},
 }
 # Registration sees everything.
 INDEXES = {"__init__"} | {f"{package}.__init__" for package in (
     "model", "targets", *SCENE, "solver", "state", "interactive", "operators", "overlay", "ui")}
 # What the operators that solve are made of; no operator imports another one.
-OPERATOR_BASES = {"operators.solve_tool", "operators.dragged_tool", "operators.camera_aim"}
+OPERATOR_BASES = {"operators.solve_tool", "operators.dragged_tool"}
 
 # Module from elsewhere -> the only modules of addon/ that may import it.
 WALLS = {"reflines": ("native",), "bmesh": ("blender.compat", "read", "write"),

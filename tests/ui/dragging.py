@@ -15,7 +15,7 @@ def panel(driver: window.Window, cells: int = 16, levels: int = 0) -> bpy.types.
     """With `levels` it is a cage below a Subdivision Surface. What earlier drags kept in the sidebar is forgotten."""
     settings = bpy.context.scene.reflection_lines
     for name, values in (("strength", settings), ("length", settings), ("density", settings.direction),
-                         ("angle", settings.untwist), ("strength", settings.pattern), ("amount", settings.warp)):
+                         ("angle", settings.direction), ("strength", settings.pattern), ("amount", settings.warp)):
         values.property_unset(name)
     with driver.override():
         if bpy.context.mode != 'OBJECT':

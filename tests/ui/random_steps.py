@@ -159,7 +159,7 @@ def press_on_many_faces(walker: Walker) -> Steps:
     """A press that runs beside Blender: awaited, left, or at work while the scene changes and the next steps are
     taken."""
     yield from new_panel(walker, cells=60)
-    tool = walker.dice.choice(("reflines.smooth", "reflines.direction", "reflines.untwist", "reflines.pattern"))
+    tool = walker.dice.choice(("reflines.smooth", "reflines.direction", "reflines.pattern"))
     print("   ", tool, walker.call(tool, 'INVOKE_DEFAULT', True), flush=True)
     yield walker.dice.choice((0.0, 0.3))
     then = walker.dice.choice(("waits", "leaves", "goes on", "is surprised"))
@@ -238,7 +238,7 @@ def change_mode(walker: Walker) -> Steps:
 def change_settings(walker: Walker) -> Steps:
     """A setting of the scene, of any of the add-on's sets, to any value it can have."""
     dice, scene = walker.dice, bpy.context.scene.reflection_lines
-    holder = dice.choice((scene, scene.stripes, scene.direction, scene.untwist, scene.warp, scene.pattern, scene.pull))
+    holder = dice.choice((scene, scene.stripes, scene.direction, scene.warp, scene.pattern, scene.pull))
     name, found = dice.choice([each for each in holder.bl_rna.properties.items() if not each[1].is_readonly])
     if found.type == 'BOOLEAN':
         setattr(holder, name, dice.random() < 0.5)

@@ -60,11 +60,13 @@ def test_the_header_tells_the_gain_first_as_the_result_will(driver: window.Windo
 
 def test_the_header_of_another_tool_tells_how_much_of_the_target_was_reached(driver: window.Window) -> Steps:
     panel(driver)
-    bpy.context.scene.reflection_lines.untwist.border = 'free'  # of a clamped one a few per cent are within reach
-    yield from press(driver, "untwist")
+    settings = bpy.context.scene.reflection_lines
+    settings.border, settings.direction.angle = 'free', 0.2  # of a clamped border a few per cent are within reach
+    yield from press(driver, "direction")
     header = running_drag().texts[0]
     driver.key('RET')
     yield from ended(driver)
+    settings.property_unset("border")
     report = bpy.context.view_layer.objects.active.reflection_lines.report
     assert header.startswith(report.headline().split(",")[0]) and "% of the target reached" in header
 

@@ -57,7 +57,7 @@ def test_a_tool_whose_camera_is_removed_takes_all_back_and_says_so(driver: windo
         remove_camera()
         yield from move_on(driver)
         assert not is_running() and np.array_equal(shown(driver), before), begin.__name__
-        assert driver.read_last_report().startswith("No view camera: press Add View Camera")
+        assert driver.read_last_report().startswith("No view camera: press Set Up from This View")
 
 
 def test_a_session_whose_camera_is_removed_takes_all_back_and_says_so(driver: window.Window) -> Steps:
@@ -70,7 +70,7 @@ def test_a_session_whose_camera_is_removed_takes_all_back_and_says_so(driver: wi
     driver.event('LEFTMOUSE', 'RELEASE')
     yield 0.3
     assert not is_running() and np.array_equal(shown(driver), before)
-    assert driver.read_last_report().startswith("No view camera: press Add View Camera")
+    assert driver.read_last_report().startswith("No view camera: press Set Up from This View")
 
 
 def test_an_error_in_a_drag_ends_it_in_order(driver: window.Window) -> Steps:
@@ -114,7 +114,7 @@ def test_a_change_by_something_else_ends_a_drag_at_rest(driver: window.Window) -
     for change in changes:
         for go_on in (move_on, enter):
             ob = yield from fresh(driver)
-            yield from press(driver, "untwist")
+            yield from press(driver, "direction")
             yield from move_on(driver)
             yield from settled(driver)
             change(ob)

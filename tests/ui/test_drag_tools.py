@@ -26,19 +26,19 @@ def kept_equals_executed(driver: window.Window, operator: str, names: tuple[str,
     assert np.abs(kept - dragging.shown(driver)).max() < 2e-6
 
 
-def test_untwist_with_the_wheel_for_its_radius(driver: window.Window) -> Steps:
+def test_turn_with_the_wheel_for_its_radius(driver: window.Window) -> Steps:
     dragging.panel(driver)
-    own = bpy.context.scene.reflection_lines.untwist
+    own = bpy.context.scene.reflection_lines.direction
     own.centre, own.radius, own.angle = 'REGION', 0.5, 0.0
-    yield from dragging.press(driver, "untwist")
+    yield from dragging.press(driver, "direction")
     driver.move(460, 300)
     yield 0.1
     for _ in range(3):
         driver.event('WHEELUPMOUSE', 'PRESS')
         yield 0.05
     yield from dragging.settled(driver)
-    yield from window.take_picture(driver, "untwist")
-    yield from kept_equals_executed(driver, "untwist", ("angle", "radius"))
+    yield from window.take_picture(driver, "turn")
+    yield from kept_equals_executed(driver, "direction", ("angle", "radius"))
     operator = bpy.context.window_manager.operators[-1].properties
     assert abs(np.degrees(operator.angle) - 15.0) < 1e-3
     assert abs(operator.radius - 0.5 * 2.0**0.4) < 1e-5
@@ -46,10 +46,14 @@ def test_untwist_with_the_wheel_for_its_radius(driver: window.Window) -> Steps:
 
 def test_density(driver: window.Window) -> Steps:
     dragging.panel(driver)
+    bpy.context.scene.reflection_lines.direction.radius = 0.5
     yield from dragging.press(driver, "direction")
+    driver.key('TAB')
     driver.move(425, 300)
     yield from dragging.settled(driver)
-    yield from kept_equals_executed(driver, "direction", ("density",))
+    yield from kept_equals_executed(driver, "direction", ("angle", "density"))
+    operator = bpy.context.window_manager.operators[-1].properties
+    assert operator.density > 1.1 and operator.angle == 0.0
 
 
 def test_pattern(driver: window.Window) -> Steps:
@@ -122,5 +126,5 @@ def test_smooth_into_a_shape_key(driver: window.Window) -> Steps:
     assert np.array_equal(kept, dragging.executed(driver, strength=0.5, length=length))
 
 
-window.run(test_untwist_with_the_wheel_for_its_radius, test_density, test_pattern, test_warp_by_a_typed_amount,
+window.run(test_turn_with_the_wheel_for_its_radius, test_density, test_pattern, test_warp_by_a_typed_amount,
            test_smooth_into_a_shape_key)

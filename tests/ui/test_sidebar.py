@@ -15,7 +15,7 @@ from dragging import ended, panel
 Steps = Generator[float, None, None]
 
 ORDER = ("smooth", "result", "stripes", "setup", "region", "pull", "brush", "design")
-FOLDED = ("design", "smooth_settings", "stripes", "setup", "region", "direction", "untwist", "warp", "pattern", "look",
+FOLDED = ("design", "smooth_settings", "stripes", "setup", "region", "direction", "warp", "pattern", "look",
           "numbers")
 PREFIX = "VIEW3D_PT_reflines_"
 BESIDE_CONTENT = 57  # pixels of the sidebar's width that tabs, scroll bar and margins take in Blender 3.4
@@ -166,7 +166,7 @@ def record_panels(driver: window.Window, drawn: dict[str, list[str]]) -> Generat
 def choose_largest(settings: bpy.types.PropertyGroup) -> None:
     """The settings with which the panels show the most."""
     settings.direction.direction, settings.direction.axis = 'POINTS', 'ALONG'
-    settings.direction.centre = settings.untwist.centre = 'REGION'
+    settings.direction.centre = 'REGION'
 
 
 def test_nothing_is_cut_at_the_default_width(driver: window.Window) -> Steps:

@@ -20,9 +20,16 @@ struct UniformOptions {
 // direction, the one nearer to the region's median is taken.
 Target build_uniform_target(const RegionField& field, const UniformOptions& options, const Vector& influence);
 
-// Builds the target of the current gradients turned by `angle` (radians, counter-clockwise in the image plane) times
-// the influence of each triangle and field.response.
-Target build_turned_target(const RegionField& field, double angle, const Vector& influence);
+struct TurnOptions {
+  double angle = 0;                // radians, counter-clockwise in the image plane
+  double density = 1.0;            // a factor of each triangle's own |grad theta|
+  double density_end = -1.0;       // the factor at the far end of `axis`; negative: constant
+  Vector2 axis = Vector2::Zero();  // direction in the image plane along which the factor varies linearly
+};
+
+// Builds the target of the current gradients turned and scaled, both times the influence of each triangle and
+// field.response: the lines keep their course where the angle is 0 and the density 1, bit for bit.
+Target build_turned_target(const RegionField& field, const TurnOptions& options, const Vector& influence);
 
 // Evaluates a fall-off curve c(d) for every triangle (#F) at its distance d from `centre` in the image plane: `curve`
 // is tabulated at equal steps from d = 0 to d = radius, linear between, constant beyond. The result serves as a weight

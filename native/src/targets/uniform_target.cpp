@@ -22,6 +22,15 @@ double read_influence(const RegionField& field, const Vector& influence, int t) 
   return field.response(t) * (influence.size() == 0 ? 1.0 : influence(t));
 }
 
+void check_density(double density, double density_end, const Vector2& axis) {
+  if (!(density >= 0) || !std::isfinite(density)) {
+    throw InvalidInput("The density of the lines must be zero or positive.");
+  }
+  if (!std::isfinite(density_end) || !axis.allFinite()) {
+    throw InvalidInput("The density at the end or the axis is not a finite number; type it again.");
+  }
+}
+
 // Returns the position of each triangle along the axis, 0 at the region's first and 1 at its last.
 Vector measure_along_axis(const RegionField& field, const Vector2& axis) {
   Vector position = field.center * axis;
@@ -35,16 +44,18 @@ Vector measure_along_axis(const RegionField& field, const Vector2& axis) {
   return ((position.array() - low) / (high - low)).matrix();
 }
 
+// Returns the density of each triangle, which goes linearly to `end` along the axis; a negative end is `density`.
+Vector read_densities(const RegionField& field, double density, double end, const Vector2& axis) {
+  const double change = end < 0 ? 0 : end - density;
+  return (density + measure_along_axis(field, axis).array() * change).matrix();
+}
+
 }  // namespace
 
 Target build_uniform_target(const RegionField& field, const UniformOptions& options, const Vector& influence) {
   check_influence(field, influence);
-  if (!(options.density >= 0) || !std::isfinite(options.density)) {
-    throw InvalidInput("The density of the lines must be zero or positive.");
-  }
-  if (!std::isfinite(options.density_end) || !options.direction.allFinite() || !options.axis.allFinite()) {
-    throw InvalidInput("The density at the end, the direction or the axis is not a finite number; type it again.");
-  }
+  check_density(options.density, options.density_end, options.axis);
+  if (!options.direction.allFinite()) throw InvalidInput("The direction is not a finite number; type it again.");
   const Vector2 median = field.median_gradient();
   const bool own_direction = options.direction.norm() == 0;
   Vector2 across = own_direction ? median : Vector2(-options.direction.y(), options.direction.x());
@@ -52,25 +63,26 @@ Target build_uniform_target(const RegionField& field, const UniformOptions& opti
   across.normalize();
   if (across.dot(median) < 0) across = -across;
   const double unit = options.relative ? median.norm() : 1.0;
-  const double end = options.density_end < 0 ? options.density : options.density_end;
-  const Vector position = measure_along_axis(field, options.axis);
+  const Vector density = read_densities(field, options.density, options.density_end, options.axis);
   Target target{field.gradient, {}, {}, field.family, true};
   for (int t = 0; t < field.F.rows(); ++t) {
-    const double density = unit * (options.density + position(t) * (end - options.density));
     const Eigen::RowVector2d now = field.gradient.row(t);
-    target.gradient.row(t) += read_influence(field, influence, t) * (density * across.transpose() - now);
+    target.gradient.row(t) += read_influence(field, influence, t) * (unit * density(t) * across.transpose() - now);
   }
   return target;
 }
 
-Target build_turned_target(const RegionField& field, double angle, const Vector& influence) {
+Target build_turned_target(const RegionField& field, const TurnOptions& options, const Vector& influence) {
   check_influence(field, influence);
-  if (!std::isfinite(angle)) throw InvalidInput("The angle is not a number; give radians.");
+  check_density(options.density, options.density_end, options.axis);
+  if (!std::isfinite(options.angle)) throw InvalidInput("The angle is not a number; give radians.");
+  const Vector density = read_densities(field, options.density, options.density_end, options.axis);
   Target target{field.gradient, {}, {}, field.family, true};
   for (int t = 0; t < field.F.rows(); ++t) {
-    const double own = angle * read_influence(field, influence, t);
-    if (own == 0) continue;
-    const double x = field.gradient(t, 0), y = field.gradient(t, 1);
+    const double share = read_influence(field, influence, t), own = options.angle * share;
+    const double factor = 1 + share * (density(t) - 1);
+    if (own == 0 && factor == 1) continue;
+    const double x = factor * field.gradient(t, 0), y = factor * field.gradient(t, 1);
     target.gradient.row(t) << std::cos(own) * x - std::sin(own) * y, std::sin(own) * x + std::cos(own) * y;
   }
   return target;
