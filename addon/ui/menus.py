@@ -34,7 +34,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         stripes = context.scene.reflection_lines.stripes
         layout.prop(stripes, "show")
         layout.prop(stripes, "before")
-        layout.prop_menu_enum(stripes, "mode", text="Stripes Mode")
+        layout.prop_menu_enum(stripes, "mode")
         layout.operator("reflines.install_matcap", icon='MATSPHERE')
         layout.operator("reflines.resolve", icon='FILE_REFRESH')
         layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')

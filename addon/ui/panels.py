@@ -400,8 +400,8 @@ class VIEW3D_PT_reflines_numbers(ResultPart, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         report = context.view_layer.objects.active.reflection_lines.report
         column = self.layout.column(align=True)
-        column.label(text=f"Line deviation {report.score_before:.3g}\u00b0 \u2192 {report.score_after:.3g}\u00b0")
-        column.label(text=f"Turn {report.turn_before:.3g}\u00b0 \u2192 {report.turn_after:.3g}\u00b0")
+        column.label(text=f"Line deviation {report.score_before:.2g}\u00b0 \u2192 {report.score_after:.2g}\u00b0")
+        column.label(text=f"Turn {report.turn_before:.2g}\u00b0 \u2192 {report.turn_after:.2g}\u00b0")
         column.label(text=f"at length {report.measured_length()}")
         if report.termination not in ENDED:
             draw_paragraph(column, context, "The solver stopped before the best shape", 'INFO')
