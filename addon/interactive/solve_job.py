@@ -212,7 +212,7 @@ class SolveJob:
                 length = solve.choose_length(patch, settings.length)
                 scores = [await call(each.score, length) for each in (start.optimizer, follower)]
                 numbers.append((*(score.shift for score in scores),
-                                await wanted.measure(start.optimizer), await wanted.measure(follower)))
+                                await wanted.measure(start.optimizer), await wanted.measure(follower), length))
         self.measure_seconds = time.perf_counter() - begin
         return Gain(*np.sqrt(np.mean(np.square(numbers), axis=0)).tolist())
 

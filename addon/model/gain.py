@@ -1,6 +1,7 @@
 """The gain of a solve, in an artist's words."""
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import degrees
 
 SEEN = 0.005  # share of a panel below which nothing is said of its area
 
@@ -60,19 +61,22 @@ def join_healed(every: Sequence[Healed], areas: Sequence[float]) -> Healed:
 
 @dataclass(frozen=True)
 class Gain:
-    """The measures of a solve, before and after. Scores are degrees, residuals radians / length."""
+    """The measures of a solve, before and after. Scores are degrees, residuals radians / length; the length is that at
+    which the scores were measured.
+    """
     score_before: float
     score_after: float
     residual_before: float
     residual_after: float
+    length: float
 
     def describe(self, *, smoothed: bool) -> str:
-        """Says how far lines that were smoothed are off their course; of other tools, how much of the target was
-        reached.
+        """Says how far lines that were smoothed are off their course; of other tools, how far they are off the wanted
+        ones within one length, in the same degrees.
         """
         if smoothed:
             return f"Lines off by {format_change(self.score_before, self.score_after)}"
-        share = 1.0 - self.residual_after / self.residual_before if self.residual_before else 1.0
-        return f"{max(share, 0.0):.0%} of the target reached"
+        off = (degrees(residual * self.length) for residual in (self.residual_before, self.residual_after))
+        return f"Off the wanted lines by {format_change(*off)}"
 
     describe_shortly = describe

@@ -50,7 +50,7 @@ class DraggedTool(SolveTool):
     """
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
 
-    smooths = False  # whether the gain is told by how smooth the lines are, not by the share of the target
+    smooths = False  # whether the gain is told by how smooth the lines are, not by how near the wanted ones
 
     lights: lights_property()
     limit: limit_property()

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ..blender import units
+from ..model import gain
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -54,15 +55,14 @@ has its lines. Select that mesh, then the cage"""
                                  explains_share=False, judges=self.read_judges(context))
         solution = optimizer_cache.solve_with_cache(patch, seen, settings, fit)
         before, after = fit.before, fit.misfit()
-        said = (f"Distance from {fit.dense.name} {format_distance(before)} before, {format_distance(after)} "
-                f"after; lines off by {np.degrees(before.angle):.3g} degrees before, "
-                f"{np.degrees(after.angle):.3g} after")
+        off = gain.format_change(np.degrees(before.angle), np.degrees(after.angle))
+        said = (f"Distance from {fit.dense.name} {format_distance(before)} \u2192 {format_distance(after)} at most, lines "
+                f"off by {off}")
         return replace(solution, fit=said)
 
 
 def format_distance(misfit: Misfit) -> str:
-    mean, largest = (units.format_length(value, bpy.context.scene) for value in (misfit.mean, misfit.largest))
-    return f"{mean} (at most {largest})"
+    return units.format_length(misfit.largest, bpy.context.scene, 2)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_fit])

@@ -139,7 +139,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
 
     def gain(self) -> str:
         """Says how far a fitted cage is from the other mesh, what was healed, how far lines are off their course, or
-        how much of the target was reached.
+        how far they are off the wanted ones.
         """
         if self.fit:
             return self.fit
@@ -148,8 +148,8 @@ class ReflinesReport(bpy.types.PropertyGroup):
         operator = self.id_data.reflection_lines.run.operator
         if operator == "REFLINES_OT_fair_brush":
             return describe_stroke(self.score_before, self.score_after)
-        return Gain(self.score_before, self.score_after, self.residual_before,
-                    self.residual_after).describe(smoothed=operator == "REFLINES_OT_smooth")
+        return Gain(self.score_before, self.score_after, self.residual_before, self.residual_after,
+                    self.length).describe(smoothed=operator == "REFLINES_OT_smooth")
 
     def lines_off(self) -> tuple[float, float]:
         """Returns how far lines were and are off their course, degrees: at the worst place where that is known, else

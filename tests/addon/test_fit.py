@@ -1,4 +1,6 @@
 """Fit Cage to Mesh: the cage below a Subdivision Surface takes over another mesh's surface and lines."""
+import re
+
 import bpy
 import numpy as np
 import pytest
@@ -52,7 +54,8 @@ def test_the_surface_of_a_cage_gives_that_cage_back_and_says_how_near() -> None:
     assert np.abs(scenes.positions(noisy) - expected).max() < 1e-4
     report = noisy.reflection_lines.report
     assert report.termination == "converged"
-    assert "Distance from Dense" in report.fit and "degrees" in report.fit
+    assert re.fullmatch(r"Distance from Dense \S+ mm \u2192 \S+ \S+ at most, lines off by \S+\u00b0 \u2192 \S+\u00b0",
+                        report.fit)
     assert [modifier.type for modifier in noisy.modifiers] == ['SUBSURF']
     bpy.data.objects["Dense"].select_set(False)
     scenes.edit(noisy)
@@ -65,7 +68,7 @@ def test_distances_are_told_in_the_scenes_unit() -> None:
     noisy, _ = scene()
     bpy.context.scene.unit_settings.scale_length = 0.01
     fit()
-    assert "\u00b5m (at most " in noisy.reflection_lines.report.fit  # of a panel of 2 cm
+    assert "\u00b5m \u2192 " in noisy.reflection_lines.report.fit  # of a panel of 2 cm
 
 
 def test_a_clamped_border_is_kept_when_asked_for() -> None:

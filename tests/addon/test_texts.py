@@ -1,5 +1,6 @@
 """What the artist reads: names, tooltips, and the words of a result."""
 import json
+from math import degrees
 
 import bpy
 import pytest
@@ -54,12 +55,13 @@ def test_nothing_moved_is_said_plainly() -> None:
     assert report.headline() == "Nothing moved"
 
 
-def test_another_tool_tells_how_much_of_the_target_was_reached() -> None:
+def test_another_tool_tells_how_far_lines_are_off_the_wanted_ones() -> None:
     solved()
     bpy.ops.reflines.direction(angle=0.2, border='free', centre='EVERYWHERE')
     report = bpy.context.view_layer.objects.active.reflection_lines.report
-    share = 1.0 - report.residual_after / report.residual_before
-    assert report.headline().startswith(f"{share:.0%} of the target reached, moved at most ")
+    off = [degrees(value * report.length) for value in (report.residual_before, report.residual_after)]
+    assert off[0] > 2.0 * off[1] > 0.0
+    assert report.headline().startswith(f"Off the wanted lines by {off[0]:.2g}\u00b0 \u2192 {off[1]:.2g}\u00b0, moved ")
 
 
 def test_the_automatic_length_is_shown_as_its_value() -> None:
