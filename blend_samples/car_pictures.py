@@ -27,18 +27,28 @@ Steps = Generator[float, None, None]
 
 
 def take(_: window.Window) -> Steps:
+    driver = yield from open_car()
+    yield from shoot(driver, "before")
+    press_smooth(driver)
+    print(f"car: {bpy.context.view_layer.objects.active.reflection_lines.report.headline()}")
+    yield from shoot(driver, "after")
+    join()
+
+
+def open_car() -> Generator[float, None, window.Window]:
+    """Opens the car, with nothing but that and its stripes in view; returns the window of the file."""
     bpy.ops.wm.open_mainfile(filepath=str(HERE / "car.blend"), load_ui=False)
     yield 1.0
-    driver = window.Window()   # that of the file
+    driver = window.Window()
     show_car(driver)
-    yield from shoot(driver, "before")
+    return driver
+
+
+def press_smooth(driver: window.Window) -> None:
     with driver.override():
         bpy.ops.object.mode_set(mode='EDIT')
         bpy.ops.reflines.smooth()
         bpy.ops.object.mode_set(mode='OBJECT')
-    print(f"car: {bpy.context.view_layer.objects.active.reflection_lines.report.headline()}")
-    yield from shoot(driver, "after")
-    join()
 
 
 def show_car(driver: window.Window) -> None:
@@ -49,7 +59,8 @@ def show_car(driver: window.Window) -> None:
         ob.hide_set(ob.type == 'EMPTY')
     space = driver.area().spaces.active
     space.show_region_ui = space.show_region_toolbar = space.show_region_header = space.show_gizmo = False
-    space.show_region_tool_header = False
+    space.show_region_tool_header = space.show_region_hud = False
+    bpy.context.scene.reflection_lines.camera.data.show_passepartout = False
     for name in OVERLAYS:
         setattr(space.overlay, name, False)
     space.shading.type, space.shading.light, space.shading.color_type = 'SOLID', 'STUDIO', 'MATERIAL'
@@ -79,4 +90,5 @@ def join() -> None:
     pictures.shrink(FOLDER / "car.png", FOLDER / "car.jpg", WIDTH, QUALITY)
 
 
-window.run(take)
+if __name__ == "__main__":
+    window.run(take)

@@ -1,4 +1,4 @@
-"""Films Pull Line in a real window of Blender: two crooked lines of the bonnet are pulled straight. Run it as
+"""Films Pull Line in a real window of Blender: a crooked highlight of the car's bonnet is pulled straight. Run it as
 
     xvfb-run -s "-screen 0 960x720x24" blender --factory-startup --enable-event-simulate --window-geometry 0 0 960 720 \
         -P tests/in_blender.py -- blend_samples/film_pull_line.py FOLDER
@@ -9,82 +9,73 @@ import sys
 from collections.abc import Generator
 
 import bpy
+import numpy as np
 
+import car_pictures
 import dragging
+import newcomer
 import window
 
-HERE = pathlib.Path(__file__).resolve().parent
 FOLDER = pathlib.Path(sys.argv[1])
-OVERLAYS = ("show_floor", "show_axis_x", "show_axis_y", "show_cursor", "show_edges", "show_faces", "show_extras",
-            "show_text", "show_outline_selected", "show_object_origins", "show_relationship_lines")
-# Ways of the mouse in shares of the view's region, with the button that is pressed at its first place; steps.
-CROOKED = (((0.36, 0.50), (0.445, 0.54), False, 5), ((0.445, 0.54), (0.418, 0.545), True, 10))
-WAYS = (((0.34, 0.42), (0.418, 0.545), False, 12), ((0.418, 0.545), (0.445, 0.54), True, 24),
-        ((0.445, 0.54), (0.52, 0.68), False, 10))
-LAST = 8  # pictures of the end
+# Places on the bonnet, metres: of the highlight where it is straight, where it is crooked, and where the mouse rests.
+STRAIGHT, CROOKED, REST = (0.215, -1.42, 0.87), (0.290, -1.42, 0.87), (0.05, -1.80, 0.85)
+RADIUS = 0.55   # of the pulls, metres
+COUNT = 110     # stripes
+ZOOM, OFFSET = 66.0, (-0.005, -0.055)  # of the camera's frame in the view
+LAST = 10       # pictures of the end
 
 Steps = Generator[float, None, None]
 
 
 def film(_: window.Window) -> Steps:
-    bpy.ops.wm.open_mainfile(filepath=str(HERE / "hood_warp.blend"), load_ui=False)
-    yield 1.0
-    driver = window.Window()  # that of the file
+    driver = yield from car_pictures.open_car()
     show_bonnet(driver)
-    yield 1.0
-    yield from pull(driver, CROOKED, filmed=False)
+    car_pictures.press_smooth(driver)
+    yield from pull(driver, STRAIGHT, CROOKED, steps=8, filmed=False)
     driver.key('RET')
-    yield 0.5
-    yield from pull(driver, WAYS, filmed=True)
+    yield from dragging.ended(driver)
+    with driver.override():
+        bpy.ops.reflines.delete_handles()
+    yield from pull(driver, CROOKED, STRAIGHT, steps=24, filmed=True)
+    driver.key('RET')
+    yield from dragging.ended(driver)
     for _ in range(LAST):
         yield from shoot(driver)
 
 
-def pull(driver: window.Window, ways: tuple, *, filmed: bool) -> Steps:
-    """Starts Pull Line and moves the mouse along the ways."""
+def show_bonnet(driver: window.Window) -> None:
+    """Brings the bonnet near, with lines that are close enough to show a bend."""
+    settings = bpy.context.scene.reflection_lines
+    settings.stripes.count, settings.pull.radius = COUNT, RADIUS
+    region_3d = driver.area().spaces.active.region_3d
+    region_3d.view_camera_zoom, region_3d.view_camera_offset = ZOOM, OFFSET
+
+
+def pull(driver: window.Window, start: tuple[float, ...], end: tuple[float, ...], *, steps: int, filmed: bool) -> Steps:
+    """Starts Pull Line and pulls the line from one place of the bonnet to another."""
     with driver.override():
         bpy.ops.reflines.pull_line('INVOKE_DEFAULT', True)
     yield from dragging.settled(driver)
-    for start, end, pressed, steps in ways:
-        yield from follow(driver, start, end, pressed=pressed, steps=steps, filmed=filmed)
+    yield from follow(driver, REST, start, steps=steps // 2, filmed=filmed)
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield 0.1
+    yield from follow(driver, start, end, steps=steps, filmed=filmed)
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.1
+    yield from follow(driver, end, REST, steps=steps // 3, filmed=filmed)
 
 
-def show_bonnet(driver: window.Window) -> None:
-    """Leaves nothing but the bonnet and its stripes in view."""
-    panel = bpy.context.view_layer.objects.active
-    region = sys.modules["reflection_lines.bridge.region_faces"]
-    panel.update_from_editmode()
-    region.store_region(panel.data, region.read_selected_faces(panel.data))
-    with driver.override():
-        bpy.ops.object.mode_set(mode='OBJECT')  # where no selection tints the stripes
-    for ob in bpy.data.objects:
-        ob.hide_set(ob.type in {'LATTICE', 'EMPTY'})
-    space = driver.area().spaces.active
-    space.show_region_ui = space.show_region_toolbar = space.show_gizmo = False
-    for name in OVERLAYS:
-        setattr(space.overlay, name, False)
-    space.region_3d.view_perspective = 'CAMERA'
-    space.region_3d.view_camera_zoom = 26.0
-
-
-def follow(driver: window.Window, start: tuple[float, float], end: tuple[float, float], *, pressed: bool,
-           steps: int, filmed: bool) -> Steps:
+def follow(driver: window.Window, start: tuple[float, ...], end: tuple[float, ...], *, steps: int,
+           filmed: bool) -> Steps:
     """Moves the mouse with soft ends, and where that is filmed takes a picture after each step."""
-    if pressed:
-        driver.event('LEFTMOUSE', 'PRESS')
-        yield 0.1
-    size = driver.region().width, driver.region().height
     for step in range(1, steps + 1):
         t = step / steps
         share = t * t * (3.0 - 2.0 * t)
-        driver.move(*(length * (a + share * (b - a)) for length, a, b in zip(size, start, end, strict=True)))
+        newcomer.move_over(driver, tuple(np.array(start) + share * (np.array(end) - np.array(start))))
         yield 0.05
         yield from dragging.settled(driver)
         if filmed:
             yield from shoot(driver)
-    if pressed:
-        driver.event('LEFTMOUSE', 'RELEASE')
-        yield 0.1
 
 
 def shoot(driver: window.Window) -> Steps:

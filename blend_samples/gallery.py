@@ -17,8 +17,6 @@ import pictures
 
 HERE = pathlib.Path(__file__).resolve().parent
 WIDTH = 480  # pixels of each part of a picture of the manual
-TAKEN_WIDTH = 760
-TAKEN = ("live.jpg", "pull_line.jpg")  # by hand; window_pictures.py takes others, and some are in the manual alone
 
 
 @dataclass(frozen=True)
@@ -36,7 +34,7 @@ OPERATIONS = (
     Operation("direction", "plate.blend", lambda: bpy.ops.reflines.direction(
         direction='ANGLE', angle=0.35, border='free', centre='EVERYWHERE')),
     Operation("density", "plate.blend", lambda: bpy.ops.reflines.direction(
-        density=1.8, centre='REGION', radius=0.4, border='clamped')),
+        direction='MEAN', density=1.8, centre='REGION', radius=0.4, border='clamped')),
     Operation("turn", "fender.blend", lambda: bpy.ops.reflines.direction()),
     Operation("warp", "hood_warp.blend", lambda: bpy.ops.reflines.warp()),
     Operation("cage", "cage_hood.blend", lambda: bpy.ops.reflines.smooth()),
@@ -72,8 +70,6 @@ def shown(operation: Operation, folder: pathlib.Path) -> None:
 
 def main(folder: pathlib.Path, names: list[str]) -> None:
     (folder / "manual").mkdir(parents=True, exist_ok=True)
-    for name in TAKEN:
-        pictures.shrink(HERE / name, folder / "manual" / name, TAKEN_WIDTH)
     checkout.enable_add_on()
     for operation in OPERATIONS:
         if not names or operation.name in names:

@@ -56,8 +56,8 @@ has its lines. Select that mesh, then the cage"""
         solution = optimizer_cache.solve_with_cache(patch, seen, settings, fit)
         before, after = fit.before, fit.misfit()
         off = gain.format_change(np.degrees(before.angle), np.degrees(after.angle))
-        said = (f"Distance from {fit.dense.name} {format_distance(before)} \u2192 {format_distance(after)} at most, lines "
-                f"off by {off}")
+        said = (f"Distance from {fit.dense.name} {format_distance(before)} \u2192 {format_distance(after)} at most, "
+                f"lines off by {off}")
         return replace(solution, fit=said)
 
 

@@ -64,12 +64,6 @@ def test_links_and_pictures_are_there(document: Path) -> None:
     assert not wrong, f"{document} links to what is not there: {wrong}"
 
 
-def test_pictures_taken_by_hand_are_there() -> None:
-    names = re.search(r"^TAKEN = \(([^)]*)\)", (ROOT / "blend_samples/gallery.py").read_text(), re.MULTILINE)[1]
-    wrong = [name for name in re.findall(r'"([^"]+)"', names) if not (ROOT / "blend_samples" / name).exists()]
-    assert not wrong, f"the gallery shrinks what is not there: {wrong}"
-
-
 def operators() -> set[str]:
     return {name for file in python_files("addon/") for name in IDNAME.findall((ROOT / file).read_text())}
 
