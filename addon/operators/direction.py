@@ -13,12 +13,12 @@ from ..solver.live_optimizer import BuildTarget
 from ..targets import direction
 from ..targets.direction import Direction
 from ..targets.falloff import Falloff
-from ..ui.tool_properties import DirectionSettings
+from ..ui.tool_properties import DirectionSettings, FalloffSettings
 from ..view import view_and_light
 from .dragged_tool import DraggedTool, build_radius_handle
 
 
-class REFLINES_OT_direction(DraggedTool, DirectionSettings, bpy.types.Operator):
+class REFLINES_OT_direction(DraggedTool, FalloffSettings, DirectionSettings, bpy.types.Operator):
     """Move the vertices of the selected faces along the view so that their reflection lines turn, run straight in one
 direction, or lie closer together"""
     bl_idname = "reflines.direction"
@@ -26,6 +26,14 @@ direction, or lie closer together"""
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.direction
+
+    def has_use(self, context: bpy.types.Context, name: str) -> bool:
+        """Returns whether a setting acts beside the others as they are."""
+        unused = {"angle": self.direction not in {'PRESENT', 'ANGLE'}, "start": self.direction != 'POINTS',
+                  "end": self.direction != 'POINTS', "density_end": self.axis == 'NONE',
+                  "strength": self.direction == 'PRESENT', "radius": self.centre == 'EVERYWHERE',
+                  "shape": self.centre == 'EVERYWHERE'}
+        return super().has_use(context, name) and not unused.get(name, False)
 
     def build_handles(self) -> tuple[Handle, ...]:
         angle = Handle("angle", "Angle", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE')

@@ -142,7 +142,7 @@ class SmoothSettings:
         draw_switch(automatic, self, "fair_border")
 
 
-class DirectionSettings(FalloffSettings):
+class DirectionSettings:
     direction: EnumProperty(name="Direction", items=DIRECTIONS, default='PRESENT', **SAVED)
     angle: FloatProperty(name="Angle", subtype='ANGLE', **SAVED,
                          description="Counter-clockwise in the camera's picture: how far lines that keep their course "
@@ -201,7 +201,7 @@ class BrushSettings:
                             description="How far one dab brings the lines in its middle to smooth ones")
 
 
-class ReflinesDirection(DirectionSettings, bpy.types.PropertyGroup):
+class ReflinesDirection(FalloffSettings, DirectionSettings, bpy.types.PropertyGroup):
     """The scene's settings of Direction and Density."""
     radius_automatic: switch_property("radius", "Radius")
 
