@@ -127,7 +127,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
         """Says what the solve did in an artist's words, the largest first."""
         if self.largest_move <= FLOAT_EPSILON * max(self.id_data.dimensions):  # no bit of a coordinate
             return "Nothing moved"
-        held = f" (the limit held {self.limited} back)" if self.limited else ""
+        held = f" (the limit held {self.limited} vertices back)" if self.limited else ""
         worse = f"; {self.worse}" if self.worse else ""
         return f"{self.gain()}, moved at most {self.moved(2)}{self.moved_cage()}{held}{worse}"
 

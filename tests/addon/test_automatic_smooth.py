@@ -105,7 +105,7 @@ def test_the_result_says_when_the_limit_held_vertices_back() -> None:
     scenes.smooth(limit=0.001)
     report = ob.reflection_lines.report
     assert report.largest_move == pytest.approx(0.001, rel=1e-4) and report.limited > 0
-    assert f"moved at most 1 mm (the limit held {report.limited} back)" in report.headline()
+    assert f"moved at most 1 mm (the limit held {report.limited} vertices back)" in report.headline()
     assert "limit" not in report.notes  # it is said once
     scenes.smooth(limit=1.0)
     assert "limit" not in report.headline()
