@@ -45,6 +45,12 @@ void add_scores(const std::vector<LineScore>& more, double share, std::vector<Li
   }
 }
 
+// Returns the place where lines got worse by more.
+WorsePlace choose_worse(const WorsePlace& one, const WorsePlace& other) {
+  if (one.light < 0 || other.light < 0) return one.light < 0 ? other : one;
+  return other.after - other.before > one.after - one.before ? other : one;
+}
+
 void add_healed(const HealedFlaws& more, double share, HealedFlaws& healed) {
   const double was = healed.area, added = share * more.area, all = was + added;
   const auto mean = [&](double a, double b) {
@@ -55,9 +61,8 @@ void add_healed(const HealedFlaws& more, double share, HealedFlaws& healed) {
   healed.area = all;
   healed.worst_before = std::max(healed.worst_before, more.worst_before);
   healed.worst_after = std::max(healed.worst_after, more.worst_after);
-  const WorsePlace& one = healed.worse;
-  if (more.worse.light >= 0 && (one.light < 0 || more.worse.after - more.worse.before > one.after - one.before))
-    healed.worse = more.worse;
+  healed.worse = choose_worse(healed.worse, more.worse);
+  healed.worse_for_judges = choose_worse(healed.worse_for_judges, more.worse_for_judges);
 }
 
 void add_totals(const SmoothPanelReport& more, SmoothPanelReport& total) {
