@@ -18,8 +18,8 @@ PUBLIC = {
     "minimizer_options": "optimization", "report": "optimization",
     "shape_optimizer": "solver", "cage_optimizer": "solver", "solve_panel": "solver",
     "smooth_panel": "restoration", "panel_smoother": "restoration", "joint_smoother": "restoration",
-    "check_panel": "inspection", "shut_lines": "inspection", "inspect_panel": "inspection", "judge_change": "inspection",
-    "handle_follower": "following",
+    "check_panel": "inspection", "shut_lines": "inspection", "inspect_panel": "inspection",
+    "judge_change": "inspection", "handle_follower": "following",
 }
 
 # Room -> the rooms it may include besides itself. `geometry` and `optimization` meet only in `solver`.
