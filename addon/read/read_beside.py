@@ -37,7 +37,7 @@ def read_neighbors(ob: bpy.types.Object, V: np.ndarray) -> Neighbors:
     low, high = compute_bounds(V)
     margin = NEIGHBOR_MARGIN * float(np.linalg.norm(high - low))
     soups = {}
-    for name, soup in read_others(ob, (low - margin, high + margin), Crossing(0.0, everywhere=True)):
+    for name, soup in read_others(ob, (low - margin, high + margin), Crossing(everywhere=True)):
         soups[name] = join_soups([soups[name], soup]) if name in soups else soup  # instances have one name
     return label_soups(soups)
 

@@ -386,12 +386,20 @@ class VIEW3D_PT_reflines_kept(ResultPart, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and context.view_layer.objects.active.reflection_lines.report.kept != ""
+        if not super().poll(context):
+            return False
+        report = context.view_layer.objects.active.reflection_lines.report
+        return report.kept != "" or report.healed
 
     def draw(self, context: bpy.types.Context) -> None:
+        report = context.view_layer.objects.active.reflection_lines.report
         column = self.layout.column(align=True)
-        for sentence in context.view_layer.objects.active.reflection_lines.report.kept.splitlines():
+        for sentence in report.kept.splitlines():
             draw_paragraph(column, context, sentence, 'DOT')
+        if report.healed:
+            row = self.layout.row(align=True)
+            for mode, name in (('REFLECTION', "Stripes"), ('VERDICT', "By Place")):
+                row.prop_enum(context.scene.reflection_lines.stripes, "mode", mode, text=name)
 
 
 class VIEW3D_PT_reflines_numbers(ResultPart, bpy.types.Panel):
