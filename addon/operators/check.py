@@ -17,8 +17,8 @@ from ..view import view_and_light
 
 
 class REFLINES_OT_check(bpy.types.Operator):
-    """Measure borders and creases, gap and flush of shut lines, and the deviation: what is better or worse than before
-the last run, or beyond its mark; without a run hold the selected faces against the marks"""
+    """Measure borders, creases, gap and flush of shut lines and the deviation: what is better or worse than before the
+last run, or beyond its mark; without a run the selected faces alone"""
     bl_idname = "reflines.check"
     bl_label = "Check Panel"
     bl_options = {'REGISTER', 'UNDO'}
