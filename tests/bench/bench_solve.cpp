@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "optimization/linear/linear_solver.h"
+#include "solver/optimizer_internals.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/bump_cylinder.h"
 
@@ -44,7 +45,7 @@ void whole_solve(benchmark::State& state, int unknowns) {
 
 SparseMatrix assemble(int unknowns) {
   const BumpCylinder problem(cells_for_unknowns(unknowns));
-  return problem.optimizer(1.0)->hessian({problem.target(0.0)}, HessianModel::kGaussNewton);
+  return problem.optimizer(1.0)->internals().hessian({problem.target(0.0)}, HessianModel::kGaussNewton);
 }
 
 // CHOLMOD's own analysis and numeric factorization as they are fastest: in the better of its orders for this size, and
