@@ -1,9 +1,12 @@
 """The layout and the names of the C++ code, judged by clang-format and clang-tidy."""
 import hashlib
+import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -55,19 +58,47 @@ def verdict(tidy: str, file: Path) -> str:
     return "" if result.returncode == 0 else result.stdout
 
 
-def test_names() -> None:
-    """Only translation units that changed since they were last found good are judged again."""
-    tidy = needed("clang-tidy")
+def read_compile_commands() -> str:
     if not (BUILD / "compile_commands.json").is_file():
         pytest.skip("build/release is not configured: ./run build")
-    compiled = (BUILD / "compile_commands.json").read_text()
-    version = subprocess.run([tidy, "--version"], check=True, stdout=subprocess.PIPE).stdout
-    stamps = {JUDGED / fingerprint(file, version): file for file in cpp_files(".cpp") if f"{file}\"" in compiled}
+    return (BUILD / "compile_commands.json").read_text()
+
+
+def judge(files: list[Path], version: bytes, find_complaints: Callable[[Path], str]) -> None:
+    """Judges the translation units that changed since they were last found good."""
+    stamps = {JUDGED / fingerprint(file, version): file for file in files}
     pending = {stamp: file for stamp, file in stamps.items() if not stamp.exists()}
     JUDGED.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        verdicts = dict(zip(pending, pool.map(lambda file: verdict(tidy, file), pending.values()), strict=True))
+        verdicts = dict(zip(pending, pool.map(find_complaints, pending.values()), strict=True))
     for stamp, complaints in verdicts.items():
         if not complaints:
             stamp.touch()
     assert not any(verdicts.values()), "\n".join(filter(None, verdicts.values()))
+
+
+def test_names() -> None:
+    tidy, compiled = needed("clang-tidy"), read_compile_commands()
+    version = subprocess.run([tidy, "--version"], check=True, stdout=subprocess.PIPE).stdout
+    judge([file for file in cpp_files(".cpp") if f"{file}\"" in compiled], version, lambda file: verdict(tidy, file))
+
+
+def parse(command: list[str], file: Path) -> str:
+    """What a compiler says against a file that it only parses; empty where a library of the benchmarks is missing."""
+    result = subprocess.run([*command, str(file)], cwd=ROOT, text=True, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT)
+    missing = re.search(r"fatal error: (benchmark|CGAL)/", result.stdout)
+    return "" if result.returncode == 0 or missing else f"{file}: {result.stdout}"
+
+
+def test_benchmarks_and_fuzzers_are_of_the_present_interfaces() -> None:
+    """They are built by name only, so that a member that has gone was found after a day, by the benchmark."""
+    entry = next(each for each in json.loads(read_compile_commands()) if each["file"].endswith("shape_optimizer.cpp"))
+    kept = [word for word in shlex.split(entry["command"]) if word.startswith(("-D", "-f", "-std", "/"))]
+    paths = re.findall(r"(?:-I|-isystem) ?(\S+)", entry["command"])
+    compiler = next(word for word in kept if word.endswith(("c++", "g++", "clang++")))
+    command = [compiler, *(word for word in kept if word[0] == "-" and "lto" not in word), "-fsyntax-only",
+               *(f"-I{path}" for path in (*paths, ROOT))]
+    files = [file for file in cpp_files(".cpp") if file.parts[:2] in (("tests", "bench"), ("tests", "fuzz"))]
+    assert len(files) > 10
+    judge(files, "\n".join(command).encode(), lambda file: parse(command, file))
