@@ -58,7 +58,8 @@ def measure_press(cells: int) -> dict[str, list[float]]:
     view = sys.modules["reflection_lines.view.view_and_light"].read_scene_view(bpy.context.scene, patch.center)
     press, alone = [], []
     for _ in range(REPETITIONS):
-        sys.modules["reflection_lines.state.press_cache"].clear_cache()  # a kept smoother presses in a tenth of the time
+        # A kept smoother presses in a tenth of the time.
+        sys.modules["reflection_lines.state.press_cache"].clear_cache()
         press.append(milliseconds(scenes.smooth))
         put_back(ob, start)
         alone.append(milliseconds(lambda: native.reflines.smooth_panel(
