@@ -14,6 +14,13 @@ namespace {
 // takes 6.9, 6.9 and 7.8 s, and 8.3 without.
 constexpr int kSquares = 8;
 
+// Where the points are more than the nodes of a grid, so many along each side of a cell, sums are taken around the
+// nodes and interpolated. With 8, 10, 12 and 16 means of a smooth function are wrong by 0.009, 0.006, 0.005 and 0.004
+// of its spread, merging included; a press of 100,000 vertices takes 4.4 s on one core, and 5.8 without.
+constexpr int kNodes = 12;
+constexpr double kSpacing = 1.0 / kNodes;  // radii
+constexpr Eigen::Index kCorners = (kNodes + 1) * (kNodes + 1);
+
 // The number of points in a cell, in the mean, above which they are merged: twice that of its squares.
 constexpr Eigen::Index kDense = 2 * kSquares * kSquares;
 
@@ -23,6 +30,7 @@ DiskMean::DiskMean(const PlanePositions& points, const Vector& weight, double ra
     : radius_(radius), points_(points), point_weight_(weight), order_(points.rows()) {
   sort_by_cell();
   choose_sources();
+  interpolated_ = points_.rows() > kCorners * static_cast<Eigen::Index>(cells_.size());
   const Eigen::ArrayXXd centroids = merge(points_);
   x_ = centroids.col(0);
   y_ = centroids.col(1);
@@ -104,28 +112,61 @@ std::vector<DiskMean::Range> DiskMean::near(const Cell& cell) const {
   return result;
 }
 
+// Returns the sums of kernel times weight times values, and without values in the last entry, of a disk around a place.
 // Sums whole ranges without asking which sources are in the disk, so that the loops are vectorized: means of 100,000
 // vertices over some 1,000 neighbours take 122 ms, where a test for each pair takes 710. Cells half as large: 97.
+Eigen::RowVectorXd DiskMean::sum_around(const Vector2& place, const std::vector<Range>& ranges,
+                                        const Eigen::ArrayXXd& values) const {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(values.cols() + 1);
+  Eigen::ArrayXd kernel;
+  for (const auto& [begin, size] : ranges) {
+    kernel = weight_.segment(begin, size) *
+             (1 - ((x_.segment(begin, size) - place.x()).square() + (y_.segment(begin, size) - place.y()).square()) /
+                      (radius_ * radius_))
+                 .max(0.0);
+    for (Eigen::Index n = 0; n < values.cols(); ++n) sum(n) += (kernel * values.col(n).segment(begin, size)).sum();
+    sum(values.cols()) += kernel.sum();
+  }
+  return sum;
+}
+
+// Returns such sums around the nodes of a cell (kCorners x (n + 1)).
+Eigen::MatrixXd DiskMean::sum_around_nodes(const Cell& cell, const Eigen::ArrayXXd& values) const {
+  const std::vector<Range> ranges = near(cell);
+  Eigen::MatrixXd result(kCorners, values.cols() + 1);
+  for (int i = 0; i <= kNodes; ++i) {
+    for (int j = 0; j <= kNodes; ++j) {
+      const Vector2 node = radius_ * Vector2(cell.first + i * kSpacing, cell.second + j * kSpacing);
+      result.row(i * (kNodes + 1) + j) = sum_around(node, ranges, values);
+    }
+  }
+  return result;
+}
+
+// Interpolates the sums around the nodes of a cell bilinearly at a point in it: the sums of a kernel that is hardly
+// another one, and not below 0.
+Eigen::RowVectorXd DiskMean::interpolate(const Eigen::MatrixXd& nodes, const Cell& cell, int point) const {
+  const auto place = [&](double x, int of_cell) { return kNodes * std::clamp(x / radius_ - of_cell, 0.0, 1.0); };
+  const double x = place(points_(point, 0), cell.first), y = place(points_(point, 1), cell.second);
+  const int i = std::min(static_cast<int>(x), kNodes - 1), j = std::min(static_cast<int>(y), kNodes - 1);
+  const int node = i * (kNodes + 1) + j, next = node + kNodes + 1;
+  return (i + 1 - x) * ((j + 1 - y) * nodes.row(node) + (y - j) * nodes.row(node + 1)) +
+         (x - i) * ((j + 1 - y) * nodes.row(next) + (y - j) * nodes.row(next + 1));
+}
+
 Eigen::MatrixXd DiskMean::of_columns(const Eigen::MatrixXd& values) const {
   Eigen::MatrixXd result(values.rows(), values.cols());
   const Eigen::ArrayXXd merged = merge(values);
   run_parallel(static_cast<int>(cells_.size()), 4, [&](int c) {
     const std::vector<Range> ranges = near(cells_[c]);
-    Eigen::ArrayXd kernel;
+    const Eigen::MatrixXd nodes = interpolated_ ? sum_around_nodes(cells_[c], merged) : Eigen::MatrixXd();
     for (Eigen::Index k = begin_[c]; k < begin_[c + 1]; ++k) {
       const int p = order_[k];
-      double weights = 0;
-      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(values.cols());
-      for (const auto& [begin, size] : ranges) {
-        kernel = weight_.segment(begin, size) * (1 - ((x_.segment(begin, size) - points_(p, 0)).square() +
-                                                      (y_.segment(begin, size) - points_(p, 1)).square()) /
-                                                         (radius_ * radius_))
-                                                    .max(0.0);
-        weights += kernel.sum();
-        for (Eigen::Index n = 0; n < sum.size(); ++n) sum(n) += (kernel * merged.col(n).segment(begin, size)).sum();
-      }
+      const Eigen::RowVectorXd sum =
+          interpolated_ ? interpolate(nodes, cells_[c], p) : sum_around(points_.row(p), ranges, merged);
+      const double weights = sum(values.cols());
       if (weights > 0) {
-        result.row(p) = sum / weights;
+        result.row(p) = sum.head(values.cols()) / weights;
       } else {
         result.row(p) = values.row(p);
       }

@@ -11,7 +11,7 @@ namespace reflines {
 class DiskMean {
  public:
   // Takes points (#P x 2) and how much each counts (#P, >= 0). Where they are dense, those within an eighth of the
-  // radius are merged into their centroid.
+  // radius are merged into their centroid, and means are interpolated between the nodes of a grid.
   DiskMean(const PlanePositions& points, const Vector& weight, double radius);
 
   // Returns the mean of `values` (#P) around each point (#P); the value itself where nothing around it counts.
@@ -32,8 +32,13 @@ class DiskMean {
   Eigen::Map<const Eigen::VectorXi> points_of(Eigen::Index source) const;
   Eigen::ArrayXXd merge(const Eigen::MatrixXd& values) const;
   std::vector<Range> near(const Cell& cell) const;
+  Eigen::RowVectorXd sum_around(const Vector2& place, const std::vector<Range>& ranges,
+                                const Eigen::ArrayXXd& values) const;
+  Eigen::MatrixXd sum_around_nodes(const Cell& cell, const Eigen::ArrayXXd& values) const;
+  Eigen::RowVectorXd interpolate(const Eigen::MatrixXd& nodes, const Cell& cell, int point) const;
 
   double radius_;
+  bool interpolated_ = false;
   PlanePositions points_;
   Vector point_weight_;              // #P
   std::vector<int> order_;           // the points, cell by cell
