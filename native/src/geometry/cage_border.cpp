@@ -16,25 +16,6 @@ void mark_columns(const SparseMatrix& matrix, const Mask& rows, Mask* columns) {
   }
 }
 
-// Returns the condition of each refined vertex (#refined): on the refined border that of the cage's border vertex with
-// the largest weight, of equal ones the firmest; elsewhere kFree.
-std::vector<Border> carry_border(const Subdivision& subdivision, const Mask& on_border,
-                                 const std::vector<Border>& border) {
-  constexpr double kEqual = 1e-9;  // weights add up to 1
-  std::vector<Border> result(on_border.size(), Border::kFree);
-  Vector largest = Vector::Zero(on_border.size());
-  for (int v = 0; v < subdivision.positions.cols(); ++v) {
-    if (!on_border[v]) continue;  // the cage's own vertices are the first refined ones
-    for (SparseMatrix::InnerIterator it(subdivision.positions, v); it; ++it) {
-      const auto row = it.row();
-      if (!on_border[row] || it.value() < largest[row] - kEqual) continue;
-      result[row] = it.value() > largest[row] + kEqual ? border[v] : std::max(result[row], border[v]);
-      largest[row] = std::max(largest[row], it.value());
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 Mask find_refined_border(const Subdivision& subdivision, const Mask& region) {
@@ -57,8 +38,26 @@ Mask find_refined_border(const Subdivision& subdivision, const Mask& region) {
   return border;
 }
 
+std::vector<Border> refine_border(const Subdivision& subdivision, const Mask& region,
+                                  const std::vector<Border>& border) {
+  const Mask on_border = find_refined_border(subdivision, region);
+  constexpr double kEqual = 1e-9;  // weights add up to 1
+  std::vector<Border> result(on_border.size(), Border::kFree);
+  Vector largest = Vector::Zero(on_border.size());
+  for (int v = 0; v < subdivision.positions.cols(); ++v) {
+    if (!on_border[v]) continue;  // the cage's own vertices are the first refined ones
+    for (SparseMatrix::InnerIterator it(subdivision.positions, v); it; ++it) {
+      const auto row = it.row();
+      if (!on_border[row] || it.value() < largest[row] - kEqual) continue;
+      result[row] = it.value() > largest[row] + kEqual ? border[v] : std::max(result[row], border[v]);
+      largest[row] = std::max(largest[row], it.value());
+    }
+  }
+  return result;
+}
+
 Mask find_held_vertices(const Subdivision& subdivision, const Mask& region, const std::vector<Border>& border) {
-  const std::vector<Border> refined = carry_border(subdivision, find_refined_border(subdivision, region), border);
+  const std::vector<Border> refined = refine_border(subdivision, region, border);
   Mask fixed(subdivision.positions.rows()), clamped(subdivision.positions.rows());
   for (size_t i = 0; i < refined.size(); ++i) {
     fixed[static_cast<int>(i)] = refined[i] != Border::kFree;

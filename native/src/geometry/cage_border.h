@@ -14,6 +14,11 @@ namespace reflines {
 // are the cage's faces that may change; where they end inside the surface, there is a border too.
 Mask find_refined_border(const Subdivision& subdivision, const Mask& region);
 
+// Returns the condition of each refined vertex (#refined): on the region's border that of the cage's border vertex with
+// the largest weight, of equal ones the firmest; elsewhere kFree. `border` (#V) is read at the cage's border vertices.
+std::vector<Border> refine_border(const Subdivision& subdivision, const Mask& region,
+                                  const std::vector<Border>& border);
+
 // Returns the cage vertices to hold (#V), including those of no region face. They follow from the matrices, with these
 // results:
 // * where the region ends at the surface's own border, positions depend on that border's ring of the cage, and tangents

@@ -1,7 +1,9 @@
 #include "restoration/held_border.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
@@ -12,9 +14,13 @@
 namespace reflines {
 namespace {
 
+void clamp_all(std::vector<Border>& borders) {
+  for (Border& border : borders) border = std::min(border, Border::kClamped);
+}
+
 ShapeOptions clamp_instead(const ShapeOptions& shape) {
   ShapeOptions result = shape;
-  for (Border& border : result.border) border = std::min(border, Border::kClamped);
+  clamp_all(result.border);
   result.around = {};
   return result;
 }
@@ -39,9 +45,12 @@ std::optional<Strays> find_less_even(const SmoothPanelReport& one, const SmoothP
   return std::nullopt;
 }
 
+// A cage's gain may also leave nothing of a move.
+bool moves_anything(const SmoothPanelReport& report) { return report.applied && report.largest_control_move > 0; }
+
 // Tells why the clamped result was chosen.
-Note explain_clamped(bool continued_applied, const std::optional<Strays>& strays) {
-  if (!continued_applied || !strays) return {NoteKind::kContinuingChangesNothing};
+Note explain_clamped(bool continued_moves, const std::optional<Strays>& strays) {
+  if (!continued_moves || !strays) return {NoteKind::kContinuingChangesNothing};
   return {.kind = NoteKind::kContinuingWorsens, .before = strays->other, .after = strays->one};
 }
 
@@ -78,18 +87,22 @@ SmoothPanelResult press_both(Restoration& press, Restoration& clamped_press, con
   continued.report.work += clamped.report.work;
   clamped.report.work = continued.report.work;
   const std::optional<Strays> strays = find_less_even(continued.report, clamped.report);
-  if (!clamped.report.applied || (continued.report.applied && !strays)) return continued;
-  clamped.report.notes.push_back(explain_clamped(continued.report.applied, strays));
+  const bool moves = moves_anything(continued.report);
+  if (!moves_anything(clamped.report) || (moves && !strays)) return continued;
+  clamped.report.notes.push_back(explain_clamped(moves, strays));
   return clamped;
 }
 
+using MakeSurface = std::function<std::unique_ptr<ControlledSurface>()>;
+
 class HeldBorderPress : public Press {
  public:
-  HeldBorderPress(const Positions& V, const Triangles& F, const Vector3& view, const std::vector<Vector3>& families,
-                  const ShapeOptions& shape, const SmoothPanelOptions& options)
-      : surface_(V, F, view, families, shape), press_(surface_, options) {
-    if (surface_.optimizer().internals().border.empty()) return;
-    clamped_surface_ = std::make_unique<MeshSurface>(V, F, view, families, clamp_instead(shape));
+  // `make_clamped` is asked where the border of `surface` continues the curvature.
+  HeldBorderPress(std::unique_ptr<ControlledSurface> surface, const MakeSurface& make_clamped,
+                  const SmoothPanelOptions& options)
+      : surface_(std::move(surface)), press_(*surface_, options) {
+    if (surface_->optimizer().internals().border.empty()) return;
+    clamped_surface_ = make_clamped();
     clamped_press_ = std::make_unique<Restoration>(*clamped_surface_, options);
   }
 
@@ -101,10 +114,9 @@ class HeldBorderPress : public Press {
   }
 
  private:
-  MeshSurface surface_;
+  std::unique_ptr<ControlledSurface> surface_;
   Restoration press_;
-  // These are of the clamped border, where `shape` continues the curvature.
-  std::unique_ptr<MeshSurface> clamped_surface_;
+  std::unique_ptr<ControlledSurface> clamped_surface_;  // or none
   std::unique_ptr<Restoration> clamped_press_;
 };
 
@@ -113,7 +125,21 @@ class HeldBorderPress : public Press {
 std::unique_ptr<Press> prepare_held_border(const Positions& V, const Triangles& F, const Vector3& view,
                                            const std::vector<Vector3>& families, const ShapeOptions& shape,
                                            const SmoothPanelOptions& options) {
-  return std::make_unique<HeldBorderPress>(V, F, view, families, shape, options);
+  const auto make = [&](const ShapeOptions& own) { return std::make_unique<MeshSurface>(V, F, view, families, own); };
+  return std::make_unique<HeldBorderPress>(
+      make(shape), [&] { return make(clamp_instead(shape)); }, options);
+}
+
+std::unique_ptr<Press> prepare_held_cage_border(const Cage& cage, const Positions& V, const Vector3& view,
+                                                const std::vector<Vector3>& families, const CageOptions& cage_options,
+                                                const SmoothPanelOptions& options) {
+  const auto make = [&](const CageOptions& own) {
+    return std::make_unique<CageControlledSurface>(cage, V, view, families, own);
+  };
+  CageOptions clamped = cage_options;
+  clamp_all(clamped.border);
+  return std::make_unique<HeldBorderPress>(
+      make(cage_options), [&] { return make(clamped); }, options);
 }
 
 }  // namespace reflines

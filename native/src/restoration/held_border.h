@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "reflines/cage_optimizer.h"
 #include "reflines/shape_optimizer.h"
 #include "reflines/smooth_panel.h"
 #include "restoration/press.h"
@@ -16,5 +17,10 @@ namespace reflines {
 std::unique_ptr<Press> prepare_held_border(const Positions& V, const Triangles& F, const Vector3& view,
                                            const std::vector<Vector3>& families, const ShapeOptions& shape,
                                            const SmoothPanelOptions& options);
+
+// Prepares presses of the region of a cage's surface with `cage_options.border` likewise.
+std::unique_ptr<Press> prepare_held_cage_border(const Cage& cage, const Positions& V, const Vector3& view,
+                                                const std::vector<Vector3>& families, const CageOptions& cage_options,
+                                                const SmoothPanelOptions& options);
 
 }  // namespace reflines

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "reflines/errors.h"
-#include "restoration/controlled_surface.h"
 #include "restoration/faired_border.h"
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
@@ -14,7 +13,6 @@
 #include "restoration/press_checks.h"
 #include "restoration/press_rules.h"
 #include "restoration/press_setup.h"
-#include "restoration/restoration.h"
 #include "restoration/used_vertices.h"
 #include "solver/limited_move.h"
 #include "solver/mirror_coupling.h"
@@ -76,9 +74,7 @@ class CagePress : public Press {
             const SmoothPanelOptions& options, const PressAmount& amount)
       : partner_(cage_options.partner) {
     set_restoration_rules(options, amount, kRules.cage.proximity, cage_options.shape);
-    surface_ = std::make_unique<CageControlledSurface>(cage, V, view, make_families(view, lines, options),
-                                                       std::move(cage_options));
-    press_ = std::make_unique<Restoration>(*surface_, options);
+    press_ = prepare_held_cage_border(cage, V, view, make_families(view, lines, options), cage_options, options);
   }
 
   SmoothPanelResult run(const PressAmount& amount) override {
@@ -89,8 +85,7 @@ class CagePress : public Press {
 
  private:
   IndexVector partner_;  // of the cage's vertices
-  std::unique_ptr<CageControlledSurface> surface_;
-  std::unique_ptr<Restoration> press_;
+  std::unique_ptr<Press> press_;
 };
 
 }  // namespace

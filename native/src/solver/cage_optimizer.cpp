@@ -21,7 +21,8 @@ constexpr double kUnseen = 1e-9;
 constexpr double kHeightsRule = 4.0;
 
 ShapeOptions make_shape_options(const CageSurface& surface, const IndexVector& image_of, ShapeOptions shape) {
-  shape.border.assign(surface.S.rows(), Border::kFree);
+  shape.border = surface.border;
+  shape.around = surface.around;
   shape.held.resize(0);
   shape.partner.resize(0);
   shape.B = surface.S * surface.B;

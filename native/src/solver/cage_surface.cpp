@@ -1,5 +1,6 @@
 #include "solver/cage_surface.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 namespace reflines {
 namespace {
 
+constexpr int kRings = 4;        // of refined faces beside the region: fits take in three rings of triangles
 constexpr int kSparseLevel = 3;  // coarser surfaces have too few triangles for sampling
 
 void check_length(Eigen::Index length, Eigen::Index wanted, const std::string& what) {
@@ -108,6 +110,50 @@ void cut_faces(const Subdivision& whole, const Mask& region, const std::vector<i
   surface.quadrature_weight.conservativeResize(count);
 }
 
+// Marks the refined faces outside the region that are within kRings rings of a vertex where lines run on.
+Mask find_faces_beside(const Subdivision& whole, const Mask& region, const std::vector<Border>& border) {
+  Mask near(whole.positions.rows()), result = Mask::Constant(whole.faces.rows(), false);
+  for (size_t v = 0; v < border.size(); ++v) near[static_cast<int>(v)] = border[v] == Border::kFlow;
+  for (int ring = 0; ring < kRings; ++ring) {
+    for (int f = 0; f < whole.faces.rows(); ++f) {
+      for (const int v : whole.faces.row(f)) result[f] = result[f] || (near[v] && !region[whole.face_parent[f]]);
+    }
+    for (int f = 0; f < whole.faces.rows(); ++f) {
+      for (const int v : whole.faces.row(f)) near[v] = near[v] || result[f];
+    }
+  }
+  return result;
+}
+
+// Reads the border with Border::kFlow and the faces beside it. With kCurvature nothing is to be done: the curvature
+// stays, see find_held_vertices.
+void read_surroundings(const Subdivision& whole, const Mask& region, const std::vector<Border>& border,
+                       std::vector<int> number, const Positions& V, CageSurface& surface) {
+  surface.border.assign(surface.S.rows(), Border::kFree);
+  if (std::find(border.begin(), border.end(), Border::kFlow) == border.end()) return;
+  const std::vector<Border> refined = refine_border(whole, region, border);
+  for (size_t v = 0; v < refined.size(); ++v) {
+    if (number[v] >= 0 && refined[v] == Border::kFlow) surface.border[number[v]] = Border::kFlow;
+  }
+  const Mask beside = find_faces_beside(whole, region, refined);
+  std::vector<int> added;
+  std::vector<Eigen::RowVector3i> triangles;
+  for (int f = 0; f < whole.faces.rows(); ++f) {
+    if (!beside[f]) continue;
+    for (const int v : whole.faces.row(f)) {
+      if (number[v] >= 0) continue;
+      number[v] = static_cast<int>(surface.S.rows() + static_cast<Eigen::Index>(added.size()));
+      added.push_back(v);
+    }
+    for (int k = 2; k < whole.faces.cols(); ++k)
+      triangles.emplace_back(number[whole.faces(f, 0)], number[whole.faces(f, k - 1)], number[whole.faces(f, k)]);
+  }
+  const Positions all = whole.positions * V;
+  surface.around.V = all(added, Eigen::all);
+  surface.around.F.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (size_t t = 0; t < triangles.size(); ++t) surface.around.F.row(static_cast<Eigen::Index>(t)) = triangles[t];
+}
+
 // Returns the positions of the vertices in faces; the others may be anywhere.
 Positions positions_in_faces(const Cage& cage, const Positions& V) {
   Mask in_face = Mask::Constant(V.rows(), false);
@@ -142,6 +188,7 @@ CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector
   set_positions(V, options.partner, surface);
   enter(0.9, "cutting faces");
   cut_faces(whole, region, number, surface);
+  read_surroundings(whole, region, border, number, V, surface);
   if (!options.sparse || options.subdivision.level < kSparseLevel) surface.quadrature_weight.resize(0);
   surface.B = build_cage_unknowns(held, options.partner);
   // A vertex in no face, a thousand kilometres away, would take five digits from heights around the mean of all.

@@ -13,6 +13,10 @@ namespace reflines {
 struct CageSurface {
   SparseMatrix S;       // #vertices x #V
   Positions positions;  // S V; of symmetric cages symmetric to the last bit
+  // #vertices: kFlow at the region's border where lines are to run on, else kFree. `around` are the refined faces
+  // beside it, and empty where there is no such vertex.
+  std::vector<Border> border;
+  Surroundings around;
   IndexVector refined;  // #vertices: number among all refined ones
   Triangles F;
   IndexVector parent;        // #F: the cage's face

@@ -46,6 +46,13 @@ Boundary boundary_of(const ShapeOptions& options, Eigen::Index vertex_count) {
   return boundary;
 }
 
+// Returns the boundary by which vertices are held: of a cage's surface the unknowns tell, and the border only how lines
+// run on.
+Boundary choose_roles(Boundary boundary, SurfaceKind kind) {
+  if (kind == SurfaceKind::kSubdivided) boundary.border.assign(boundary.border.size(), Border::kFree);
+  return boundary;
+}
+
 // Leaves what alternates between triangles out of a field of them: a mesh of flat facets has it on a fair surface, too.
 // One average keeps r of a wave, and this 1 - (1 - r)^3.
 PlaneVectors remove_facets(const PlaneVectors& off, const FieldAverage& average, const Mask& counts) {
@@ -78,7 +85,7 @@ ShapeOptimizer::Internals::Internals(const Positions& V, const Triangles& F, con
   box = find_bounding_box(V, F);
   enter(0.2, "dividing into height fields");
   const Boundary boundary = boundary_of(options, V.rows());
-  HeightField field = make_height_field(V, F, pieces.frame(), boundary);
+  HeightField field = make_height_field(V, F, pieces.frame(), choose_roles(boundary, kind));
   sampled = options.quadrature_weight.size() > 0;
   hold_partners(partner, field);
   if (kind == SurfaceKind::kSubdivided) free_unknowns = couple_vertices(options.B, options.start, field);
