@@ -76,6 +76,18 @@ def test_what_lies_outside_the_region_keeps_its_surface() -> None:
     assert np.array_equal(before[outside], after[outside])
 
 
+def test_a_border_that_flows_is_one_of_its_own_and_curvature_is_tangent() -> None:
+    moved = {}
+    for border in ("clamped", "curvature", "flow"):
+        ob = subdivided()
+        before = scenes.positions(ob)
+        assert scenes.smooth(length=0.8, border=border) == {'FINISHED'}
+        moved[border] = scenes.positions(ob) - before
+    assert np.array_equal(moved["curvature"], moved["clamped"])
+    assert not np.array_equal(moved["flow"], moved["clamped"])
+    assert np.array_equal(moved["flow"] != 0.0, moved["clamped"] != 0.0)
+
+
 def test_one_undo_step() -> None:
     ob = subdivided()
     bpy.ops.ed.undo_push(message="start")
