@@ -53,10 +53,12 @@ Unevenness measure_unevenness(ControlledSurface& surface, const Vector& z, const
   const Vector known = Vector::Ones(z.size()), area = optimizer.area();
   const double whole = area.sum();
   Unevenness result;
+  result.squares.resize(area.size(), optimizer.family_count());
   for (int k = 0; k < optimizer.family_count(); ++k) {
     const ShapeOptimizer::Lines lines = optimizer.evaluate_lines(z, known, k);
     const ShapeOptimizer::Lines course = optimizer.evaluate_lines(smoothed, known, k);
     const Vector off = compare(lines, course, surface), seen = area.cwiseProduct(optimizer.sight(k));
+    result.squares.col(k) = optimizer.sight(k).cwiseProduct((kDegrees * off).cwiseAbs2());
     const double sum = std::max(seen.sum(), 1e-300);
     result.seen.push_back(seen.sum() / whole);
     result.degrees.push_back(kDegrees * std::sqrt(seen.dot(off.cwiseAbs2()) / sum));

@@ -14,6 +14,7 @@ struct Unevenness {
   std::vector<double> degrees;   // of theta, root mean square over the area seen, one for each light
   std::vector<LineScore> score;  // likewise
   std::vector<double> seen;      // share of the area that the light's eye sees, likewise
+  Eigen::MatrixXd squares;       // #F x lights: of the offsets of theta, degrees^2, as the light's eye sees them
   Vector stray;                  // #F or of a cage #faces: see SmoothPanelReport::stray
 };
 

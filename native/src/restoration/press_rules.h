@@ -105,10 +105,13 @@ struct CageRules {
 
 // Rules of the verdict and of what is told of a result; see healed_flaws.h and line_evenness.h.
 struct VerdictRules {
-  int retries = 3;                          // after a light became worse, each with less of the move
-  double worse = 1.01;                      // times its unevenness at the start: not worse to the eye
-  double longer_waves = 0.32;               // degrees, root mean square: waves that are worth a word
-  double place_radius = 0.35;               // lengths: a flaw is one place, the mesh's facets are none
+  int retries = 3;             // each with the triangles held that turned too far before
+  double worse = 1.01;         // times its unevenness at the start: not worse to the eye
+  double even = 0.97;          // times its unevenness at the start: from here to `worse` on, places that get worse stay
+  double even_radius = 0.5;    // lengths: of such a place
+  double doubled = 1.0;        // rise of its mean square, over that before, with which a place stays: from all to none
+  double longer_waves = 0.32;  // degrees, root mean square: waves that are worth a word
+  double place_radius = 0.35;  // lengths: a flaw is one place, the mesh's facets are none
   double seen = 0.2, seen_whole = 0.6;      // degrees that lines deviate: from none to all
   double healed = 0.3, healed_whole = 0.7;  // of that which went: from none to all
   double worse_place = 1.05;                // times the worst deviation before, and

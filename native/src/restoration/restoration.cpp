@@ -6,6 +6,7 @@
 #include "base/smoothstep.h"
 #include "geometry/bounding_box.h"
 #include "reflines/errors.h"
+#include "restoration/even_places.h"
 #include "restoration/healed_flaws.h"
 #include "restoration/line_fields.h"
 #include "restoration/press_notes.h"
@@ -110,7 +111,7 @@ Vector Restoration::find_move(const PressAmount& amount) {
 double Restoration::weigh_gain() {
   if (gain_) return *gain_;
   const Unevenness& before = measure_start();
-  const Unevenness after = measure(start_ + surface_.surface_move(unlimited_));
+  const Unevenness after = measure_move(unlimited_);
   double gain = 0;
   for (size_t k = 0; k < before.degrees.size(); ++k)
     gain += (1.0 - after.degrees[k] / std::max(before.degrees[k], 1e-300)) / static_cast<double>(before.degrees.size());
@@ -199,6 +200,8 @@ Unevenness Restoration::measure(const Vector& z) const {
   return measure_unevenness(surface_, z, smooth(z), report_.length);
 }
 
+Unevenness Restoration::measure_move(const Vector& move) const { return measure(start_ + surface_.surface_move(move)); }
+
 const Unevenness& Restoration::measure_start() {
   if (!uneven_) uneven_ = measure(start_);
   return *uneven_;
@@ -214,10 +217,9 @@ bool Restoration::has_longer_waves() {
   return *longer_waves_;
 }
 
-// Measures heights of the surface (#V) against the start.
-void Restoration::measure_result(const Vector& end) {
+// Reports heights of the surface (#V), and how even their lines are, against the start.
+void Restoration::compare_with_start(const Vector& end, Unevenness after) {
   const Unevenness& before = measure_start();
-  Unevenness after = measure(end);
   report_.score_before = before.score;
   report_.score_after = after.score;
   report_.unevenness_before = before.degrees;
@@ -238,8 +240,27 @@ Vector Restoration::tell_places(const Vector& healed) const {
   return gone.array() - (1.0 - gone.array()) * kept.array();
 }
 
-SmoothPanelResult Restoration::judge(const Vector& move) {
-  if (amount_.judged) measure_result(start_ + surface_.surface_move(move));
+// Returns a move (#C) that leaves the places as they are where lines would become less even, the more the less even a
+// light becomes in all. A cage has its gain instead, see weigh_gain.
+Vector Restoration::leave_uneven_places(const Vector& move, const Unevenness& after) {
+  const Unevenness& before = measure_start();
+  double worst = 0;
+  for (size_t k = 0; k < before.degrees.size(); ++k)
+    worst = std::max(worst, after.degrees[k] / std::max(before.degrees[k], 1e-300));
+  const double left = smoothstep(kRules.verdict.even, kRules.verdict.worse, worst);
+  if (left == 0 || !surface_.controls_every_vertex()) return move;
+  const Vector even = find_even_places(surface_, before.squares, after.squares, report_.length, options_.partner);
+  return move.array() * (1.0 - left * (1.0 - even.array()));
+}
+
+SmoothPanelResult Restoration::judge(const Vector& wanted) {
+  Vector move = wanted;
+  if (amount_.judged) {
+    Unevenness after = measure_move(move);
+    move = leave_uneven_places(wanted, after);
+    if (move != wanted) after = measure_move(move);
+    compare_with_start(start_ + surface_.surface_move(move), std::move(after));
+  }
   if (turns_faces(move)) return refuse({NoteKind::kFacesWouldTurn});
   for (size_t k = 0; k < report_.unevenness_after.size(); ++k) {
     const double before = report_.unevenness_before[k], after = report_.unevenness_after[k];

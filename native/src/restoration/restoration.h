@@ -62,10 +62,12 @@ class Restoration {
   Mask find_turned_by(const Vector& move) const;
   Vector smooth(const Vector& z) const;
   Unevenness measure(const Vector& z) const;
+  Unevenness measure_move(const Vector& move) const;  // of the control vertices (#C)
   const Unevenness& measure_start();
   bool has_longer_waves();
+  Vector leave_uneven_places(const Vector& move, const Unevenness& after);
   double weigh_gain();
-  void measure_result(const Vector& end);
+  void compare_with_start(const Vector& end, Unevenness after);
   Vector tell_places(const Vector& healed) const;
   SmoothPanelResult apply(const Vector& move);
   SmoothPanelResult refuse(const Note& reason);
