@@ -14,9 +14,9 @@ namespace {
 // takes 6.9, 6.9 and 7.8 s, and 8.3 without.
 constexpr int kSquares = 8;
 
-// Where the points are more than the nodes of a grid, so many along each side of a cell, sums are taken around the
-// nodes and interpolated. With 8, 10, 12 and 16 means of a smooth function are wrong by 0.009, 0.006, 0.005 and 0.004
-// of its spread, merging included; a press of 100,000 vertices takes 4.4 s on one core, and 5.8 without.
+// The number of nodes along each side of a cell around which sums are taken, and between which they are interpolated,
+// where points are more than these nodes. With 8, 10, 12 and 16 means of a smooth function are wrong by 0.009, 0.006,
+// 0.005 and 0.004 of its spread, merging included; a press of 100,000 vertices takes 4.4 s on one core, 5.8 without.
 constexpr int kNodes = 12;
 constexpr double kSpacing = 1.0 / kNodes;  // radii
 constexpr Eigen::Index kCorners = (kNodes + 1) * (kNodes + 1);
@@ -113,8 +113,9 @@ std::vector<DiskMean::Range> DiskMean::near(const Cell& cell) const {
 }
 
 // Returns the sums of kernel times weight times values, and without values in the last entry, of a disk around a place.
-// Sums whole ranges without asking which sources are in the disk, so that the loops are vectorized: means of 100,000
-// vertices over some 1,000 neighbours take 122 ms, where a test for each pair takes 710. Cells half as large: 97.
+// Whole ranges are summed without asking which sources are in the disk, so that the loops are vectorized: means of
+// 100,000 vertices over some 1,000 neighbours take 122 ms, where a test for each pair takes 710. Cells half as
+// large: 97.
 Eigen::RowVectorXd DiskMean::sum_around(const Vector2& place, const std::vector<Range>& ranges,
                                         const Eigen::ArrayXXd& values) const {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(values.cols() + 1);

@@ -45,7 +45,7 @@ std::optional<Strays> find_less_even(const SmoothPanelReport& one, const SmoothP
   return std::nullopt;
 }
 
-// A cage's gain may also leave nothing of a move.
+// Returns whether a press changes anything: a cage's gain, too, may leave nothing of a move.
 bool moves_anything(const SmoothPanelReport& report) { return report.applied && report.largest_control_move > 0; }
 
 // Tells why the clamped result was chosen.
