@@ -128,8 +128,9 @@ struct SmoothPanelResult {
 // Each of these is a weight that varies with the surface, so that a small change of the input has a small effect. A
 // result that turns triangles by more than 45 degrees is solved for again with these held. Unevenness is how far lines
 // are from those of the same surface smoothed up to the lengths found for the start, degrees of theta, root mean square
-// over what the light's eye sees of the region. Where it rises in a light by more than 1 %, nothing is applied.
-// Throws InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
+// over what the light's eye sees of the region. Where it would rise in a light, the places of a mesh at which it does
+// stay as they are (restoration/even_places.h); where it still rises by more than 1 %, nothing is applied. Throws
+// InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
 SmoothPanelResult smooth_panel(const Positions& V, const Triangles& F, const Vector3& view_direction,
                                const Vector3& line_direction, const SmoothPanelOptions& options = {});
 
