@@ -47,7 +47,7 @@ NAMES = (
     "ui.properties",
     "state.compared", "state.last_checks", "state.last_looks",
     "state.last_panels", "state.optimizer_cache", "state.press_cache", "state.solve_history", "state.persistence",
-    "interactive.background_work", "interactive.inspection_job", "interactive.drag_handles", "interactive.solve_job",
+    "background_work", "interactive.inspection_job", "interactive.drag_handles", "interactive.solve_job",
     "interactive.running_operators", "interactive.read_picture",
     "overlay.brush_circle", "overlay.falloff_circle", "overlay.handle_marks",
     "interactive.brush_stroke", "interactive.drag_input", "interactive.sweep", "interactive.drag",

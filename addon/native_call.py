@@ -1,7 +1,7 @@
 """Awaited calls of native functions, so that the same code runs at once and in the background of a window.
 
 Code that makes long native calls is written as coroutines, which await them with `call`. `run_now` does each call as it
-comes. interactive/background_work.py does them on a thread that runs no Python, while all Python stays on Blender's.
+comes. background_work.py does them on a thread that runs no Python, while all Python stays on Blender's.
 """
 from collections.abc import Callable, Coroutine, Generator
 from functools import partial

@@ -11,6 +11,7 @@ from typing import Protocol
 import bpy
 import numpy as np
 
+from ..background_work import BackgroundWork
 from ..blender import units
 from ..model.gain import Gain, Healed
 from ..model.light_set import LightSet
@@ -28,7 +29,6 @@ from ..view import view_and_light, view_region
 from ..write import write_mesh
 from ..write.write_mesh import EditVertices
 from . import drag_input
-from .background_work import BackgroundWork
 from .drag_handles import DragValues, Handle
 from .solve_job import SolveJob, SolveOutcome, SolveRequest
 

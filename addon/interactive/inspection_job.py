@@ -2,12 +2,12 @@
 from dataclasses import dataclass
 
 from .. import native
+from ..background_work import BackgroundWork
 from ..model.inspection import Inspection
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..solver import live_optimizer, panel_inspection
 from ..solver.panel_inspection import Inspected
-from .background_work import BackgroundWork
 
 
 @dataclass(frozen=True)

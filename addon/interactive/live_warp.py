@@ -8,13 +8,13 @@ import time
 import bpy
 import numpy as np
 
+from ..background_work import BackgroundWork
 from ..model.refusal import Refusal
 from ..model.solution import Solution
 from ..read import read_mesh
 from ..targets.warp import Warp
 from ..write import live_warp_start, write_mesh
 from . import live_baseline
-from .background_work import BackgroundWork
 from .live_baseline import Baseline
 from .solve_job import SolveJob, SolveOutcome, SolveRequest
 

@@ -1,8 +1,8 @@
 """The operator Bake Handles."""
 import bpy
 
+from ..background_work import BackgroundWork
 from ..interactive import running_operators
-from ..interactive.background_work import BackgroundWork
 from ..interactive.handle_bake import HandleBake
 from ..model.refusal import Refusal
 from ..native_call import run_now

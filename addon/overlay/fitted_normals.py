@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import native
-from ..interactive.background_work import BackgroundWork
+from ..background_work import BackgroundWork
 from ..native_call import call, run_now
 from . import stripes
 

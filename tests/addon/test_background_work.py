@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 import scenes
-from reflection_lines import native, native_call
-from reflection_lines.interactive import background_work
-from reflection_lines.interactive.background_work import BackgroundWork
+from reflection_lines import background_work, native, native_call
+from reflection_lines.background_work import BackgroundWork
 
 PATIENCE = 30.0  # seconds
 SHORT_CALLS = 100

@@ -111,7 +111,7 @@ def escaped(driver: window.Window, after: float) -> Generator[float, None, tuple
     dragging.panel(driver, SIZES["100k"])
     driver.move(400, 300)
     yield 1.0
-    view, worker = driver.area(), sys.modules["reflection_lines"].interactive.background_work
+    view, worker = driver.area(), sys.modules["reflection_lines"].background_work
     with driver.override():
         bpy.ops.reflines.smooth('INVOKE_DEFAULT', True, follow_mouse=True)
     view.type = 'IMAGE_EDITOR'

@@ -11,7 +11,8 @@ from tree import ROOT, files
 CPP_ROOMS = ("native/include/", "native/src/", "native/python/", "native/examples/")
 PYTHON_ROOMS = (*(f"addon/{room}/" for room in (
     "animation", "blender", "interactive", "model", "operators", "overlay", "read", "solver", "state", "targets", "ui",
-    "view", "write")), "addon/native.py", "addon/library_copy.py", "native/python/reflines.pyi")
+    "view", "write")), "addon/native.py", "addon/background_work.py", "addon/library_copy.py",
+                "native/python/reflines.pyi")
 
 # A sentence that begins so has no subject: "Of one worker thread.", "Whether it holds.".
 FRAGMENT = re.compile(r"(Of|For|Whether|What|Who|Where|How|Those|That|By|From|Within|At|As|Like|Likewise|Also|So|Not|"

@@ -12,6 +12,7 @@ MAY_IMPORT = {
     "library_copy": set(),
     "native": {"bl_info", "library_copy"},
     "native_call": set(),
+    "background_work": {"native", "native_call"},
     "model": {"native"},
     "targets": {"native", "native_call", "model.line_curve", "model.line_handle", "model.solution"},
     "blender": set(),
@@ -21,16 +22,16 @@ MAY_IMPORT = {
     "write": {"blender", "read", "view", "native", "model", "targets"},
     "solver": {"native", "native_call", "model", "targets"},
     "state": {"native", "native_call", *SCENE, "model", "solver"},
-    "interactive": {"native", "native_call", "model", "targets", *SCENE, "solver", "state", "overlay.falloff_circle",
-                    "overlay.handle_marks"},
-    "operators": {"native_call", "model", "targets", *SCENE, "solver", "state", "interactive", "ui.properties",
-                  "ui.automatic_values", "ui.tool_properties"},
+    "interactive": {"native", "native_call", "background_work", "model", "targets", *SCENE, "solver", "state",
+                    "overlay.falloff_circle", "overlay.handle_marks"},
+    "operators": {"native_call", "background_work", "model", "targets", *SCENE, "solver", "state", "interactive",
+                  "ui.properties", "ui.automatic_values", "ui.tool_properties"},
     "overlay.brush_circle": set(),
     "overlay.falloff_circle": set(),
     "overlay.handle_marks": set(),
     "overlay.stripes": set(),
     "overlay.shader": {"overlay.stripes"},
-    "overlay.fitted_normals": {"overlay.stripes", "native", "native_call", "interactive.background_work"},
+    "overlay.fitted_normals": {"overlay.stripes", "native", "native_call", "background_work"},
     "overlay.solve_maps": {"overlay.stripes", "model"},
     "overlay.legend": {"overlay.handle_marks", "overlay.stripes", "overlay.solve_maps", "overlay.stripe_scene",
                        "overlay.shown_objects", *SCENE, "state"},
@@ -87,11 +88,11 @@ PURE = {"native", "native_call", "model", "targets", "solver", "interactive.drag
         "overlay.solve_maps", "overlay.limit_surface"}
 
 # Where all errors are caught: the place that prints those of background work, as Python prints those of a thread.
-CATCHES_ALL = {Path("addon/interactive/background_work.py")}
+CATCHES_ALL = {Path("addon/background_work.py")}
 FORBIDDEN_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
 OWNERS_OF_STATE = {"state.last_looks", "state.last_panels", "state.optimizer_cache", "state.press_cache",
                    "state.solve_history", "interactive.drag",
-                   "interactive.live_warp_handlers", "interactive.background_work", "interactive.running_operators",
+                   "interactive.live_warp_handlers", "background_work", "interactive.running_operators",
                    "overlay.draw",
                    "overlay.draw_borders", "overlay.draw_check", "state.last_checks"}
 

@@ -12,8 +12,8 @@ from typing import Generic, TypeVar
 
 import bpy
 
-from .. import native
-from ..native_call import Calling
+from . import native
+from .native_call import Calling
 
 # Seconds that Blender waits for native calls; longer ones are taken at a later tick. Where it draws slowly, a tick is a
 # frame away, and a step has several calls: waiting a share of the last frame costs less than that.
