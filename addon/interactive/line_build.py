@@ -7,8 +7,10 @@ import numpy as np
 from ..model import line_handle
 from ..model.line_handle import Handles
 from ..model.patch import Patch
+from ..model.view import View
 from ..read import group_weights, pinned_faces
-from ..solver.formulation import Formulation, choose_formulation
+from ..solver.panel_problem import PanelProblem, pose_problem
+from ..solver.read_solved import choose_triangles, spread_weights
 from ..targets.line_handles import HandleBuild, HandleTargets, SpreadFalloff
 from ..view import facing
 
@@ -19,22 +21,29 @@ class LineBuild:
     def __init__(self, scene: bpy.types.Scene) -> None:
         self.builder = HandleTargets(2.0 * np.pi / scene.reflection_lines.stripes.count)
         self.pinned: np.ndarray | None = None  # #faces, bool
+        self.problem: PanelProblem | None = None  # the last one
+
+    def pose(self, patch: Patch, seen: View) -> PanelProblem:
+        """Poses the problem of a patch, or takes the last one where it is the same."""
+        if self.problem is None or self.problem.patch is not patch or not self.problem.view.same(seen):
+            self.problem = pose_problem(patch, seen)
+        return self.problem
 
     def build(self, scene: bpy.types.Scene, ob: bpy.types.Object, patch: Patch, handles: Handles) -> HandleBuild:
-        formulation = choose_formulation(patch, facing.read_patch_view(scene, patch))
+        problem = self.pose(patch, facing.read_patch_view(scene, patch))
         images, handles = (handles if sign is None else line_handle.mirror_handles(handles, sign)
-                           for sign in (formulation.follow_sign, formulation.image_sign))
+                           for sign in (problem.sign, problem.image_sign))
         if self.pinned is None:
             self.pinned = pinned_faces.read_pinned_faces(ob)
-            self.builder.spread_falloff = read_spread_falloff(ob, patch, formulation)
-        choose_pinned = partial(formulation.choose_triangles, chosen=self.pinned)
+            self.builder.spread_falloff = read_spread_falloff(ob, problem)
+        choose_pinned = partial(choose_triangles, problem, chosen=self.pinned)
         return HandleBuild(self.builder, handles, images, patch.matrix, choose_pinned)
 
 
-def read_spread_falloff(ob: bpy.types.Object, patch: Patch, formulation: Formulation) -> SpreadFalloff | None:
+def read_spread_falloff(ob: bpy.types.Object, problem: PanelProblem) -> SpreadFalloff | None:
     """Reads the fall-off map of the object's handles, to be spread over an optimizer's vertices; None without one."""
     name = ob.reflection_lines.follow_group
     if not name:
         return None
-    weights = group_weights.read_group_weights(ob, name, "the handles")[patch.index]
-    return partial(formulation.spread_weights, weights=weights)
+    weights = group_weights.read_group_weights(ob, name, "the handles")[problem.patch.index]
+    return partial(spread_weights, problem, weights=weights)

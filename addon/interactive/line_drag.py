@@ -16,7 +16,7 @@ from ..model.patch import Patch
 from ..overlay import handle_marks
 from ..overlay.handle_marks import Marks
 from ..read import read_mesh
-from ..solver.formulation import choose_formulation
+from ..solver.read_solved import read_triangles
 from ..view import screen_surface
 from . import drag_handles, drawn_lines, handle_texts
 from .drag import Drag, DraggedOperator
@@ -82,7 +82,7 @@ class LineDrag(Drag):
         self.tracing.forget_now()
         if self.surface is None:
             start = self.job.starts[0]
-            triangles = choose_formulation(start.patch, start.view).read_triangles(start.optimizer)
+            triangles = read_triangles(start.problem, start.optimizer)
             self.surface = LineSurface(self.job.start_lines[0], triangles, self.frame)
             self.screen = screen_surface.ScreenSurface(self.surface, self.area)
             if self.pressed is not None:

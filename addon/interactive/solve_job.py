@@ -22,9 +22,9 @@ from ..model.view import View
 from ..native_call import call
 from ..solver import live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth
-from ..solver.formulation import choose_formulation
 from ..solver.limited_solve import choose_limit, clip_to_shares
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
+from ..solver.read_solved import read_lines, read_positions
 from ..state import optimizer_cache, press_cache
 
 # Seconds. A gain that takes longer to measure is measured when the mouse rests, so that the panel follows at once.
@@ -166,8 +166,9 @@ class SolveJob:
                     await self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings[which]))
                     if request.lines:
                         await wanted.measure(follower)  # for the numbers of each handle
-                shown = choose_formulation(patch, start.view).read_positions(follower)
-                positions.append(clip_to_shares(patch, start.view, shown, choose_limit(patch, request.settings[which])))
+                shown = read_positions(start.problem, follower)
+                limit = choose_limit(patch, request.settings[which])
+                positions.append(clip_to_shares(patch, start.problem.view, shown, limit))
         if request.lines:
             return SolveOutcome(request, tuple(positions), lines=await self.read_lines())
         gain = await self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
@@ -187,13 +188,8 @@ class SolveJob:
     async def read_lines(self) -> tuple[LineState, ...]:
         """Reads the lines that are followed, and once those of the start."""
         if not self.start_lines:
-            self.start_lines = await self.read_optimizers([start.optimizer for start in self.starts])
-        return await self.read_optimizers(self.followers)
-
-    async def read_optimizers(self, optimizers: "Sequence[native.ShapeOptimizer]") -> tuple[LineState, ...]:
-        formulations = [choose_formulation(start.patch, start.view) for start in self.starts]
-        return tuple([await formulation.read_lines(optimizer)
-                      for formulation, optimizer in zip(formulations, optimizers, strict=True)])
+            self.start_lines = tuple([await read_lines(start.optimizer) for start in self.starts])
+        return tuple([await read_lines(follower) for follower in self.followers])
 
     async def follow_targets(self, start: LiveOptimizer, follower: "native.ShapeOptimizer", wanted: JointTargets,
                              limit: float) -> None:

@@ -66,6 +66,14 @@ class Patch:
         """Transforms #points x 3 from object space to world space."""
         return local @ self.matrix[:3, :3].T + self.matrix[:3, 3]
 
+    def to_local(self, points: np.ndarray) -> np.ndarray:
+        """Transforms #points x 3 from world space to object space."""
+        return (points - self.matrix[:3, 3]) @ np.linalg.inv(self.matrix[:3, :3]).T
+
+    def mirror_points(self, points: np.ndarray) -> np.ndarray:
+        """Returns the mirror images of points in world space: #points x 3."""
+        return self.to_world(self.to_local(points) * self.mirror.sign)
+
     def round_start_positions(self) -> np.ndarray:
         """Returns the positions that the mesh had, as Blender stores them: #V x 3 float32, object space."""
         return self.local.astype(np.float32)

@@ -34,5 +34,9 @@ class View:
 
     def same(self, other: "View") -> bool:
         alike = other.families is None if self.families is None else self.families.same(other.families)
-        return (alike and np.array_equal(self.view_direction, other.view_direction)
+        return alike and self.has_same_light(other)
+
+    def has_same_light(self, other: "View") -> bool:
+        """Returns whether both directions are the same, whatever takes their place."""
+        return (np.array_equal(self.view_direction, other.view_direction)
                 and np.array_equal(self.line_direction, other.line_direction))

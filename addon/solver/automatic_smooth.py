@@ -12,8 +12,10 @@ from ..model.solution import SolveReport, Solution
 from ..model.view import View
 from ..native_call import call
 from . import live_optimizer, remarks
-from .formulation import Formulation, choose_formulation
+from .build_native import build_smoother
 from .native_notes import word_note, word_notes
+from .panel_problem import PanelProblem, pose_problem
+from .read_solved import read_own, read_press
 
 MOST_NOTES = 2
 REACH_MARGIN = 1.05  # of what the native press takes in: its diagonal is that of the faces that it can use
@@ -51,8 +53,7 @@ class AutomaticSmooth:
 @dataclass(frozen=True)
 class KeptPress:
     """A native smoother with what it was built from: another strength or limit costs it a tenth of the first press."""
-    patch: Patch
-    view: View
+    problem: PanelProblem
     border: str
     settings: AutomaticSmooth  # of the first press
     smoother: "native.PanelSmoother"
@@ -61,17 +62,15 @@ class KeptPress:
         """Returns whether the smoother serves this patch, view, border and settings."""
         amount = {"strength": self.settings.strength, "limit": self.settings.limit}
         return (self.border == border and self.settings == replace(settings, **amount)
-                and np.array_equal(self.view.view_direction, view.view_direction)
-                and np.array_equal(self.view.line_direction, view.line_direction)
-                and self.patch.same(patch))
+                and self.problem.view.has_same_light(view) and self.problem.patch.same(patch))
 
 
 async def build_press(patch: Patch, seen: View, border: str, settings: AutomaticSmooth) -> KeptPress:
     """Builds the native smoother of a patch, which does its work in the first press; raises the native module's errors.
     """
-    smoother = await choose_formulation(patch, seen).build_smoother(border, settings.choose_flaws(patch),
-                                                                    fair=settings.fair_border)
-    return KeptPress(patch, seen, border, settings, smoother)
+    problem = pose_problem(patch, seen)
+    smoother = await build_smoother(problem, border, settings.choose_flaws(patch), fair=settings.fair_border)
+    return KeptPress(problem, border, settings, smoother)
 
 
 @dataclass(frozen=True)
@@ -84,11 +83,11 @@ class Preview:
 async def preview_press(kept: KeptPress, settings: AutomaticSmooth,
                         progress: "native.Progress | None" = None) -> Preview:
     """Presses without measuring the result; raises the native module's errors."""
-    formulation = choose_formulation(kept.patch, kept.view)
+    problem, patch = kept.problem, kept.problem.patch
     positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
-                                 limit_share=formulation.choose_share(), progress=progress, judged=False)
-    live_optimizer.refuse_closed(kept.patch.name, int(kept.patch.faces.sum()), told.region.closed)
-    return Preview(formulation.read_pressed(positions), "" if told.applied else word_note(told.notes[0]))
+                                 limit_share=problem.limit_range, progress=progress, judged=False)
+    live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
+    return Preview(read_own(problem, positions), "" if told.applied else word_note(told.notes[0]))
 
 
 async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
@@ -99,17 +98,16 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
     strays from its smoothed self. After a refusal both are those of the start.
     """
     begin = time.perf_counter()
-    formulation = choose_formulation(kept.patch, kept.view)
     positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
-                                 limit_share=formulation.choose_share(), progress=progress)
-    return build_solution(formulation, positions, told, settings, time.perf_counter() - begin)
+                                 limit_share=kept.problem.limit_range, progress=progress)
+    return build_solution(kept.problem, positions, told, settings, time.perf_counter() - begin)
 
 
-def build_solution(formulation: Formulation, positions: np.ndarray, told: "native.SmoothPanelReport",
+def build_solution(problem: PanelProblem, positions: np.ndarray, told: "native.SmoothPanelReport",
                    settings: AutomaticSmooth, seconds: float) -> Solution:
-    """Builds the solution from what the native press returns for the patch of a formulation."""
-    patch = formulation.patch
-    press = formulation.read_press(positions, told)
+    """Builds the solution from what the native press returns for a problem."""
+    patch = problem.patch
+    press = read_press(problem, positions, told)
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
     report = build_report(told, seconds)
     unevenness = told.unevenness_before, told.unevenness_after if told.applied else told.unevenness_before
@@ -118,27 +116,27 @@ def build_solution(formulation: Formulation, positions: np.ndarray, told: "nativ
     shifts, turns = np.mean([[(score.shift, score.turn) for score in each] for each in scores], axis=1).T.tolist()
     notes = (note for note in told.region.notes if note.kind != "unseen")  # of lights, which are told of by their names
     return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *shifts,
-                    choose_notes(formulation, told, settings.light_set), told.length,
+                    choose_notes(problem, told, settings.light_set), told.length,
                     automatic_limit=0.0 if settings.limit else told.limit, cage_move=press.cage_move,
                     turn_before=turns[0], turn_after=turns[1],
                     kept=(*remarks.describe_marked_creases(patch), *word_notes(notes)),
                     healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after),
-                    worse=find_worse(formulation, settings, told), longer_waves=told.longer_waves,
+                    worse=find_worse(problem, settings, told), longer_waves=told.longer_waves,
                     verdict=press.verdict)
 
 
-def find_worse(formulation: Formulation, settings: AutomaticSmooth,
+def find_worse(problem: PanelProblem, settings: AutomaticSmooth,
                told: "native.SmoothPanelReport") -> Worse | None:
     """Finds the place that a press made worse by most, in its own lights or those that judge it; None where there is
     none.
     """
-    worse, length, judges = told.healed.worse, told.length, settings.find_judges(formulation.patch)
-    center = formulation.patch.center
+    worse, length, judges = told.healed.worse, told.length, settings.find_judges(problem.patch)
+    center = problem.patch.center
     if settings.light_set is not None:
         return settings.light_set.tell_worse(worse, center, length)
     own = (None if worse.light < 0 else
            Worse("the crossed light" if worse.light else "the light",
-                 tuple(formulation.view.both_directions[worse.light].tolist()), tuple(worse.place.tolist()), length,
+                 tuple(problem.view.both_directions[worse.light].tolist()), tuple(worse.place.tolist()), length,
                  worse.before, worse.after))
     elsewhere = None if judges is None else judges.tell_worse(told.healed.worse_for_judges, center, length)
     return max(filter(None, (own, elsewhere)), key=lambda each: each.after - each.before, default=None)
@@ -151,11 +149,11 @@ def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveRepor
     return SolveReport(termination, message, told.solve.iterations, seconds, told.solve.unknowns, move, limited)
 
 
-def choose_notes(formulation: Formulation, told: "native.SmoothPanelReport",
+def choose_notes(problem: PanelProblem, told: "native.SmoothPanelReport",
                  light_set: LightSet | None) -> tuple[str, ...]:
     """Returns the most important sentences. That the limit holds vertices back stands in the headline of the result."""
     notes = [note for note in told.notes if note.kind != "limited"]
-    lopsided = () if told.mirrored else remarks.describe_mirror(formulation)
+    lopsided = () if told.mirrored else remarks.describe_mirror(problem)
     lights = () if light_set is None else light_set.describe(told.seen, told.unevenness_before, told.unevenness_after,
                                                              applied=told.applied)
     return (*word_notes(notes), *lights, *lopsided)[:MOST_NOTES]

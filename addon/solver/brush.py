@@ -9,7 +9,7 @@ from ..model.border import CODES
 from ..model.patch import Patch
 from ..model.view import View
 from . import live_optimizer
-from .formulation import Formulation, choose_formulation
+from .panel_problem import fill_codes, pose_alone, pose_problem
 
 CONTEXT, FEWEST_EDGES = 0.25, 4.0  # of the radius, and mean edges: what the filter sees beyond the circle
 FEWEST_FREE = 8  # vertices within a circle that can be smoothed
@@ -101,12 +101,11 @@ class BrushedPatch(BrushedRegion):
 
     def __init__(self, patch: Patch, view: View, border: str) -> None:
         """Takes the border of the region, which holds below the brush, too. A seam of a Mirror modifier is clamped."""
-        codes = Formulation(patch, view).choose_border(border)
         self.patch, self.view = patch, view
-        self.border = np.full(len(patch.V), CODES[codes]) if isinstance(codes, str) else codes
-        symmetric = patch.mirror is not None and not patch.mirror.image and choose_formulation(patch, view).is_symmetric
+        self.border = fill_codes(pose_alone(patch, view), border)
+        problem = pose_problem(patch, view)
         super().__init__(patch.V, live_optimizer.compute_image_frame(patch, view), patch.share,
-                         patch.mirror.partner if symmetric else None)
+                         None if problem.is_joined else problem.partner)
         corners = self.xy[patch.F]
         self.edge = float(np.sqrt(np.mean(np.sum((corners - np.roll(corners, 1, axis=1))**2, axis=2))))
 

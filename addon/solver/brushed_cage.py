@@ -4,13 +4,12 @@ from dataclasses import replace
 import numpy as np
 
 from .. import native
-from ..model.border import CODES
 from ..model.cage import Cage, CagePatch
 from ..model.patch import Patch
 from ..model.view import View
 from . import live_optimizer
 from .brush import TOLERANCE, Brush, BrushedPatch, BrushedRegion, build_dab_target
-from .formulation import CageFormulation
+from .panel_problem import fill_codes, pose_cage
 
 PICK_LEVEL = 1  # of the surface on which the mouse is found
 CONTEXT = 0.8  # of the radius: what the filter sees beyond the circle; with 0.25 moves differ by 4 %, with 0.8 by 0.7 %
@@ -27,15 +26,14 @@ class BrushedCage(BrushedRegion):
 
     def __init__(self, patch: CagePatch, view: View, border: str) -> None:
         """Takes the border of the region, which holds below the brush, too."""
-        formulation = CageFormulation(patch, view)
-        self.patch, self.cage, self.formulation = patch, patch.cage, formulation
-        codes = formulation.choose_border(border)
-        self.border = np.full(len(self.cage.V), CODES[codes]) if isinstance(codes, str) else codes
-        self.region = self.cage.build_arguments(formulation.is_symmetric)["region"]
+        problem = pose_cage(patch, view)
+        self.patch, self.cage, self.problem = patch, patch.cage, problem
+        self.border = fill_codes(problem, border)
+        self.region = self.cage.build_arguments(problem.is_symmetric)["region"]
         self.inside = self.cage.find_vertices(self.region)
         partner = np.where(self.cage.partner < 0, np.arange(len(self.cage.V)), self.cage.partner)
-        super().__init__(self.cage.V, live_optimizer.compute_image_frame(patch, view), formulation.choose_share(),
-                         partner if formulation.is_symmetric else None)
+        super().__init__(self.cage.V, live_optimizer.compute_image_frame(patch, view), problem.limit_range,
+                         partner if problem.is_symmetric else None)
 
     @property
     def positions(self) -> np.ndarray:
@@ -111,7 +109,7 @@ class BrushedCage(BrushedRegion):
         """Builds the optimizer of a window, whose free vertices alone move."""
         arguments = cage.build_arguments(symmetric=False)
         arguments["level"] = 2 if np.count_nonzero(cage.region) <= MOST_FACES else 1
-        return native.reflines.CageOptimizer(**arguments, **self.formulation.choose_directions(),
+        return native.reflines.CageOptimizer(**arguments, **self.problem.directions,
                                              border=self.border[vertices], fixed=~free,
                                              **self.patch.creases.build_cage_arguments())
 

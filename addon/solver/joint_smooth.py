@@ -3,8 +3,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from .. import native
 from ..model.cage import CagePatch
 from ..model.patch import Patch
@@ -12,7 +10,8 @@ from ..model.solution import Solution
 from ..model.view import View
 from ..native_call import call
 from .automatic_smooth import AutomaticSmooth, build_solution
-from .formulation import choose_formulation
+from .build_native import build_joint_panel
+from .panel_problem import PanelProblem, pose_problem
 
 
 def can_join(patch: Patch, settings: AutomaticSmooth) -> bool:
@@ -32,8 +31,7 @@ def show_to_others(patches: Sequence[Patch], settings: AutomaticSmooth) -> list[
 @dataclass(frozen=True)
 class KeptJoint:
     """A native smoother of several patches with what it was built from."""
-    patches: tuple[Patch, ...]
-    views: tuple[View, ...]
+    problems: tuple[PanelProblem, ...]
     border: str
     settings: AutomaticSmooth  # of the first press
     smoother: "native.JointSmoother"
@@ -42,31 +40,27 @@ class KeptJoint:
         """Returns whether the smoother serves these patches, views, border and settings."""
         amount = {"strength": self.settings.strength, "limit": self.settings.limit}
         return (self.border == border and self.settings == replace(settings, **amount)
-                and len(self.patches) == len(patches)
-                and all(own.same(other) and own.name == other.name
-                        for own, other in zip(self.patches, patches, strict=True))
-                and all(np.array_equal(own.view_direction, other.view_direction)
-                        and np.array_equal(own.line_direction, other.line_direction)
-                        for own, other in zip(self.views, views, strict=True)))
+                and len(self.problems) == len(patches)
+                and all(own.patch.same(patch) and own.patch.name == patch.name and own.view.has_same_light(view)
+                        for own, patch, view in zip(self.problems, patches, views, strict=True)))
 
 
 async def build_joint(patches: Sequence[Patch], views: Sequence[View], border: str,
                       settings: AutomaticSmooth) -> KeptJoint:
     """Builds the native smoother of patches; raises the native module's errors."""
-    panels = [choose_formulation(patch, seen).build_joint_panel(border, settings.choose_flaws(patch))
-              for patch, seen in zip(patches, views, strict=True)]
+    problems = tuple(map(pose_problem, patches, views))
+    panels = [build_joint_panel(problem, border, settings.choose_flaws(problem.patch)) for problem in problems]
     smoother = await call(native.reflines.JointSmoother.create, panels)
-    return KeptJoint(tuple(patches), tuple(views), border, settings, smoother)
+    return KeptJoint(problems, border, settings, smoother)
 
 
 async def press_joint(kept: KeptJoint, settings: AutomaticSmooth,
                       progress: "native.Progress | None" = None) -> list[Solution]:
     """Presses all patches once; raises the native module's errors. The time told is that of all."""
     begin = time.perf_counter()
-    formulations = [choose_formulation(patch, seen) for patch, seen in zip(kept.patches, kept.views, strict=True)]
-    count = len(formulations)
+    count = len(kept.problems)
     results = await call(kept.smoother.press, strengths=[settings.strength] * count, limits=[settings.limit] * count,
-                         limit_shares=[formulation.choose_share() for formulation in formulations], progress=progress)
+                         limit_shares=[problem.limit_range for problem in kept.problems], progress=progress)
     seconds = time.perf_counter() - begin
-    return [build_solution(formulation, positions, told, settings, seconds)
-            for formulation, (positions, told) in zip(formulations, results, strict=True)]
+    return [build_solution(problem, positions, told, settings, seconds)
+            for problem, (positions, told) in zip(kept.problems, results, strict=True)]

@@ -2,13 +2,12 @@
 import numpy as np
 
 from .. import native
-from ..model.cage import CagePatch
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
 from ..model.view import View
-from .formulation import choose_formulation
 from .live_optimizer import LiveOptimizer
+from .read_solved import spread_ranges
 
 
 def choose_limit(patch: Patch, settings: SolveSettings) -> float:
@@ -24,10 +23,10 @@ async def choose_shares(live: LiveOptimizer) -> np.ndarray | None:
     """Returns each vertex's share of the limit (#V x 2) as the native solve takes it. Refuses where nothing may move,
     and where too many vertices have shares of their own.
     """
-    share = await choose_formulation(live.patch, live.view).choose_ranges(live.optimizer)
+    share = await spread_ranges(live.problem, live.optimizer)
     if share is None:
         return None
-    name, is_cage = live.patch.name, isinstance(live.patch, CagePatch)
+    name, is_cage = live.patch.name, live.problem.is_cage
     if not share.any():
         raise Refusal(f"{name}: no vertex may move: the vertex group of its limit has no weight here")
     most = native.reflines.MOST_BOUNDED_CAGE if is_cage else native.reflines.MOST_BOUNDED

@@ -12,7 +12,9 @@ from ..model.refusal import Refusal
 from ..model.solution import JointTargets, SolveSettings
 from ..model.view import View
 from ..native_call import call
-from .formulation import choose_formulation
+from . import build_native
+from .panel_problem import PanelProblem, pose_problem
+from .read_solved import complete_target
 
 BuildTarget = Callable[["native.ShapeOptimizer"], "Awaitable[native.Target | JointTargets]"]
 
@@ -20,14 +22,17 @@ BuildTarget = Callable[["native.ShapeOptimizer"], "Awaitable[native.Target | Joi
 @dataclass(frozen=True)
 class LiveOptimizer:
     """A native optimizer with what it was built from; it serves as long as nothing of that changes."""
-    patch: Patch
-    view: View
+    problem: PanelProblem
     border: str
     optimizer: "native.ShapeOptimizer"
 
+    @property
+    def patch(self) -> Patch:
+        return self.problem.patch
+
     def suits(self, patch: Patch, view: View, border: str) -> bool:
         """Returns whether the optimizer serves this patch, view and border."""
-        return self.border == border and self.view.same(view) and self.patch.same(patch)
+        return self.border == border and self.problem.view.same(view) and self.patch.same(patch)
 
 
 async def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Progress | None" = None, *,
@@ -37,16 +42,17 @@ async def build_optimizer(patch: Patch, seen: View, border: str, progress: "nati
     `progress` goes on watching the optimizer. `to_follow` a drag, a cage is sampled more coarsely: several times faster
     steps, and a shape that differs by a hundredth of the move.
     """
-    optimizer = await choose_formulation(patch, seen).build(border, progress, sparse=to_follow)
+    problem = pose_problem(patch, seen)
+    optimizer = await build_native.build_optimizer(problem, border, progress, sparse=to_follow)
     refuse_closed(patch.name, int(patch.faces.sum()), optimizer.region.closed)
-    return LiveOptimizer(patch, seen, border, optimizer)
+    return LiveOptimizer(problem, border, optimizer)
 
 
 async def build_targets(live: LiveOptimizer, build: BuildTarget, settings: SolveSettings) -> JointTargets:
     """Builds the targets at the optimizer's present heights, last that of the lines that cross the wanted ones. One
     wanted target alone is measured by its residual.
     """
-    built, complete = await build(live.optimizer), choose_formulation(live.patch, live.view).complete_target
+    built, complete = await build(live.optimizer), partial(complete_target, live.problem)
     crossed = [] if settings.build_crossed is None else [await settings.build_crossed(live.optimizer)]
     if isinstance(built, JointTargets):
         return replace(built, targets=[*(complete(each) for each in built.targets), *crossed])

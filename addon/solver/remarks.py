@@ -5,15 +5,15 @@ from ..model import mirror
 from ..model.border import CODES, NAMES
 from ..model.patch import Patch
 from ..model.solution import SolveReport
-from .formulation import Formulation
+from .panel_problem import PanelProblem
 
 FAR_MOVE = 0.05  # relative to the patch's diagonal; larger moves are mentioned
 
 
-def describe_mirror(formulation: Formulation) -> tuple[str, ...]:
+def describe_mirror(problem: PanelProblem) -> tuple[str, ...]:
     """Describes why a region with Mirror X was not solved symmetrically."""
-    plane = formulation.patch.mirror
-    return () if plane is None else mirror.describe_asymmetry(plane, formulation.is_symmetric)
+    plane = problem.patch.mirror
+    return () if plane is None else mirror.describe_asymmetry(plane, problem.is_symmetric)
 
 
 def describe_marked_creases(patch: Patch) -> tuple[str, ...]:

@@ -8,10 +8,11 @@ from ..model.patch import Patch
 from ..model.solution import LastSolve, Solution, SolveReport, SolveSettings
 from ..native_call import call
 from . import live_optimizer, remarks
-from .formulation import Formulation, choose_formulation
 from .limited_solve import choose_limit, choose_shares
 from .live_optimizer import BuildTarget, LiveOptimizer
 from .native_notes import word_notes
+from .panel_problem import join_surroundings
+from .read_solved import measure_cage_move, read_positions, read_residual
 
 BENT = np.radians(0.5)  # radians; an edge of a calm panel that bends by as much more is seen as a crease in its stripes
 
@@ -45,26 +46,26 @@ async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: 
     optimizer, length = live.optimizer, choose_length(live.patch, settings.length)
     wanted = await live_optimizer.build_targets(live, build_target, settings)  # that of a fit moves the optimizer first
     lacking = None if wanted.is_plain else await wanted.measure(optimizer)
-    limit, formulation = choose_limit(live.patch, settings), choose_formulation(live.patch, live.view)
+    limit, problem = choose_limit(live.patch, settings), live.problem
     told = await call(native.reflines.solve_panel, optimizer, wanted.targets, length=length, limit=limit,
-                      limit_share=await choose_shares(live), around=choose_rim(live, formulation), progress=progress)
+                      limit_share=await choose_shares(live), around=choose_rim(live), progress=progress)
     worse = await judge(live, settings.judges, progress)
     left = told.residual_after if wanted.is_plain else await wanted.measure(optimizer)
     lacking = told.residual_before if wanted.is_plain else lacking
     report = build_report(told)
     short = settings.explains_share and wanted.is_plain and told.falls_short and not told.limited
     bend = told.rim_bend if told.rim_bend > BENT else 0.0
-    return Solution(live.patch, formulation.read_positions(optimizer), report, wanted.targets[0],
-                    formulation.read_residual(optimizer, told.residual), lacking, left,
+    return Solution(live.patch, read_positions(problem, optimizer), report, wanted.targets[0],
+                    read_residual(problem, optimizer, told.residual), lacking, left,
                     length, told.score_before.shift, told.score_after.shift,
                     (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
                      *remarks.describe_unfinished(report), *remarks.describe_bent_rim(bend),
                      *remarks.describe_limit(report.limited, limit, automatic=not settings.limit),
-                     *remarks.describe_mirror(formulation),
+                     *remarks.describe_mirror(problem),
                      *remarks.describe_far_move(live.patch, report.largest_move, live.border),
                      *remarks.describe_turned_faces(told.turned_faces)),
                     choose_length(live.patch, 0.0), choose_remedy(live.border, short=short, bent=bend > 0.0),
-                    formulation.measure_cage_move(optimizer), automatic_limit=0.0 if settings.limit else limit,
+                    measure_cage_move(problem, optimizer), automatic_limit=0.0 if settings.limit else limit,
                     turn_before=told.score_before.turn, turn_after=told.score_after.turn, worse=worse,
                     kept=(*word_notes(optimizer.region.notes), *remarks.describe_held_faces(told.held_faces)))
 
@@ -87,13 +88,13 @@ def build_report(told: "native.SolvePanelReport") -> SolveReport:
                        solve.largest_move, told.limited)
 
 
-def choose_rim(live: LiveOptimizer, formulation: Formulation) -> tuple[np.ndarray, np.ndarray] | None:
+def choose_rim(live: LiveOptimizer) -> tuple[np.ndarray, np.ndarray] | None:
     """Returns the positions and triangles that the rim of a mesh's region may bend against; the surface of a cage has
     no rim: its faces beside the region follow.
     """
-    if type(live.patch) is not Patch:
+    if live.problem.is_cage:
         return None
-    around = formulation.read_around()
+    around = join_surroundings(live.problem)
     return (around.V, around.F) if len(around.F) else None
 
 

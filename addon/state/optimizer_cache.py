@@ -11,6 +11,7 @@ from ..model.view import View
 from ..native_call import run_now
 from ..solver import live_optimizer, solve
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
+from ..solver.panel_problem import pose_problem
 
 KEPT_OPTIMIZERS = 2  # between operations: that of the patch at work and another; each holds the factors of a matrix
 
@@ -24,7 +25,8 @@ def take_optimizer(patch: Patch, seen: View, border: str) -> LiveOptimizer | Non
         return None
     live.optimizer.watch(None)
     live.optimizer.reset()
-    return replace(live, patch=patch)  # the way back to the mesh may differ, such as the shape key
+    # The way back to the mesh may differ, such as the shape key.
+    return replace(live, problem=pose_problem(patch, live.problem.view))
 
 
 def return_optimizer(live: LiveOptimizer) -> None:

@@ -15,6 +15,7 @@ from ..model.view import View
 from ..solver import automatic_smooth, joint_smooth, live_optimizer
 from ..solver.automatic_smooth import AutomaticSmooth, KeptPress, Preview
 from ..solver.joint_smooth import KeptJoint
+from ..solver.panel_problem import pose_problem
 
 Pressed = TypeVar("Pressed")
 PressOnce = Callable[[KeptPress, AutomaticSmooth, "native.Progress | None"], Awaitable[Pressed]]
@@ -40,7 +41,8 @@ async def press_with_cache(press: PressOnce[Pressed], patch: Patch, seen: View, 
     with live_optimizer.convert_native_errors(patch):
         kept = _presses.pop(patch.name, None)  # nobody else takes it meanwhile
         if kept is not None and kept.suits(patch, seen, border, settings):
-            kept = replace(kept, patch=patch)  # the way back to the mesh may differ, such as the shape key
+            # The way back to the mesh may differ, such as the shape key.
+            kept = replace(kept, problem=pose_problem(patch, kept.problem.view))
         else:
             kept = await automatic_smooth.build_press(patch, seen, border, settings)
         pressed = await press(kept, settings, progress)
@@ -84,7 +86,7 @@ async def smooth_jointly(all_patches: Sequence[Patch], all_views: Sequence[View]
     try:
         if kept is None or not kept.suits(patches, views, border, settings):
             kept = await joint_smooth.build_joint(patches, views, border, settings)
-        kept = replace(kept, patches=tuple(patches))
+        kept = replace(kept, problems=tuple(map(pose_problem, patches, views)))
         solutions = await joint_smooth.press_joint(kept, settings, progress)
     except (native.InvalidInput, native.SolverFailure, Refusal):
         return {}
@@ -96,7 +98,7 @@ def keep_only(names: Collection[str]) -> None:
     """Drops the presses of all other objects at the end of an operation: each holds the factor of a matrix."""
     for gone in [name for name in _presses if name not in names]:
         del _presses[gone]
-    if _joint and {patch.name for patch in _joint[0].patches} != set(names):
+    if _joint and {problem.patch.name for problem in _joint[0].problems} != set(names):
         _joint.clear()
 
 

@@ -41,8 +41,8 @@ def brush(**settings: float) -> object:
 
 def build(cage: object, **changed: object) -> object:
     """The optimizer of a whole cage as the brush has left it."""
-    arguments = replace(cage.cage, V=cage.moved).build_arguments(cage.formulation.is_symmetric)
-    return modules().native.reflines.CageOptimizer(**{**arguments, **cage.formulation.choose_directions(), **changed})
+    arguments = replace(cage.cage, V=cage.moved).build_arguments(cage.problem.is_symmetric)
+    return modules().native.reflines.CageOptimizer(**{**arguments, **cage.problem.directions, **changed})
 
 
 def roughness(cage: object, family: int) -> float:
