@@ -104,13 +104,16 @@ def pose_joined(patch: Patch, view: View) -> PanelProblem:
 
 def pose_cage(patch: CagePatch, view: View) -> PanelProblem:
     """Poses a cage, whose vertices are the unknowns; symmetric where moves along the view keep it so. The image that a
-    Mirror modifier adds has the border of the mesh's own half.
+    Mirror modifier adds has the border of the mesh's own half. Where no symmetry is kept the seam is clamped, as that
+    of a mesh is: moved along an oblique view it would leave its plane.
     """
     cage, symmetric = patch.cage, patch.is_symmetric_for(view.view_direction)
     source, image = np.full(len(cage.V), -1), cage.partner[patch.index]
     source[image[image >= 0]] = np.flatnonzero(image >= 0)
     source[patch.index] = np.arange(len(patch.index))
     border = np.where(source >= 0, patch.border[source], UNSET)
+    if not symmetric and cage.own_faces < len(cage.sizes):
+        border[cage.partner == np.arange(len(cage.V))] = CODES["clamped"]
     sign = np.where(np.arange(3) == patch.mirror_axis, -1.0, 1.0) if symmetric else None
     return PanelProblem(patch, view, cage.V, patch.F, source, border, cage.partner if symmetric else None, sign)
 

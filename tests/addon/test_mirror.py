@@ -205,6 +205,20 @@ def test_a_cage_below_mirror_keeps_its_seam_in_the_plane() -> None:
     assert not after[:, 0, 0].any()
 
 
+@pytest.mark.parametrize("length", [0.0, 0.5])
+def test_seen_from_the_side_a_cage_below_mirror_keeps_its_seam(length) -> None:
+    """The view is not in the plane, so that a move along it would take the seam out of it."""
+    ob = half()
+    ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+    bpy.ops.reflines.set_up(part='CAMERA', direction=(0.5, 0.0, 1.0))
+    bpy.ops.reflines.set_up(part='LIGHT', direction=(0.0, 1.0, 0.1))
+    edit_half(ob)
+    before = columns(ob)
+    assert scenes.smooth(length=length, border='free') == {'FINISHED'}
+    assert np.abs(columns(ob) - before).max() > 1e-4
+    assert np.array_equal(columns(ob)[:, 0], before[:, 0])
+
+
 def test_lines_warped_on_one_side_are_warped_on_the_other() -> None:
     """The lattice lies over the half alone; its image follows the image of it."""
     ob = half()
