@@ -1,7 +1,7 @@
 """The border's condition by segment: a vertex attribute, so that undo, save and edits keep it.
 
-It is an integer: 0 where the tool's own border holds, else one more than the native code. A vertex with which Blender
-cuts an edge gets the mean of the ends' integers: that of different borders is another border, or none of its own.
+It is an integer: 0 where the tool's own border holds, else one of VALUES. A vertex with which Blender cuts an edge gets
+a mean of the ends' integers: between different borders it has none of its own.
 """
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -15,7 +15,10 @@ from ..model.refusal import Refusal
 from . import mesh_checks, read_mesh
 
 ATTRIBUTE = "reflines_border"
-LARGEST = 1 + max(border.CODES.values())
+# The stored value of each native code. No cut of an edge into up to 12 equal parts gives one of them between two
+# others, nor between one and 0.
+VALUES = (1000, 13000, 14000, 30000, 44000, 57000)
+CODE_OF = {value: code for code, value in enumerate(VALUES)}
 
 
 @dataclass(frozen=True)
@@ -28,14 +31,20 @@ class BorderEdges:
 
 def read_border(ob: bpy.types.Object, index: np.ndarray) -> np.ndarray:
     """Reads the codes of a patch's vertices, whose numbers in the mesh are `index` (#V): #V, border.UNSET where one
-    has none of its own. Refuses values that are no codes.
+    has none of its own. Refuses values that are neither codes nor between two.
     """
     values = (read_edit_values if ob.mode == 'EDIT' else read_object_values)(ob.data)[index].astype(np.int64)
-    wrong = int(((values < 0) | (values > LARGEST)).sum())
+    wrong = int(((values < 0) | (values > VALUES[-1])).sum())
     if wrong:
         raise Refusal(f"{ob.name}: {wrong} vertices have a border that is none of Free, Position, Tangent, Curvature, "
                       "Flow and Neighbours: select them and press one of these under Border of the Selected")
-    return values - 1
+    return decode_values(values)
+
+
+def decode_values(values: np.ndarray) -> np.ndarray:
+    """Returns the codes of stored values (#V): border.UNSET for what is none."""
+    place = np.searchsorted(VALUES[:-1], values)
+    return np.where(np.take(VALUES, place) == values, place, border.UNSET)
 
 
 def read_edit_values(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -73,8 +82,9 @@ def set_selected_border(mesh: bpy.types.Mesh, name: str) -> int:
     layers = edit.verts.layers.int
     layer = layers.get(ATTRIBUTE) or layers.new(ATTRIBUTE)
     chosen = set(list_chosen(edit))  # after the layer, which makes references to vertices invalid
+    value = VALUES[border.CODES[name]] if name in border.CODES else 0
     for vertex in chosen:
-        vertex[layer] = border.CODES.get(name, border.UNSET) + 1
+        vertex[layer] = value
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
     return len(chosen)
 
@@ -96,7 +106,7 @@ def read_border_edges(ob: bpy.types.Object) -> BorderEdges | None:
 def read_edit_edges(ob: bpy.types.Object) -> BorderEdges | None:
     edit = bmesh.from_edit_mesh(ob.data)
     layer = edit.verts.layers.int.get(ATTRIBUTE)
-    own = [] if layer is None else [vertex for vertex in edit.verts if 0 < vertex[layer] <= LARGEST and not vertex.hide]
+    own = [] if layer is None else [vertex for vertex in edit.verts if vertex[layer] in CODE_OF and not vertex.hide]
     if not own:
         return None
     number = {vertex: k for k, vertex in enumerate(own)}
@@ -104,14 +114,14 @@ def read_edit_edges(ob: bpy.types.Object) -> BorderEdges | None:
     ends = [[number[vertex] for vertex in edge.verts] for edge in edges
             if all(vertex in number for vertex in edge.verts)]
     return BorderEdges(np.array([vertex.co[:] for vertex in own]), np.array(ends, dtype=np.int64).reshape(-1, 2),
-                       np.array([vertex[layer] - 1 for vertex in own]))
+                       np.array([CODE_OF[vertex[layer]] for vertex in own]))
 
 
 def read_object_edges(ob: bpy.types.Object) -> BorderEdges | None:
-    values = read_object_values(ob.data)
-    own = (values > 0) & (values <= LARGEST)
+    codes = decode_values(read_object_values(ob.data))
+    own = codes != border.UNSET
     if not own.any():
         return None
     ends = read_mesh.read_integers(ob.data.edges, "vertices", 2).reshape(-1, 2)
     number = np.cumsum(own) - 1
-    return BorderEdges(read_mesh.read_coordinates(ob)[own], number[ends[own[ends].all(axis=1)]], values[own] - 1)
+    return BorderEdges(read_mesh.read_coordinates(ob)[own], number[ends[own[ends].all(axis=1)]], codes[own])

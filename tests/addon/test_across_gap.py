@@ -239,7 +239,7 @@ def test_a_segment_follows_alone() -> None:
     edit = bmesh.from_edit_mesh(left.data)
     layer = edit.verts.layers.int.new("reflines_border")
     for vertex in edit.verts:
-        vertex[layer] = 6 if abs(vertex.co.x) < 1e-6 and vertex.co.y > -0.1 else 0
+        vertex[layer] = 57000 if abs(vertex.co.x) < 1e-6 and vertex.co.y > -0.1 else 0
     bmesh.update_edit_mesh(left.data)
     scenes.smooth(border='clamped')
     y, one = slopes(places(left), 0.0)

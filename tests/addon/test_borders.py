@@ -1,4 +1,5 @@
 """The border by segment in Blender: what was set on vertices holds in every tool, and bad attributes are refused."""
+import itertools
 import json
 import re
 import sys
@@ -9,7 +10,8 @@ import numpy as np
 import pytest
 
 import scenes
-from reflection_lines.read import pinned_faces
+from reflection_lines.model.border import CODES, UNSET
+from reflection_lines.read import border_segments, pinned_faces
 
 ROW = 17  # vertices of a row of the panel
 
@@ -117,8 +119,8 @@ def test_a_cage_obeys_the_segments() -> None:
 def test_the_mesh_keeps_what_was_set_through_modes_and_undo() -> None:
     ob = segmented_panel()
     values = stored(ob)
-    assert (values[side(1)] == 2).all()
-    assert (values[side(15)[1:-1]] == 1).all()
+    assert (values[side(1)] == 13000).all()
+    assert (values[side(15)[1:-1]] == 1000).all()
     assert np.count_nonzero(values) == len(side(1)) + len(side(15)[1:-1])
     scenes.object_mode()
     assert np.array_equal(stored(ob), values)
@@ -201,7 +203,29 @@ def test_other_segments_make_another_optimizer() -> None:
     assert not (scenes.positions(ob) != before).any(axis=1)[side(2)].any()  # clamped, as the tool has it
 
 
-@pytest.mark.parametrize("value", [-1, 7, 2**31 - 1, -2**31])
+@pytest.mark.parametrize("cuts", [1, 2, 4, 11])
+def test_a_cut_has_the_border_of_both_ends_or_none(cuts: int) -> None:
+    names = ['unset', *CODES]
+    pairs = list(itertools.combinations_with_replacement(names, 2))
+    mesh = bpy.data.meshes.new("Edges")
+    mesh.from_pydata([(x, y, 0.0) for x in range(len(pairs)) for y in range(2)],
+                     [(2 * k, 2 * k + 1) for k in range(len(pairs))], [])
+    ob = bpy.data.objects.new("Edges", mesh)
+    bpy.context.collection.objects.link(ob)
+    scenes.edit(ob)
+    for name in names:
+        set_border(ob, [2 * k + end for k, pair in enumerate(pairs) for end in range(2) if pair[end] == name], name)
+    bpy.ops.mesh.select_all(action='SELECT')
+    bpy.ops.mesh.subdivide(number_cuts=cuts)
+    scenes.object_mode()
+    cut = [vertex for vertex in mesh.vertices if 0.0 < vertex.co.y < 1.0]
+    codes = border_segments.read_border(ob, np.array([vertex.index for vertex in cut]))
+    wanted = [pairs[round(vertex.co.x)] for vertex in cut]
+    assert len(cut) == cuts * len(pairs)
+    assert [*codes] == [CODES.get(one, UNSET) if one == other else UNSET for one, other in wanted]
+
+
+@pytest.mark.parametrize("value", [-1, 57001, 2**31 - 1, -2**31])
 def test_values_that_are_no_borders_are_refused(value: int) -> None:
     ob = segmented_panel()
     scenes.object_mode()
@@ -293,7 +317,7 @@ def test_flow_by_segment_is_said_to_fall_back_where_noise_hides_the_rate() -> No
     scenes.edit(ob)
     segment = [MARGIN + (CELLS + 1) * k for k in range(MARGIN + 3, CELLS - MARGIN - 2)]
     set_border(ob, segment, 'flow')
-    assert (stored(ob)[segment] == 5).all()
+    assert (stored(ob)[segment] == 44000).all()
     scenes.select_faces(ob, scenes.inner(CELLS, MARGIN))
     assert scenes.smooth(length=0.3, border='clamped') == {'FINISHED'}
     said = re.search(r"At (\d+) vertices .* Flow \(G3\) is the same as Curvature", ob.reflection_lines.report.kept)
