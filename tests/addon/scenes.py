@@ -98,6 +98,13 @@ def positions(ob: bpy.types.Object) -> np.ndarray:
     return values.reshape(-1, 3)
 
 
+def pixels(image: bpy.types.Image) -> np.ndarray:
+    """Height x width x 4, bottom row first."""
+    values = np.empty(len(image.pixels), dtype=np.float32)
+    image.pixels.foreach_get(values)
+    return values.reshape(image.size[1], image.size[0], 4)
+
+
 def fingerprint(ob: bpy.types.Object) -> tuple:
     """All that an artist could miss: positions, faces, attributes, shape keys, bit by bit."""
     if ob.mode == 'EDIT':

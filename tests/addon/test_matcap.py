@@ -18,7 +18,7 @@ def test_a_matcap_of_the_solvers_theta_is_installed() -> None:
     installed = [light for light in bpy.context.preferences.studio_lights if light.name == "reflection_lines.png"]
     assert len(installed) == 1
     image = bpy.data.images.load(installed[0].path)
-    pixels = np.array(image.pixels).reshape(image.size[1], image.size[0], 4)[:, :, 0]
+    pixels = scenes.pixels(image)[:, :, 0]
     light, sure = expected(image.size[0])
     assert sure.sum() > 50000
     assert np.abs(pixels[sure] - light[sure]).max() < 0.01
@@ -66,7 +66,7 @@ def test_the_picture_is_smooth_and_the_shading_stays() -> None:
     assert [(shading.type, shading.light, shading.studio_light) for shading in views] == before
     installed = next(light for light in bpy.context.preferences.studio_lights if light.name == "reflection_lines.png")
     image = bpy.data.images.load(installed.path)
-    row = np.array(image.pixels).reshape(image.size[1], image.size[0], 4)[:, image.size[0] // 2, 0]
+    row = scenes.pixels(image)[:, image.size[0] // 2, 0]
     edges = np.flatnonzero(np.diff((row > 0.5).astype(int)))
     between = ((row > 0.15) & (row < 0.85)).sum()
     print(f"{between} pixels between light and dark at {len(edges)} edges")

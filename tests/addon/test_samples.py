@@ -2,6 +2,9 @@
 import pathlib
 import re
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -73,6 +76,27 @@ def line_field(V: np.ndarray, F: np.ndarray) -> np.ndarray:
                                           line_direction=line).field()
 
 
+@dataclass(frozen=True)
+class Pressed:
+    """A sample after the press of its row: positions before and after, and the numbers of the report."""
+    before: np.ndarray
+    after: np.ndarray
+    report: SimpleNamespace
+    modifiers: list[str]
+
+
+@cache
+def press_sample(name: str) -> Pressed:
+    """Opens a sample and presses the button of its row, once for all tests."""
+    panel = opened(name)
+    before = positions(panel)
+    assert getattr(bpy.ops.reflines, OPERATORS[EXPECTED.match(rows()[name][5])[1]])() == {'FINISHED'}
+    report = panel.reflection_lines.report
+    numbers = {key: getattr(report, key) for key in ("termination", "residual_before", "residual_after", "largest_move",
+                                                     "score_before", "score_after")}
+    return Pressed(before, positions(panel), SimpleNamespace(**numbers), [each.type for each in panel.modifiers])
+
+
 def test_every_sample_has_its_row() -> None:
     assert sorted(rows()) == sorted(path.name for path in SAMPLES.glob("*.blend"))
 
@@ -95,10 +119,8 @@ EXPECTED = re.compile(r"\*([\w -]+)\*: (\w+), ([\d.]+) % left, ([\d.]+) mm")
 
 @pytest.mark.parametrize("name", sorted(rows()))
 def test_one_press_gives_the_result_of_its_row(name: str) -> None:
-    button, termination, left, move = EXPECTED.match(rows()[name][5]).groups()
-    panel = opened(name)
-    assert getattr(bpy.ops.reflines, OPERATORS[button])() == {'FINISHED'}
-    report = panel.reflection_lines.report
+    _, termination, left, move = EXPECTED.match(rows()[name][5]).groups()
+    report = press_sample(name).report
     assert report.termination == termination
     assert 100.0 * report.residual_after / report.residual_before == pytest.approx(float(left), rel=0.05, abs=0.1)
     assert 1000.0 * report.largest_move == pytest.approx(float(move), rel=0.05)
@@ -138,11 +160,9 @@ def test_an_automatic_press_takes_more_than_half_of_the_doors_waves() -> None:
                                                      ("cage_fender.blend", cage_shapes.fender, 0)])
 def test_the_cages_lines_come_back_to_the_clean_ones(name: str, shape: Callable, axis: int) -> None:
     """Of the subdivided surface: its wobble is that of the clean cage again, to a tenth, or less."""
-    panel = opened(name)
-    bpy.ops.reflines.smooth()
-    report = panel.reflection_lines.report
-    dented, solved = report.score_before, report.score_after
-    assert [modifier.type for modifier in panel.modifiers] == ['SUBSURF']
+    pressed = press_sample(name)
+    dented, solved = pressed.report.score_before, pressed.report.score_after
+    assert pressed.modifiers == ['SUBSURF']
     panel = opened(name)
     V = positions(panel).copy()
     V[:, axis] = shape()[2]
@@ -219,15 +239,12 @@ def test_clean_panel_is_mirrored_to_the_last_bit() -> None:
 
 
 def test_hood_is_smoothed_by_one_call() -> None:
-    panel = opened("hood.blend")
-    before, inside = positions(panel), selected(panel)
-    assert bpy.ops.reflines.smooth() == {'FINISHED'}
-    after, report = positions(panel), panel.reflection_lines.report
-    assert report.termination == "converged"
-    assert report.score_after < 0.2 * report.score_before
+    hood, panel = press_sample("hood.blend"), opened("hood.blend")
+    inside = selected(panel)
+    assert hood.report.score_after < 0.2 * hood.report.score_before
     corners = np.array([tuple(face.vertices) for face in panel.data.polygons])
-    outside = np.setdiff1d(np.arange(len(before)), corners[inside])
-    assert np.array_equal(before[outside], after[outside])
+    outside = np.setdiff1d(np.arange(len(hood.before)), corners[inside])
+    assert np.array_equal(hood.before[outside], hood.after[outside])
 
 
 def test_a_check_of_the_smoothed_hood_names_nothing_that_is_worse() -> None:
@@ -241,11 +258,10 @@ def test_a_check_of_the_smoothed_hood_names_nothing_that_is_worse() -> None:
 
 
 def test_smoothing_brings_the_lines_back_to_the_clean_panels() -> None:
-    panel = opened("hood.blend")
-    F, before = region_triangles(panel), positions(panel).astype(float)
-    wanted = line_field(clean(before), F)
-    bpy.ops.reflines.smooth()
-    errors = [np.linalg.norm(line_field(V, F) - wanted) for V in (before, positions(panel).astype(float))]
+    hood = press_sample("hood.blend")
+    F = region_triangles(opened("hood.blend"))
+    wanted = line_field(clean(hood.before.astype(float)), F)
+    errors = [np.linalg.norm(line_field(V.astype(float), F) - wanted) for V in (hood.before, hood.after)]
     assert errors[1] < 0.1 * errors[0]   # measured: 0.031
 
 

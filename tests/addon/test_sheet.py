@@ -18,8 +18,7 @@ def read_picture(file: Path) -> np.ndarray:
     """Reads it as Blender does: height x width x 3 from the top, as in the file."""
     image = bpy.data.images.load(str(file))
     image.colorspace_settings.name = 'Non-Color'
-    width, height = image.size
-    pixels = np.array(image.pixels, dtype=np.float32).reshape(height, width, 4)[::-1, :, :3]
+    pixels = scenes.pixels(image)[::-1, :, :3]
     bpy.data.images.remove(image)
     return pixels
 
