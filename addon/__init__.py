@@ -29,7 +29,7 @@ NAMES = (
     "animation.baked_keys", "animation.handle_keys",
     "read.mesh_checks", "read.read_mesh", "read.border_segments", "read.modifiers", "read.read_edit_cage",
     "read.region_faces", "read.viewport_surface", "read.dense_mesh", "read.falloff_curve", "read.read_surroundings",
-    "read.read_beside", "read.read_creases", "read.group_weights", "read.read_limit_share", "read.read_mirror",
+    "read.read_beside", "read.read_creases", "read.group_weights", "read.read_limit_range", "read.read_mirror",
     "read.scene_objects", "read.read_patch", "read.read_cage", "read.shape_keys", "read.gather", "read.image_pixels",
     "read.pinned_faces", "read.read_checked", "read.read_edges", "read.read_falloff", "read.shown_surface",
     "read.text_outlines",

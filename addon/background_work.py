@@ -16,8 +16,8 @@ from . import native
 from .native_call import Calling
 
 # Seconds that Blender waits for native calls; longer ones are taken at a later tick. Where it draws slowly, a tick is a
-# frame away, and a step has several calls: waiting a share of the last frame costs less than that.
-LEAST_WAIT, MOST_WAIT, FRAME_SHARE = 0.012, 0.05, 0.25
+# frame away, and a step has several calls: waiting a fraction of the last frame costs less than that.
+LEAST_WAIT, MOST_WAIT, FRAME_FRACTION = 0.012, 0.05, 0.25
 LOOK_INTERVAL = 0.02  # seconds between two looks at work that is to end
 
 Request = TypeVar("Request")
@@ -50,7 +50,7 @@ class BackgroundWork(Generic[Request, Outcome]):
         """Returns the latest outcome once, None where there is none, and goes on with work whose native call has ended.
         """
         now = time.monotonic()
-        self._wait = min(max(FRAME_SHARE * (now - self._looked_at), LEAST_WAIT), MOST_WAIT)
+        self._wait = min(max(FRAME_FRACTION * (now - self._looked_at), LEAST_WAIT), MOST_WAIT)
         self._looked_at = now
         self._advance()
         outcome, self._outcome = self._outcome, None

@@ -78,7 +78,7 @@ class BrushStroke:
     def summarize(self) -> Solution:
         """Returns the stroke as a result, with the lines measured where it moved most."""
         lines = self.brushed.measure_lines(self.brush) or (0.0, 0.0)
-        limit = self.brush.limit * np.abs(self.brushed.share).max(axis=1)
+        limit = self.brush.limit * np.abs(self.brushed.limit_range).max(axis=1)
         limited = int(np.count_nonzero((np.abs(self.brushed.move) >= limit) & (limit > 0.0)))
         report = SolveReport("converged", "", self.dabs, time.perf_counter() - self.began,
                              int(np.count_nonzero(self.brushed.move)), self.largest_move, limited)

@@ -22,7 +22,7 @@ from ..model.view import View
 from ..native_call import call
 from ..solver import live_optimizer, solve
 from ..solver.automatic_smooth import AutomaticSmooth
-from ..solver.limited_solve import choose_limit, clip_to_shares
+from ..solver.limited_solve import choose_limit, clip_to_ranges
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
 from ..solver.read_solved import read_lines, read_positions
 from ..state import optimizer_cache, press_cache
@@ -168,7 +168,7 @@ class SolveJob:
                         await wanted.measure(follower)  # for the numbers of each handle
                 shown = read_positions(start.problem, follower)
                 limit = choose_limit(patch, request.settings[which])
-                positions.append(clip_to_shares(patch, start.problem.view, shown, limit))
+                positions.append(clip_to_ranges(patch, start.problem.view, shown, limit))
         if request.lines:
             return SolveOutcome(request, tuple(positions), lines=await self.read_lines())
         gain = await self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None

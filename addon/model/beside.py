@@ -18,7 +18,7 @@ class Beside:
     V: np.ndarray  # #S x 3
     F: np.ndarray  # #G x 3
     gap: float     # widest gap that is crossed, world units
-    reach: float   # how far beyond the gap they were read, world units
+    margin: float  # how far beyond the gap they were read, world units
 
     def same(self, other: "Beside") -> bool:
         return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
@@ -31,7 +31,7 @@ class Beside:
     def add_image(self, mirrored: np.ndarray) -> "Beside":
         """Returns these and their mirror images, whose vertices are given (#S x 3)."""
         return Beside(np.concatenate([self.V, mirrored]),
-                      np.concatenate([self.F, self.F[:, ::-1] + len(self.V)]), self.gap, self.reach)
+                      np.concatenate([self.F, self.F[:, ::-1] + len(self.V)]), self.gap, self.margin)
 
 
 @dataclass(frozen=True)

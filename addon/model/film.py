@@ -23,10 +23,10 @@ class Film:
 
     def look(self, frame: int) -> Looked:
         """Returns how the panel is looked at in a frame, from 0."""
-        share = frame / self.frames
+        fraction = frame / self.frames
         if self.kind == 'LIGHT':
-            return replace(self.looked, line=rotate(self.looked.line, self.looked.eye, 2.0 * np.pi * share))
-        angle = self.swing * np.sin(2.0 * np.pi * share)
+            return replace(self.looked, line=rotate(self.looked.line, self.looked.eye, 2.0 * np.pi * fraction))
+        angle = self.swing * np.sin(2.0 * np.pi * fraction)
         right, up, eye = (rotate(each, UPWARDS, angle) for each in (self.looked.right, self.looked.up, self.looked.eye))
         return replace(self.looked, right=right, up=up, eye=eye)
 

@@ -3,7 +3,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import degrees
 
-SEEN = 0.005  # share of a panel below which nothing is said of its area
+SEEN = 0.005  # fraction of a panel below which nothing is said of its area
 
 
 def format_change(before: float, after: float) -> str:
@@ -37,7 +37,7 @@ class Worse:
 @dataclass(frozen=True)
 class Healed:
     """The account of what an automatic press of Smooth healed: native.HealedFlaws."""
-    area: float          # share of the region, 0 to 1
+    area: float          # fraction of the region, 0 to 1
     worst_before: float  # degrees that lines are off their course at the worst place
     worst_after: float
 
@@ -52,7 +52,7 @@ class Healed:
 
 
 def join_healed(every: Sequence[Healed], areas: Sequence[float]) -> Healed:
-    """Joins the accounts of panels with these areas as if they were one: its healed share, and the worst place of all.
+    """Joins the accounts of panels with these areas as if they were one: the healed fraction and the worst place.
     """
     healed = sum(each.area * area for each, area in zip(every, areas, strict=True))
     return Healed(healed / max(sum(areas), 1e-300), max(each.worst_before for each in every),

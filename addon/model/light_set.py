@@ -11,7 +11,7 @@ from .refusal import Refusal
 from .view import Families, View
 
 PARALLEL = 1e-3    # sine of the angle between a light and its view below which no lines are seen
-LEAST_SEEN = 0.05  # share of the region: a view that sees less of it does not tell of it
+LEAST_SEEN = 0.05  # fraction of the region: a view that sees less of it does not tell of it
 Direction = tuple[float, float, float]
 
 
@@ -101,7 +101,7 @@ class LightSet:
         """Describes what a press says of the lights by their names: those that see next to nothing of the region, and
         for which one it was not applied; `before` and `after` are how uneven the lines are in each.
         """
-        blind = [light.name for light, share in zip(self.lights, seen, strict=True) if share < LEAST_SEEN]
+        blind = [light.name for light, fraction in zip(self.lights, seen, strict=True) if fraction < LEAST_SEEN]
         notes = (f"Not seen from {', '.join(blind)}: no weight there",) if blind else ()
         worse = int(np.argmax(np.array(after) / np.maximum(before, 1e-300)))
         if not applied and after[worse] > before[worse]:

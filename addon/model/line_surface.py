@@ -133,9 +133,9 @@ class LineSurface:
         ways = [self.follow(place.triangle, edge, crossed) for edge in edges[:2]]
         line = np.array(ways[0][::-1] + ways[1])
         triangle, edge = line.T
-        share = (one[triangle, edge] / (one[triangle, edge] - other[triangle, edge]))[:, None]
+        fraction = (one[triangle, edge] / (one[triangle, edge] - other[triangle, edge]))[:, None]
         first, last = (self.F[triangle, (edge + k) % 3] for k in (1, 2))
-        return (1.0 - share) * state.V[first] + share * state.V[last]
+        return (1.0 - fraction) * state.V[first] + fraction * state.V[last]
 
     def follow(self, triangle: int, edge: int, crossed: np.ndarray) -> list[tuple[int, int]]:
         """Returns the edges, each by a triangle and its opposite corner, that a line crosses from a triangle on;
@@ -160,9 +160,9 @@ def find_neighbors(F: np.ndarray) -> np.ndarray:
     edges = np.sort(np.stack([F[:, [1, 2]], F[:, [2, 0]], F[:, [0, 1]]], axis=1).reshape(-1, 2), axis=1)
     key = edges[:, 0].astype(np.int64) * (int(F.max()) + 1) + edges[:, 1]
     order = np.argsort(key, kind="stable")
-    twin = np.flatnonzero(key[order[1:]] == key[order[:-1]])
+    equal = np.flatnonzero(key[order[1:]] == key[order[:-1]])
     result = np.full(len(key), -1, dtype=np.int64)
-    result[order[twin]], result[order[twin + 1]] = order[twin + 1] // 3, order[twin] // 3
+    result[order[equal]], result[order[equal + 1]] = order[equal + 1] // 3, order[equal] // 3
     return result.reshape(-1, 3)
 
 

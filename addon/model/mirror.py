@@ -19,7 +19,7 @@ class Mirror:
     axis: int            # axis of the object normal to the plane; -1: several planes
     partner: np.ndarray  # #V: each vertex's image in the region, itself on the plane, -1 where it has none
     image: bool          # True: a modifier adds the image; False: the region contains it
-    reach: float = 0.0   # object space: vertices no further from the plane are joined with their images
+    merge_distance: float = 0.0  # object space: vertices no further from the plane are joined with their images
 
     @property
     def seam(self) -> np.ndarray:
@@ -40,14 +40,14 @@ class Mirror:
 def find_seam(mirror: Mirror, local: np.ndarray) -> np.ndarray:
     """Finds the vertices on the plane: #V, bool, from coordinates in object space (#V x 3), which may be rounded."""
     rounding = np.finfo(np.float32).eps * np.abs(local).max(initial=0.0)  # float32, and world space
-    return np.abs(local[:, mirror.axis]) <= mirror.reach + rounding
+    return np.abs(local[:, mirror.axis]) <= mirror.merge_distance + rounding
 
 
 def are_equal(one: Mirror | None, other: Mirror | None) -> bool:
     """Returns whether two symmetries, or absences of one, are the same."""
     if one is None or other is None:
         return one is other
-    alike = (one.axis, one.image, one.reach) == (other.axis, other.image, other.reach)
+    alike = (one.axis, one.image, one.merge_distance) == (other.axis, other.image, other.merge_distance)
     return alike and np.array_equal(one.partner, other.partner)
 
 

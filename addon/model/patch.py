@@ -27,7 +27,7 @@ class Patch:
     creases: Creases
     border: np.ndarray   # #V: codes of the border's own conditions, border.UNSET where the tool's holds
     around: Surroundings
-    share: np.ndarray | None  # #V x 2: of the limit, for the lowest move (-1 to 0) and the highest; None: the whole one
+    limit_range: np.ndarray | None  # #V x 2: lowest (-1 to 0) and highest move, fractions of the limit; None: all of it
     beside: Beside | None = field(default=None, kw_only=True)  # what the border can follow, where it is to
 
     @property
@@ -97,15 +97,15 @@ class Patch:
         return (type(self) is type(other) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
                 and mirror.are_equal(self.mirror, other.mirror) and np.array_equal(self.matrix, other.matrix)
                 and self.creases.same(other.creases) and np.array_equal(self.border, other.border)
-                and self.around.same(other.around) and have_same_share(self, other)
+                and self.around.same(other.around) and have_same_range(self, other)
                 and have_same_beside(self.beside, other.beside))
 
 
-def have_same_share(one: Patch, other: Patch) -> bool:
-    """Returns whether the vertices of two patches have the same shares of the limit."""
-    if one.share is None or other.share is None:
-        return one.share is other.share
-    return np.array_equal(one.share, other.share)
+def have_same_range(one: Patch, other: Patch) -> bool:
+    """Returns whether the vertices of two patches have the same ranges of the limit."""
+    if one.limit_range is None or other.limit_range is None:
+        return one.limit_range is other.limit_range
+    return np.array_equal(one.limit_range, other.limit_range)
 
 
 def compute_bounds(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -19,8 +19,8 @@ class SolveSettings:
     border: str
     length: float  # detail finer than this counts as a deviation, world units; 0: a fraction of the patch's diagonal
     limit: float = 0.0  # largest move along the view, world units; 0: a fraction of the patch's diagonal
-    limit_length: float = 0.0  # the length that an automatic limit is a share of; 0: the patch's diagonal
-    explains_share: bool = True  # whether a small share of the target that was reached is worth a word
+    limit_length: float = 0.0  # the length that an automatic limit is a fraction of; 0: the patch's diagonal
+    explains_shortfall: bool = True  # whether a small fraction of the target that was reached is worth a word
     build_crossed: BuildCrossed | None = None  # of the lines that cross the wanted ones; None leaves them to themselves
     judges: LightSet | None = None  # lights that take no part, but tell what became worse in them
 

@@ -52,7 +52,7 @@ has its lines. Select that mesh, then the cage"""
         seen = facing.read_patch_view(context.scene, patch)
         fit = Fit(dense_mesh.read_dense_mesh(context, ob), seen.view_direction, seen.line_direction)
         settings = SolveSettings(self.border, self.read_detail_length(context.scene), math.inf,
-                                 explains_share=False, judges=self.read_judges(context))
+                                 explains_shortfall=False, judges=self.read_judges(context))
         solution = optimizer_cache.solve_with_cache(patch, seen, settings, fit)
         before, after = fit.before, fit.misfit()
         off = gain.format_change(np.degrees(before.angle), np.degrees(after.angle))

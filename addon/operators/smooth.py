@@ -94,7 +94,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
                                                                    weight=weight))
 
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
-        """Reads the settings, with an automatic limit that is a share of the length, as in the automatic press."""
+        """Reads the settings, with an automatic limit that is a fraction of the length, as in the automatic press."""
         return replace(super().read_solve_settings(scene), limit_length=self.filter_length)
 
     def is_automatic(self) -> bool:
@@ -130,8 +130,8 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
             return chosen.describe_problems()
         return ("The set has no light that can be used: crossed lights were taken", *chosen.describe_problems())
 
-    def choose_reach(self) -> float:
-        return self.choose_settings().choose_reach() if self.is_automatic() else 0.0
+    def choose_margin(self) -> float:
+        return self.choose_settings().choose_margin() if self.is_automatic() else 0.0
 
     def choose_crossing(self) -> Crossing | None:
         if not self.is_automatic():

@@ -68,7 +68,7 @@ class SolveTool:
         return ()
 
     def read_detail_length(self, scene: bpy.types.Scene) -> float:
-        """Returns the length below which detail counts as a deviation; 0 is a share of the patch's diagonal."""
+        """Returns the length below which detail counts as a deviation; 0 is a fraction of the patch's diagonal."""
         return scene.reflection_lines.length
 
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
@@ -168,13 +168,13 @@ class SolveTool:
         return self.known_set[0]
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
-        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), reach=self.choose_reach(),
+        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), margin=self.choose_margin(),
                                    purpose=self.choose_purpose(), crossing=self.choose_crossing())
 
     def choose_purpose(self) -> Purpose:
         return Purpose.WRITE_EDITED if self.edited else Purpose.WRITE
 
-    def choose_reach(self) -> float:
+    def choose_margin(self) -> float:
         """Returns how far the faces beside the region are read, in its diagonals; 0: some rings of them."""
         return 0.0
 

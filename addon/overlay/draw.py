@@ -99,7 +99,7 @@ def draw_stripes() -> None:
     if settings.show and context.space_data.overlay.show_overlays:
         draw_objects(context, settings)
     if not stripe_scene.is_split(settings):
-        compared.set_share(compared.MIDDLE)
+        compared.set_fraction(compared.MIDDLE)
     drop_unseen_objects()
     if is_waiting() and not bpy.app.timers.is_registered(poll_fits):
         bpy.app.timers.register(poll_fits, first_interval=POLL_INTERVAL)
@@ -190,7 +190,7 @@ def refresh_object(shown: ShownObject, ob: bpy.types.Object, settings: bpy.types
 def is_current(ob: bpy.types.Object, solution: LastSolve, read: Surface) -> bool:
     """Returns whether an object is as its last solve left it: the surface shown, or else the mesh below it."""
     if len(read.V) == len(ob.data.vertices):
-        return solve_maps.is_current(solution, read.V, shape_keys.read_seen_share(ob, solution.patch.key))
+        return solve_maps.is_current(solution, read.V, shape_keys.read_seen_fraction(ob, solution.patch.key))
     return not read_mesh.is_undone(ob, solution.patch, solution.positions)
 
 
@@ -203,7 +203,7 @@ def is_old_surface_known(ob: bpy.types.Object, read: Surface) -> bool:
 
 def is_seen(ob: bpy.types.Object, solution: LastSolve) -> bool:
     """Returns whether the last solve is a difference that is seen."""
-    return solve_maps.has_moved(solution) and shape_keys.read_seen_share(ob, solution.patch.key) != 0.0
+    return solve_maps.has_moved(solution) and shape_keys.read_seen_fraction(ob, solution.patch.key) != 0.0
 
 
 def read_limit_surface(ob: bpy.types.Object, before: LastSolve | None = None) -> Surface | None:
@@ -267,7 +267,7 @@ def build_part_arrays(name: str, read: Surface) -> tuple[np.ndarray, np.ndarray,
 
 
 def build_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
-               share: np.ndarray | None = None) -> gpu.types.GPUBatch:
+               fraction: np.ndarray | None = None) -> gpu.types.GPUBatch:
     _cache.builds += 1
     layout = gpu.types.GPUVertFormat()
     layout.attr_add(id="pos", comp_type='F32', len=3, fetch_mode='FLOAT')
@@ -277,7 +277,7 @@ def build_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
     # attr_fill accepts other types and memory orders too, and misreads them.
     vertices.attr_fill(id="pos", data=np.ascontiguousarray(V, np.float32))
     vertices.attr_fill(id="nor", data=np.ascontiguousarray(normals, np.float32))
-    values = np.zeros((len(V), 1)) if share is None else share.reshape(-1, 1)
+    values = np.zeros((len(V), 1)) if fraction is None else fraction.reshape(-1, 1)
     vertices.attr_fill(id="val", data=np.ascontiguousarray(values, np.float32))
     triangles = gpu.types.GPUIndexBuf(type='TRIS', seq=np.ascontiguousarray(F, np.uint32))
     return gpu.types.GPUBatch(type='TRIS', buf=vertices, elem=triangles)

@@ -16,7 +16,7 @@ from . import stripe_scene, stripes
 RIM = 1.0            # pixels to each side of lines and dots
 RIM_OPACITY = 0.55
 SELECTED_WIDTH = 1.5  # pixels of a selected line; others have one
-FACES_NEARER = 3e-4  # share of the distance from the eye by which faces are nearer than the stripes
+FACES_NEARER = 3e-4  # fraction of the distance from the eye by which faces are nearer than the stripes
 # Lines and dots face the eye, so on a slope one side of them would sink into the surface: they are nearer by their own
 # radius times this, which shows them whole up to a slope of 63 degrees.
 RADII_NEARER = 2.0
@@ -171,8 +171,8 @@ class SurfacePainter:
         """Returns by how much something of this radius in pixels is nearer than the stripes, for `move_nearer`."""
         return RADII_NEARER * stripes.measure_pixels(np.array(self.region_3d.window_matrix), radius, self.size[0])
 
-    def nearer(self, share: float) -> "NearerProjection":
-        return NearerProjection(self, self.offset + share)
+    def nearer(self, fraction: float) -> "NearerProjection":
+        return NearerProjection(self, self.offset + fraction)
 
 
 class CagePainter(SurfacePainter):
@@ -259,9 +259,9 @@ class CagePainter(SurfacePainter):
 class NearerProjection:
     """The matrices of Blender's own shaders while something is drawn nearer to the eye."""
 
-    def __init__(self, painter: SurfacePainter, share: float) -> None:
+    def __init__(self, painter: SurfacePainter, fraction: float) -> None:
         self.painter = painter
-        self.projection = Matrix(stripes.move_nearer(np.array(painter.region_3d.window_matrix), share))
+        self.projection = Matrix(stripes.move_nearer(np.array(painter.region_3d.window_matrix), fraction))
 
     def __enter__(self) -> None:
         gpu.matrix.push()

@@ -60,8 +60,8 @@ def draw_legend() -> None:
     draw_bar(settings.mode, left, low, scale)
     ends = describe_ends(context.scene, settings.mode, full)
     start_text(scale)
-    for text, share in zip(ends, (0.0, 0.5, 1.0), strict=True):
-        draw_text(text, left + share * (WIDTH * scale - blf.dimensions(FONT, text)[0]), low - 1.2 * SIZE * scale)
+    for text, fraction in zip(ends, (0.0, 0.5, 1.0), strict=True):
+        draw_text(text, left + fraction * (WIDTH * scale - blf.dimensions(FONT, text)[0]), low - 1.2 * SIZE * scale)
     draw_text(TITLES[settings.mode], left, low + (HEIGHT + 5.0) * scale)
     blf.disable(FONT, blf.SHADOW)
 
@@ -106,9 +106,9 @@ def draw_text(text: str, x: float, y: float) -> None:
 
 
 def draw_bar(mode: str, left: float, low: float, scale: float) -> None:
-    share = np.repeat(np.linspace(0.0, 1.0, STEPS + 1), 2)
-    colors = encode_color(stripes.compute_ramp(share, stripes.RAMPS[mode]))
-    places = np.column_stack([left + share * WIDTH * scale,
+    fraction = np.repeat(np.linspace(0.0, 1.0, STEPS + 1), 2)
+    colors = encode_color(stripes.compute_ramp(fraction, stripes.RAMPS[mode]))
+    places = np.column_stack([left + fraction * WIDTH * scale,
                               low + np.tile([0.0, HEIGHT * scale], STEPS + 1)]).astype(np.float32)
     shader = gpu.shader.from_builtin('SMOOTH_COLOR')
     points = [(x, y, 0.0) for x, y in places.tolist()]

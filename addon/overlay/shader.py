@@ -14,12 +14,12 @@ VERTEX = """
 void main()
 {
   vec4 clip = ub.mvp * vec4(pos, 1.0);
-  // z is taken as if the point were nearer to the eye by a share of its distance; x and y stay.
+  // z is taken as if the point were nearer to the eye by a fraction of its distance; x and y stay.
   vec4 nearer = clip + ub.depth_axis * (ub.shape.w * (ub.depth_axis.w != 0.0 ? clip.w : 1.0));
   gl_Position = vec4(clip.xy, nearer.z / nearer.w * clip.w, clip.w);
   world = (ub.model * vec4(pos, 1.0)).xyz;
   normal = (ub.normals * vec4(nor, 0.0)).xyz;
-  share = val;
+  fraction = val;
 }
 """
 
@@ -73,13 +73,13 @@ void main()
     color = vec4(mirrored_color(r), 1.0);
   }
   else if (mode == 4) {
-    color = vec4(residual_color(share), 1.0);
+    color = vec4(residual_color(fraction), 1.0);
   }
   else if (mode == 5) {
-    color = vec4(deviation_color(0.5 + 0.5 * share), 1.0);
+    color = vec4(deviation_color(0.5 + 0.5 * fraction), 1.0);
   }
   else if (mode == 6) {
-    color = vec4(verdict_color(0.5 + 0.5 * share), 1.0);
+    color = vec4(verdict_color(0.5 + 0.5 * fraction), 1.0);
   }
   else {
     // A normal turns half as much as its reflection: twice the rate draws the stripes as densely in all three modes.
@@ -114,7 +114,7 @@ def compile_shader() -> gpu.types.GPUShader:
     between = gpu.types.GPUStageInterfaceInfo("stripes_iface")
     between.smooth('VEC3', "world")
     between.smooth('VEC3', "normal")
-    between.smooth('FLOAT', "share")
+    between.smooth('FLOAT', "fraction")
     info.vertex_out(between)
     info.fragment_out(0, 'VEC4', "fragColor")
     info.vertex_source(VERTEX)

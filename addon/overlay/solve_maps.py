@@ -4,7 +4,8 @@ import numpy as np
 from ..model.solution import LastSolve
 from . import stripes
 
-Arrays = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # positions, triangles, normals, shares of full colour
+# Positions, triangles, normals, and fractions of the full colour.
+Arrays = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 # Relative to the patch's size: vertices further from where the solve left them have been changed since.
 UNCHANGED_TOLERANCE = 1e-4
@@ -16,15 +17,15 @@ def compute_left_positions(solution: LastSolve) -> np.ndarray:
     return patch.local + np.linalg.solve(patch.matrix[:3, :3], (solution.positions - patch.V).T).T
 
 
-def is_current(solution: LastSolve, V: np.ndarray, share: float) -> bool:
-    """Returns whether the mesh's vertices as they are shown (V) are as the solve left them, with a share of its move:
-    nearer to that than to the shape before, which undo brings back, however little the solve moved.
+def is_current(solution: LastSolve, V: np.ndarray, fraction: float) -> bool:
+    """Returns whether the mesh's vertices as they are shown (V) are as the solve left them, with a fraction of its
+    move: nearer to that than to the shape before, which undo brings back, however little the solve moved.
     """
     patch = solution.patch
     if patch.index[-1] >= len(V):
         return False
     size = np.ptp(patch.local, axis=0).max()
-    shown = patch.local + share * (compute_left_positions(solution) - patch.local)
+    shown = patch.local + fraction * (compute_left_positions(solution) - patch.local)
     off, back = (np.abs(V[patch.index] - each).max() for each in (shown, patch.local))
     return bool(off <= UNCHANGED_TOLERANCE * size and off <= back)
 
@@ -72,5 +73,5 @@ def compute_values(solution: LastSolve, mode: str) -> np.ndarray:
 
 
 def scale_values(values: np.ndarray) -> np.ndarray:
-    """Returns the values as shares of the largest."""
+    """Returns the values as fractions of the largest."""
     return values / (np.abs(values).max(initial=0.0) or 1.0)

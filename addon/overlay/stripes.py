@@ -4,11 +4,11 @@ from dataclasses import dataclass
 import numpy as np
 
 TURN = 2.0 * np.pi
-# Shares of the distance from the eye. Without an offset the surface itself hides 40 % of the pixels of its stripes.
+# Fractions of the distance from the eye. Without an offset the surface itself hides 40 % of the pixels of its stripes.
 ABOVE_SURFACE = 1e-3
 # By how much Blender's own vertices of Edit Mode are nearer than the surface (bglPolygonOffsetCalc): in perspective a
-# share of the distance, else in clip space for each unit of the view's distance. Stripes in Edit Mode hide them.
-VERTEX_SHARE, VERTEX_DEPTH = 1.875e-3, 7.5e-6
+# fraction of the distance, else in clip space for each unit of the view's distance. Stripes in Edit Mode hide them.
+VERTEX_FRACTION, VERTEX_DEPTH = 1.875e-3, 7.5e-6
 VERTEX_RADIUS = 4.0  # pixels of Blender's dots, which face the eye
 
 # Numbers of the modes in the shader.
@@ -25,7 +25,7 @@ RAMPS = {'RESIDUAL': RAMP, 'DEVIATION': SIGNED_RAMP, 'VERDICT': VERDICT_RAMP}
 
 @dataclass(frozen=True)
 class Look:
-    """The look of the stripes. Colours are linear RGBA; width and softness are shares."""
+    """The look of the stripes. Colours are linear RGBA; width and softness are fractions."""
     mode: str
     count: int
     width: float
@@ -34,7 +34,7 @@ class Look:
     gap_color: tuple[float, float, float, float]
     opacity: float
     image_rotation: float  # radians
-    depth_offset: float    # how much nearer to the eye than the surface, as a share of the distance
+    depth_offset: float    # how much nearer to the eye than the surface, as a fraction of the distance
 
 
 @dataclass(frozen=True)
@@ -63,9 +63,9 @@ def compute_lights(direction: np.ndarray, line_direction: np.ndarray) -> Lights 
     return Lights(line_direction, across / length, np.cross(line_direction, across / length))
 
 
-def compute_ramp(share: np.ndarray, ramp: tuple = RAMP) -> np.ndarray:
-    """Returns the colours of a map at shares of the way along its ramp: #N x 3."""
-    place = np.clip(share, 0.0, 1.0) * (len(ramp) - 1)
+def compute_ramp(fraction: np.ndarray, ramp: tuple = RAMP) -> np.ndarray:
+    """Returns the colours of a map at fractions of the way along its ramp: #N x 3."""
+    place = np.clip(fraction, 0.0, 1.0) * (len(ramp) - 1)
     return np.column_stack([np.interp(place, range(len(ramp)), channel) for channel in zip(*ramp, strict=True)])
 
 
@@ -126,8 +126,8 @@ def compute_normal_matrix(model: np.ndarray) -> np.ndarray:
 
 def measure_pixels(projection: np.ndarray, pixels: float, width: float) -> float:
     """Returns a length in pixels of a view of this width as `move_nearer` takes lengths."""
-    share = 2.0 * pixels / width
-    return share / abs(projection[0, 0]) if projection[3, 2] != 0.0 else share
+    fraction = 2.0 * pixels / width
+    return fraction / abs(projection[0, 0]) if projection[3, 2] != 0.0 else fraction
 
 
 def compute_edit_offset(projection: np.ndarray, view_distance: float, radius: float) -> float:
@@ -135,21 +135,21 @@ def compute_edit_offset(projection: np.ndarray, view_distance: float, radius: fl
     `radius` is that of its dots as `measure_pixels` returns it.
     """
     if projection[3, 2] != 0.0:
-        blender = VERTEX_SHARE
+        blender = VERTEX_FRACTION
     else:
         blender = VERTEX_DEPTH * view_distance * abs(projection[0, 0] / projection[2, 2])
     return 1.2 * blender + 2.0 * radius
 
 
-def move_nearer(projection: np.ndarray, share: float) -> np.ndarray:
-    """Returns the projection with depths as if everything were nearer to the eye, by a share of its distance or,
+def move_nearer(projection: np.ndarray, fraction: float) -> np.ndarray:
+    """Returns the projection with depths as if everything were nearer to the eye, by a fraction of its distance or,
     without perspective, of half the view's width; places in the picture stay. The stripes' vertex shader does the same.
     """
     moved = projection.copy()
     if projection[3, 2] != 0.0:
-        moved[2, 3] /= 1.0 - share
+        moved[2, 3] /= 1.0 - fraction
     else:
-        moved[2, 3] += share * projection[2, 2] / abs(projection[0, 0])
+        moved[2, 3] += fraction * projection[2, 2] / abs(projection[0, 0])
     return moved
 
 

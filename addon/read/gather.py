@@ -9,7 +9,7 @@ from .mesh_checks import Purpose
 
 
 def gather_patch(ob: bpy.types.Object, solve_for: str, result: str, local: np.ndarray | None = None, *,
-             or_all: bool = False, purpose: Purpose = Purpose.WRITE, reach: float = 0.0,
+             or_all: bool = False, purpose: Purpose = Purpose.WRITE, margin: float = 0.0,
                  crossing: Crossing | None = None) -> Patch:
     """Gathers the patch of an object, for the mesh or its cage.
 
@@ -19,5 +19,5 @@ def gather_patch(ob: bpy.types.Object, solve_for: str, result: str, local: np.nd
     key = shape_keys.NAME if result == 'SHAPE_KEY' else ""
     if solve_for == 'CAGE' and modifiers.is_cage(ob):
         return read_cage.gather_cage_patch(ob, local, key, or_all=or_all, purpose=purpose)
-    return read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, purpose=purpose, reach=reach,
+    return read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, purpose=purpose, margin=margin,
                                         crossing=crossing)

@@ -12,7 +12,7 @@ from ..model.refusal import Refusal
 class Purpose(Enum):
     """A purpose that a mesh is read for; it decides what is refused."""
     WRITE = auto()         # to be written in the mode it is in
-    WRITE_SHARED = auto()  # in Object Mode also where other objects share it
+    WRITE_SHARED = auto()  # in Object Mode also where other objects use it
     READ = auto()          # to be measured only
     WRITE_EDITED = auto()  # by a run that came from Edit Mode, so as there: also where it is shared, or has shape keys
 

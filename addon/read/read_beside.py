@@ -10,7 +10,7 @@ from ..model.beside import Beside, Crossing, Neighbors, join_soups, label_soups
 from ..model.patch import Patch, compute_bounds
 from . import read_mesh, read_surroundings, region_faces
 
-REACH_MARGIN = 1.05  # of the two lengths that a press takes in
+WIDER = 1.05  # than the two lengths that a press takes in
 NEIGHBOR_MARGIN = 0.25  # of the diagonal: what lies across a gap, and enough of it to tell how it runs on
 SOLID = {'SOLID', 'TEXTURED'}  # objects drawn as bounds or wires are cutters and aids
 
@@ -24,12 +24,12 @@ def read_beside(ob: bpy.types.Object, patch: Patch, whole: np.ndarray, crossing:
     updated from it. Nothing of it is changed.
     """
     gap = native.reflines.AUTOMATIC_GAP * patch.diagonal
-    reach = REACH_MARGIN * native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * patch.diagonal
+    margin = WIDER * native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * patch.diagonal
     low, high = compute_bounds(patch.V)
-    box = low - gap - reach, high + gap + reach
+    box = low - gap - margin, high + gap + margin
     own = cut_near(ob.data, whole, ~patch.faces, box, turned=np.linalg.det(patch.matrix[:3, :3]) < 0.0)
     others = [soup for _, soup in read_others(ob, box, crossing)]
-    return Beside(*join_soups([own, *others]), gap, reach)
+    return Beside(*join_soups([own, *others]), gap, margin)
 
 
 def read_neighbors(ob: bpy.types.Object, V: np.ndarray) -> Neighbors:

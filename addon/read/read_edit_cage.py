@@ -11,7 +11,7 @@ def read_edit_cage(ob: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Edit
     """Reads the cage of an object in Edit Mode.
 
     Without modifiers Blender's evaluated mesh is the cage, and its positions and edges are read faster than those of
-    the edit mesh. Selections do not reach it before the next change of the shape.
+    the edit mesh. Selections do not come to it before the next change of the shape.
     """
     edit = bmesh.from_edit_mesh(ob.data)
     if has_edit_modifiers(ob):

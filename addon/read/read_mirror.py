@@ -17,11 +17,11 @@ def read_mirror(ob: bpy.types.Object, local: np.ndarray) -> Mirror | None:
     if mirrors:
         first = mirrors[0]
         axes = [axis for axis in range(3) if first.use_axis[axis]]
-        reach = first.merge_threshold / 2.0 if first.use_mirror_merge else 0.0
+        merged = first.merge_threshold / 2.0 if first.use_mirror_merge else 0.0
         seam = np.any([find_modifier_seam(ob, modifier, local) for modifier in mirrors], axis=0)
         alone = len(mirrors) == len(axes) == 1 and shown[0] == first and not any(first.use_bisect_axis) \
             and first.mirror_object is None
-        return Mirror(axes[0] if alone else -1, np.where(seam, np.arange(len(local)), -1), True, reach)
+        return Mirror(axes[0] if alone else -1, np.where(seam, np.arange(len(local)), -1), True, merged)
     return Mirror(0, mirror.find_pairs(local, 0), False) if ob.data.use_mirror_x else None
 
 
@@ -30,13 +30,13 @@ def find_modifier_seam(ob: bpy.types.Object, modifier: bpy.types.MirrorModifier,
     the coordinate planes of the mirror object where there is one, which rounding may have shifted a little.
     """
     axes = [axis for axis in range(3) if modifier.use_axis[axis]]
-    reach = modifier.merge_threshold / 2.0 if modifier.use_mirror_merge else 0.0
+    merged = modifier.merge_threshold / 2.0 if modifier.use_mirror_merge else 0.0
     if modifier.mirror_object is None:
-        return (np.abs(local[:, axes]) <= reach).any(axis=1)
+        return (np.abs(local[:, axes]) <= merged).any(axis=1)
     there = np.array(modifier.mirror_object.matrix_world.inverted_safe() @ ob.matrix_world, dtype=np.float64)
     if not np.isfinite(there).all():
         return np.zeros(len(local), dtype=bool)
     placed = local @ there[:3, :3].T + there[:3, 3]
     rounding = ROUNDING * np.abs(placed).max(initial=0.0)
     sizes = np.linalg.norm(np.linalg.pinv(there[:3, :3]), axis=0)  # of the mirror object's axes in object space
-    return (np.abs(placed[:, axes]) * sizes[axes] <= reach + rounding * sizes[axes]).any(axis=1)
+    return (np.abs(placed[:, axes]) * sizes[axes] <= merged + rounding * sizes[axes]).any(axis=1)

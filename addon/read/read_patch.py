@@ -11,19 +11,19 @@ from ..model.mirror import Mirror
 from ..model.patch import Patch, compute_bounds
 from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
-from . import (border_segments, mesh_checks, read_beside, read_creases, read_limit_share, read_mesh, read_mirror,
+from . import (border_segments, mesh_checks, read_beside, read_creases, read_limit_range, read_mesh, read_mirror,
                read_surroundings, region_faces, scene_objects)
 from .mesh_checks import Purpose
 
 
 def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key: str = "", *,
-                      or_all: bool = False, purpose: Purpose = Purpose.WRITE, reach: float = 0.0,
+                      or_all: bool = False, purpose: Purpose = Purpose.WRITE, margin: float = 0.0,
                       crossing: Crossing | None = None) -> Patch:
     """Gathers the region: the selected faces in Edit Mode, the stored region in Object Mode.
 
     `local` (#vertices x 3, object space) replaces the coordinates of the mesh. With `or_all` all visible faces are
-    taken where no region is stored. `reach` is that of the surroundings, see read_surroundings, relative to the
-    diagonal of what is solved. `crossing` says what the border follows, where it does.
+    taken where no region is stored. `margin` is that of the surroundings, see read_surroundings, relative to
+    the diagonal of what is solved. `crossing` says what the border follows, where it does.
     """
     mesh_checks.refuse_unusable(ob, key, purpose)
     if ob.mode == 'EDIT':
@@ -36,15 +36,15 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
         F = F[:, ::-1]  # a mirroring transform turns triangles over, but not what Blender calls their front
     whole = local @ matrix[:3, :3].T + matrix[:3, 3]
     mirror = read_mirror.read_mirror(ob, local[index])
-    margin = reach * measure_solved_diagonal(mirror, local[index], matrix) if reach else 0.0
-    around = read_surroundings.read_surroundings(ob.data, faces, index, whole, margin)
+    width = margin * measure_solved_diagonal(mirror, local[index], matrix) if margin else 0.0
+    around = read_surroundings.read_surroundings(ob.data, faces, index, whole, width)
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         around = Surroundings(around.V, around.F[:, ::-1])
     local, V = local[index], whole[index]
     patch = Patch(ob.name, faces, index, local, V, np.ascontiguousarray(F),
                   read_mesh.find_face_of_triangles(ob.data, faces), matrix, key, mirror,
                   read_creases.read_creases(ob, index), border_segments.read_border(ob, index), around,
-                  read_limit_share.read_limit_share(ob, index))
+                  read_limit_range.read_limit_range(ob, index))
     if crossing is None or not (crossing.everywhere or (patch.border == CODES["follow"]).any()):
         return patch
     return replace(patch, beside=read_beside.read_beside(ob, patch, whole, crossing))

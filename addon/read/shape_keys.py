@@ -44,7 +44,7 @@ def read_original_shape(ob: bpy.types.Object) -> np.ndarray | None:
     return None if key is None else read_mesh.read_coordinates(ob, key.relative_key.name)
 
 
-def read_seen_share(ob: bpy.types.Object, name: str) -> float:
+def read_seen_fraction(ob: bpy.types.Object, name: str) -> float:
     """Reads how much is seen of the shape key of this name; all of it in Edit Mode, or where there is none."""
     blocks = ob.data.shape_keys.key_blocks if ob.data.shape_keys is not None else {}
     key = blocks.get(name)

@@ -11,7 +11,7 @@ from mathutils.kdtree import KDTree
 from ..model.patch import Patch
 from . import read_mesh
 
-REACH = 0.1    # of an edge's length: as far as Check Panel looks for another sheet
+NEAR = 0.1    # of an edge's length: as far as Check Panel looks for another sheet
 SMOOTH = 0.8660  # cosine of 30 degrees, by which faces bend at most that are meant to go on smoothly
 MARGIN = 1.05  # factor of the distance to merge, against its rounding
 SHORTEST = 0.5  # of the shortest edge of the region: merging further would join the region's own vertices
@@ -37,8 +37,8 @@ class OpenEdges:
         """Returns the unit directions from the edges into their faces: #E x 3."""
         along = self.ends[:, 1] - self.ends[:, 0]
         inwards = self.centers - self.ends[:, 0]
-        share = (inwards * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-300)
-        across = inwards - share[:, None] * along
+        fraction = (inwards * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-300)
+        across = inwards - fraction[:, None] * along
         return across / np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-300)
 
 
@@ -93,10 +93,10 @@ def read_open_edges(mesh: bpy.types.Mesh, V: np.ndarray) -> OpenEdges:
 
 def read_others(scene: bpy.types.Scene, ob: bpy.types.Object,
                 border: OpenEdges) -> Iterator[tuple[bpy.types.Object, OpenEdges]]:
-    """Reads the open edges of the other meshes whose boxes reach the border, world space."""
+    """Reads the open edges of the other meshes whose boxes come near the border, world space."""
     lengths = np.linalg.norm(border.ends[:, 1] - border.ends[:, 0], axis=1)
-    reach = REACH * lengths.max()
-    low, high = border.ends.min(axis=(0, 1)) - reach, border.ends.max(axis=(0, 1)) + reach
+    near = NEAR * lengths.max()
+    low, high = border.ends.min(axis=(0, 1)) - near, border.ends.max(axis=(0, 1)) + near
     for other in scene.objects:
         if other.type != 'MESH' or other == ob or not other.visible_get() or len(other.data.loops) > MOST_LOOPS:
             continue
@@ -119,11 +119,11 @@ def match_edges(border: OpenEdges, others: OpenEdges,
     tree.balance()
     pairs, furthest, ways, other_ways = set(), 0.0, border.find_ways(), others.find_ways()
     for k, (first, second) in enumerate(border.ends):
-        reach, own = REACH * np.linalg.norm(second - first), -1 if same is None else int(same[k])
-        for _, number, _ in tree.find_range((0.5 * (first + second)).tolist(), reach):
+        near, own = NEAR * np.linalg.norm(second - first), -1 if same is None else int(same[k])
+        for _, number, _ in tree.find_range((0.5 * (first + second)).tolist(), near):
             apart = min(measure_ends(border.ends[k], others.ends[number]),
                         measure_ends(border.ends[k], others.ends[number, ::-1]))
-            if number != own and apart <= reach and ways[k] @ other_ways[number] <= -SMOOTH:
+            if number != own and apart <= near and ways[k] @ other_ways[number] <= -SMOOTH:
                 pairs.add((k, number) if own < 0 else (min(own, number), max(own, number)))
                 furthest = max(furthest, apart)
     return pairs, furthest

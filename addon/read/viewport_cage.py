@@ -36,8 +36,8 @@ def read_viewport_cage(ob: bpy.types.Object, before: LastSolve | None = None) ->
         if patch.index[-1] >= len(local):
             return None
         if patch.key and ob.mode != 'EDIT':
-            share = shape_keys.read_seen_share(ob, patch.key)
-            local[patch.index] -= share * (patch.to_object_space(before.positions) - patch.local)
+            fraction = shape_keys.read_seen_fraction(ob, patch.key)
+            local[patch.index] -= fraction * (patch.to_object_space(before.positions) - patch.local)
         else:
             local[patch.index] = patch.local
     axis = -1 if mirror is None else next(k for k in range(3) if mirror.use_axis[k])

@@ -18,7 +18,7 @@ from .panel_problem import PanelProblem, pose_problem
 from .read_solved import read_own, read_press
 
 MOST_NOTES = 2
-REACH_MARGIN = 1.05  # of what the native press takes in: its diagonal is that of the faces that it can use
+WIDER = 1.05  # than what the native press takes in: its diagonal is that of the faces that it can use
 
 
 @dataclass(frozen=True)
@@ -44,10 +44,10 @@ class AutomaticSmooth:
         """Returns the lights that judge a patch: those that show lines."""
         return None if self.judges is None else self.judges.leave_parallel(patch.center)
 
-    def choose_reach(self) -> float:
+    def choose_margin(self) -> float:
         """Returns how far beside the region faces are needed, in diagonals of the region."""
         within = native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * self.flaw_size
-        return REACH_MARGIN * within if self.fair_border else 0.0
+        return WIDER * within if self.fair_border else 0.0
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
     """Presses once; raises the native module's errors. `progress` lets the caller watch and cancel.
 
     All numbers are its own: scores are means over the lights, and the residual is how far the field of the light given
-    strays from its smoothed self. After a refusal both are those of the start.
+    differs from its smoothed self. After a refusal both are those of the start.
     """
     begin = time.perf_counter()
     positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
@@ -115,7 +115,7 @@ def build_solution(problem: PanelProblem, positions: np.ndarray, told: "native.S
     scores = told.score_before, told.score_after if told.applied else told.score_before
     shifts, turns = np.mean([[(score.shift, score.turn) for score in each] for each in scores], axis=1).T.tolist()
     notes = (note for note in told.region.notes if note.kind != "unseen")  # of lights, which are told of by their names
-    return Solution(patch, press.positions, report, None, press.stray, *lacks, told.length, *shifts,
+    return Solution(patch, press.positions, report, None, press.line_deviation, *lacks, told.length, *shifts,
                     choose_notes(problem, told, settings.light_set), told.length,
                     automatic_limit=0.0 if settings.limit else told.limit, cage_move=press.cage_move,
                     turn_before=turns[0], turn_after=turns[1],

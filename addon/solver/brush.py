@@ -24,7 +24,7 @@ TOLERANCE = 1e-3
 class Brush:
     """The settings of a dab, world units."""
     radius: float
-    strength: float  # share of the way to smooth lines in the middle, 0 to 1
+    strength: float  # fraction of the way to smooth lines in the middle, 0 to 1
     length: float    # detail finer than this goes
     limit: float     # largest move along the view since the stroke began
     families: int    # 2: the crossed lines are smoothed as well
@@ -41,14 +41,15 @@ class Window:
 class BrushedRegion:
     """A region under a brush: the moves of its vertices along the view since the stroke began, which dabs add to."""
 
-    def __init__(self, V: np.ndarray, frame: np.ndarray, share: np.ndarray | None, partner: np.ndarray | None) -> None:
+    def __init__(self, V: np.ndarray, frame: np.ndarray, limit_range: np.ndarray | None,
+                 partner: np.ndarray | None) -> None:
         """Takes the vertices that can move (#V x 3), the image plane's axes and the direction to the viewer (3 x 3),
-        the shares of the limit (#V x 2) where there are any, and the vertices' mirror images where they are kept.
+        the ranges of their moves (#V x 2) where there are any, and the vertices' mirror images where they are kept.
         """
         self.start, self.frame, self.partner = V, frame, partner
         self.xy = V @ frame[:2].T
         self.move = np.zeros(len(V))
-        self.share = np.tile([-1.0, 1.0], (len(V), 1)) if share is None else share
+        self.limit_range = np.tile([-1.0, 1.0], (len(V), 1)) if limit_range is None else limit_range
 
     @property
     def moved(self) -> np.ndarray:
@@ -67,7 +68,7 @@ class BrushedRegion:
         if self.partner is not None:
             image = added[self.partner]
             added = np.where((added != 0.0) & (image != 0.0), 0.5, 1.0) * (added + image)
-        self.move = np.clip(self.move + added, *(brush.limit * self.share.T))
+        self.move = np.clip(self.move + added, *(brush.limit * self.limit_range.T))
         return True
 
     def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
@@ -104,7 +105,7 @@ class BrushedPatch(BrushedRegion):
         self.patch, self.view = patch, view
         self.border = fill_codes(pose_alone(patch, view), border)
         problem = pose_problem(patch, view)
-        super().__init__(patch.V, live_optimizer.compute_image_frame(patch, view), patch.share,
+        super().__init__(patch.V, live_optimizer.compute_image_frame(patch, view), patch.limit_range,
                          None if problem.is_joined else problem.partner)
         corners = self.xy[patch.F]
         self.edge = float(np.sqrt(np.mean(np.sum((corners - np.roll(corners, 1, axis=1))**2, axis=2))))
@@ -160,7 +161,7 @@ class BrushedPatch(BrushedRegion):
         start = optimizer.heights
         optimizer.solve(targets, gradient_tolerance=TOLERANCE)
         move = optimizer.heights - start
-        lowest, highest = brush.limit * self.share[vertices].T
+        lowest, highest = brush.limit * self.limit_range[vertices].T
         if (before + move < lowest).any() or (before + move > highest).any():
             optimizer.reset()
             ends = np.minimum(lowest - before, 0.0), np.maximum(highest - before, 0.0)
@@ -182,5 +183,5 @@ def build_dab_target(optimizer: "native.ShapeOptimizer", place: np.ndarray, brus
     own = optimizer.field(family)
     smooth = native.reflines.smooth(optimizer, length=min(brush.length, LONGEST * brush.radius), family=family)
     squared = np.minimum(np.sum((optimizer.centers - place)**2, axis=1) / brush.radius**2, 1.0)
-    share = brush.strength * (1.0 - squared)**2
-    return native.reflines.Target(own + share[:, None] * (smooth.gradient - own), family=family)
+    weight = brush.strength * (1.0 - squared)**2
+    return native.reflines.Target(own + weight[:, None] * (smooth.gradient - own), family=family)

@@ -16,7 +16,7 @@ CONTEXT = 0.8  # of the radius: what the filter sees beyond the circle; with 0.2
 # The surface is sampled at two levels where the window has at most so many faces, and at one where it has more, which
 # makes moves differ by 2 to 4 %. A dab with this context takes 40 ms, with 0.25 and 110 faces it took 25.
 MOST_FACES = 250
-MOST_HOLDS = 3  # times that vertices which reach the limit are held there and the rest is solved again
+MOST_HOLDS = 3  # times that vertices which the limit stops are held there and the rest is solved again
 
 
 class BrushedCage(BrushedRegion):
@@ -87,10 +87,10 @@ class BrushedCage(BrushedRegion):
 
     def solve_window(self, cage: Cage, vertices: np.ndarray, free: np.ndarray, place: np.ndarray,
                      brush: Brush) -> np.ndarray:
-        """Solves for smooth lines in a window of the cage; returns the further moves of its vertices. Those that reach
-        the limit are held there, and the rest is solved again.
+        """Solves for smooth lines in a window of the cage; returns the further moves of its vertices. Those that come
+        to the limit are held there, and the rest is solved again.
         """
-        before, ranges = self.move[vertices], brush.limit * self.share[vertices]
+        before, ranges = self.move[vertices], brush.limit * self.limit_range[vertices]
         move, targets = np.zeros(len(vertices)), None
         for _ in range(MOST_HOLDS):
             optimizer = self.build_window(replace(cage, V=cage.V + move[:, None] * self.frame[2]), vertices, free)

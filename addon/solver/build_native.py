@@ -67,7 +67,7 @@ def build_joint_panel(problem: PanelProblem, border: str, settings: PressSetting
     codes = np.where(find_following(problem, border), CODES["follow"], fill_codes(problem, border))
     return native.reflines.JointPanel(
         **choose_press_mesh(problem), border=codes, around=(around.V, around.F), beside=(beside.V, beside.F),
-        gap=beside.gap, reach=beside.reach, **settings)
+        gap=beside.gap, reach=beside.margin, **settings)
 
 
 def choose_edges(problem: PanelProblem, border: str, *, fair: bool = False) -> EdgeArguments:
@@ -89,7 +89,7 @@ async def choose_press_edges(problem: PanelProblem, border: str, *, fair: bool) 
         return edges
     joined = join_surroundings(problem)
     found = await call(native.reflines.continue_over_gap, problem.V, problem.F, beside.V, beside.F,
-                       around=(joined.V, joined.F), gap=beside.gap, reach=beside.reach)
+                       around=(joined.V, joined.F), gap=beside.gap, reach=beside.margin)
     follows = find_following(problem, border) & found.followed
     if not follows.any():
         return edges

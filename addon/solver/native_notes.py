@@ -24,7 +24,7 @@ SENTENCES = {
     "following_worsens": f"The border is only {CLAMPED}: following its neighbours, lines would have become less even.",
     "joining_worsens": f"The border is only {CLAMPED}: smoothed across the gap, lines would have become less even.",
     "continuing_worsens": f"The border is only {CLAMPED}: with its curvature continued, lines would have ended less "
-                          "even in one light (they stray by {after:.3g} instead of {before:.3g} degrees).",
+                          "even in one light (they deviate by {after:.3g} instead of {before:.3g} degrees).",
     "continuing_changes_nothing": f"The border is only {CLAMPED}: with its curvature continued, nothing could have "
                                   "been changed.",
     "continuing_fails": f"The border is only {CLAMPED}: with its curvature continued, the solver breaks down.",

@@ -12,7 +12,7 @@ from ..model.view import View
 from ..native_call import call
 
 NOISE_FLOOR = 0.1  # degrees: places whose lines deviate by less are not listed
-LEAST_SEEN = 0.05  # share of the panel: a view that sees less of it does not tell of it
+LEAST_SEEN = 0.05  # fraction of the panel: a view that sees less of it does not tell of it
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ async def inspect_surface(wanted: Inspected, progress: "native.Progress | None" 
     found = await look(views=views, lines=lines)
     spots = tuple(Spot(tuple(spot.place.tolist()), spot.size, spot.degrees, spot.height, VIEWS[spot.view], spot.light,
                        tuple(lines[spot.front_light].tolist())) for spot in found.spots)
-    unseen = tuple(name for name, share in zip(VIEWS, found.seen, strict=True) if share < LEAST_SEEN)
+    unseen = tuple(name for name, fraction in zip(VIEWS, found.seen, strict=True) if fraction < LEAST_SEEN)
     return Inspection(spots, found.mean, f"from {VIEWS[found.worst_view]}", unseen)
 
 

@@ -60,11 +60,10 @@ class PanelProblem:
 
     @property
     def limit_range(self) -> np.ndarray | None:
-        """The range of each vertex's move, as fractions of the limit: #V x 2, as Patch.share has it; None: the whole
-        limit.
+        """The range of each vertex's move, as fractions of the limit: #V x 2; None: the whole limit.
         """
-        share = self.patch.share
-        return None if share is None else spread(self, share, np.array([-1.0, 1.0]))
+        own = self.patch.limit_range
+        return None if own is None else spread(self, own, np.array([-1.0, 1.0]))
 
 
 def spread(problem: PanelProblem, values: np.ndarray, otherwise: float | np.ndarray) -> np.ndarray:

@@ -16,9 +16,9 @@ from .panel_problem import PanelProblem, spread
 @dataclass(frozen=True)
 class Press:
     """The result of an automatic press of Smooth, as arrays of the patch."""
-    positions: np.ndarray  # #V x 3, world space
-    stray: np.ndarray      # #F, see native.SmoothPanelReport
-    verdict: np.ndarray    # #F, likewise
+    positions: np.ndarray       # #V x 3, world space
+    line_deviation: np.ndarray  # #F, radians / length: how far theta is from its smoothed self
+    verdict: np.ndarray         # #F, see native.SmoothPanelReport
     cage_move: float = 0.0  # largest move of a cage's vertices, which is more than its surface's
 
 
@@ -59,11 +59,11 @@ def read_residual(problem: PanelProblem, optimizer: "native.ShapeOptimizer", res
 
 def read_press(problem: PanelProblem, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
     """Converts what the native smoother returns to arrays of the patch."""
-    stray, verdict, own = told.stray, told.verdict, len(problem.patch.F)
+    deviation, verdict, own = told.stray, told.verdict, len(problem.patch.F)
     if problem.is_cage:
-        return Press(read_own(problem, positions), repeat_on_triangles(problem, stray),
+        return Press(read_own(problem, positions), repeat_on_triangles(problem, deviation),
                      repeat_on_triangles(problem, verdict), told.largest_control_move)
-    return Press(read_own(problem, positions), stray[:own], verdict[:own])
+    return Press(read_own(problem, positions), deviation[:own], verdict[:own])
 
 
 def repeat_on_triangles(problem: PanelProblem, values: np.ndarray) -> np.ndarray:

@@ -22,7 +22,7 @@ def describe_marked_creases(patch: Patch) -> tuple[str, ...]:
     return (f"{count} edge{'s are' if count > 1 else ' is'} marked as creases; held",) if count else ()
 
 
-def describe_small_share(reached: float, border: str) -> tuple[str, ...]:
+def describe_shortfall(reached: float, border: str) -> tuple[str, ...]:
     """Describes why only a part of the target was reached: a held border keeps the mean of the gradient across it."""
     why = ("no smooth surface has such lines here: ask for less, or over a larger radius" if border == "free" else
            f"the border {NAMES[border]} keeps the lines' mean")

@@ -8,7 +8,7 @@ from ..model.patch import Patch
 from ..model.solution import LastSolve, Solution, SolveReport, SolveSettings
 from ..native_call import call
 from . import live_optimizer, remarks
-from .limited_solve import choose_limit, choose_shares
+from .limited_solve import choose_limit, choose_ranges
 from .live_optimizer import BuildTarget, LiveOptimizer
 from .native_notes import word_notes
 from .panel_problem import join_surroundings
@@ -48,17 +48,17 @@ async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: 
     lacking = None if wanted.is_plain else await wanted.measure(optimizer)
     limit, problem = choose_limit(live.patch, settings), live.problem
     told = await call(native.reflines.solve_panel, optimizer, wanted.targets, length=length, limit=limit,
-                      limit_share=await choose_shares(live), around=choose_rim(live), progress=progress)
+                      limit_share=await choose_ranges(live), around=choose_rim(live), progress=progress)
     worse = await judge(live, settings.judges, progress)
     left = told.residual_after if wanted.is_plain else await wanted.measure(optimizer)
     lacking = told.residual_before if wanted.is_plain else lacking
     report = build_report(told)
-    short = settings.explains_share and wanted.is_plain and told.falls_short and not told.limited
+    short = settings.explains_shortfall and wanted.is_plain and told.falls_short and not told.limited
     bend = told.rim_bend if told.rim_bend > BENT else 0.0
     return Solution(live.patch, read_positions(problem, optimizer), report, wanted.targets[0],
                     read_residual(problem, optimizer, told.residual), lacking, left,
                     length, told.score_before.shift, told.score_after.shift,
-                    (*(remarks.describe_small_share(1.0 - left / lacking, live.border) if short else ()),
+                    (*(remarks.describe_shortfall(1.0 - left / lacking, live.border) if short else ()),
                      *remarks.describe_unfinished(report), *remarks.describe_bent_rim(bend),
                      *remarks.describe_limit(report.limited, limit, automatic=not settings.limit),
                      *remarks.describe_mirror(problem),

@@ -1,6 +1,6 @@
 """The divider between the shapes before and after the last solve, and where it can go in each 3D view.
 
-It stands at a share of what a view shows of the panel, so that it stays over the panel as the view turns.
+It stands at a fraction of what a view shows of the panel, so that it stays over the panel as the view turns.
 """
 from dataclasses import dataclass, field
 
@@ -13,7 +13,7 @@ Span = tuple[float, float]  # left and right end, in pixels of the region
 @dataclass
 class Comparison:
     """The state of the comparison, of the session only."""
-    share: float = MIDDLE  # of the span, left of which is the shape before
+    fraction: float = MIDDLE  # of the span, left of which is the shape before
     taken: bool = False    # whether the mouse is over the divider or drags it
     spans: dict[int, Span] = field(default_factory=dict)  # of the regions that show both shapes, by their addresses
 
@@ -31,22 +31,22 @@ def note_span(region: bpy.types.Region, span: Span | None) -> None:
 def find_divider(region: bpy.types.Region) -> float | None:
     """Returns where the divider stands in a region, in its pixels; None where the region does not show both shapes."""
     span = _now.spans.get(region.as_pointer())
-    return None if span is None else span[0] + _now.share * (span[1] - span[0])
+    return None if span is None else span[0] + _now.fraction * (span[1] - span[0])
 
 
 def move_divider(region: bpy.types.Region, x: float) -> None:
     """Moves the divider to a place in a region, or to the end of the span that is nearer."""
     low, high = _now.spans.get(region.as_pointer(), (0.0, 0.0))
     if high > low:
-        _now.share = min(max((x - low) / (high - low), 0.0), 1.0)
+        _now.fraction = min(max((x - low) / (high - low), 0.0), 1.0)
 
 
-def read_share() -> float:
-    return _now.share
+def read_fraction() -> float:
+    return _now.fraction
 
 
-def set_share(share: float) -> None:
-    _now.share = share
+def set_fraction(fraction: float) -> None:
+    _now.fraction = fraction
 
 
 def is_taken() -> bool:

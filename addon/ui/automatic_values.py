@@ -7,7 +7,7 @@ from bpy.props import BoolProperty, FloatProperty
 from ..blender import units
 
 # Of the object's size: what the switch turned off begins with where no run told a value.
-UNKNOWN_SHARES = {"length": 0.01, "limit": 0.01, "radius": 0.25, "width": 0.5}
+UNKNOWN_FRACTIONS = {"length": 0.01, "limit": 0.01, "radius": 0.25, "width": 0.5}
 HIDDEN = {'options': {'HIDDEN', 'SKIP_SAVE'}}  # they are other faces of a setting, which keeps the value
 
 
@@ -23,7 +23,7 @@ def find_automatic_value(name: str) -> float:
 def choose_own_value(name: str) -> float:
     """Returns the value that a setting begins with when it is automatic no longer."""
     ob = bpy.context.view_layer.objects.active
-    unknown = UNKNOWN_SHARES[name] * (ob.dimensions.length if ob is not None else 0.0)
+    unknown = UNKNOWN_FRACTIONS[name] * (ob.dimensions.length if ob is not None else 0.0)
     return find_automatic_value(name) or unknown or 1.0
 
 
@@ -58,7 +58,7 @@ def draw_plain_value(layout: bpy.types.UILayout, settings: object, name: str) ->
     no other faces of a setting: its command, which Blender shows and the artist copies, would set the value twice.
     """
     layout.prop(settings, name)
-    if name not in UNKNOWN_SHARES or getattr(settings, name):
+    if name not in UNKNOWN_FRACTIONS or getattr(settings, name):
         return
     value = find_automatic_value(name)
     told = f", {units.format_length(value, bpy.context.scene, precision=2)}" if value else ""

@@ -36,7 +36,7 @@ class REFLINES_GT_divider(bpy.types.Gizmo):
         return 0 if near or (Vector(location) - knob).length <= (legend.KNOB + GRIP) * scale else -1
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        self.began = compared.read_share()
+        self.began = compared.read_fraction()
         context.window.cursor_modal_set('MOVE_X')
         return {'RUNNING_MODAL'}
 
@@ -48,7 +48,7 @@ class REFLINES_GT_divider(bpy.types.Gizmo):
     def exit(self, context: bpy.types.Context, cancel: bool) -> None:
         context.window.cursor_modal_restore()
         if cancel:
-            compared.set_share(self.began)
+            compared.set_fraction(self.began)
         redraw_views(context.window_manager)
 
 

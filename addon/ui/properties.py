@@ -78,7 +78,7 @@ class ReflinesReport(bpy.types.PropertyGroup):
     automatic_limit: FloatProperty(name="Automatic Limit", unit='LENGTH', precision=5)
     limited: IntProperty(name="Limited", description="Vertices that the limit of the move held back")
     healed: BoolProperty(name="Healed", description="Whether it is known where flaws were healed")
-    healed_area: FloatProperty(name="Healed Area", subtype='FACTOR', description="Share of the region's area whose "
+    healed_area: FloatProperty(name="Healed Area", subtype='FACTOR', description="Fraction of the region's area whose "
                                "lines were visibly off their course and are so no more")
     worst_before: FloatProperty(name="Worst Before", description="Degrees that lines were off their course where they "
                                 "were so most, without what counts as design")
@@ -215,8 +215,8 @@ class ReflinesObject(bpy.types.PropertyGroup):
     report: PointerProperty(type=ReflinesReport)
     limit_side: EnumProperty(name="Moves", items=LIMIT_SIDES, default='BOTH',
                              description="Which way this object's vertices may move along the view")
-    limit_group: StringProperty(name="Limit By", description="Vertex group of this object whose weights are the shares "
-                                "of the limit: 0 holds a vertex, 1 lets it move as far as Limit says")
+    limit_group: StringProperty(name="Limit By", description="Vertex group of this object whose weights are the "
+                                "fractions of the limit: 0 holds a vertex, 1 lets it move as far as Limit says")
     follow_group: StringProperty(name="Follow By", description="Vertex group of this object that says where lines "
                                  "follow handles: its weight 0 holds them, 1 lets them go as far as the radius says")
     creases: EnumProperty(name="Creases", items=CREASES, default='AUTOMATIC',

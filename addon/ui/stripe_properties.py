@@ -68,9 +68,9 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     count: IntProperty(name="Count", default=60, min=1, soft_max=200, max=2000,
                        description="Line lights in a full turn around the light direction")
     width: FloatProperty(name="Width", default=0.5, min=0.0, max=1.0, subtype='FACTOR',
-                         description="Share of the distance between two line lights that is light")
+                         description="Fraction of the distance between two line lights that is light")
     softness: FloatProperty(name="Soft Edge", default=0.1, min=0.0, max=1.0, subtype='FACTOR',
-                            description="Blur of the edges of the stripes, as a share of their width")
+                            description="Blur of the edges of the stripes, as a fraction of their width")
     color: color_property("Light", (0.9, 0.93, 1.0, 1.0))
     gap_color: color_property("Gap", (0.01, 0.012, 0.016, 1.0))
     opacity: FloatProperty(name="Opacity", default=0.9, min=0.0, max=1.0, subtype='FACTOR')

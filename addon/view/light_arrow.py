@@ -5,7 +5,7 @@ from mathutils import Matrix, Vector
 from ..read import scene_objects
 from . import view_and_light
 
-SHARE = 0.3  # of the object's size: the arrow's length, and how far it stands before the middle
+FRACTION = 0.3  # of the object's size: the arrow's length, and how far it stands before the middle
 
 
 def add_light_arrow(context: bpy.types.Context, direction: Vector) -> bpy.types.Object:
@@ -14,8 +14,8 @@ def add_light_arrow(context: bpy.types.Context, direction: Vector) -> bpy.types.
     center, size = view_and_light.measure_extent(scene_objects.read_active_object(context))
     arrow = bpy.data.objects.new("Light Direction", None)
     arrow.empty_display_type = 'SINGLE_ARROW'
-    arrow.empty_display_size = SHARE * size
-    place = Matrix.Translation(center + SHARE * size * frame.col[2])
+    arrow.empty_display_size = FRACTION * size
+    place = Matrix.Translation(center + FRACTION * size * frame.col[2])
     axes = view_and_light.build_frame(direction if direction.length_squared else frame.col[0])
     arrow.matrix_world = place @ axes.to_4x4()
     scene_objects.find_editable_collection(context).objects.link(arrow)
