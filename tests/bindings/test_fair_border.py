@@ -1,4 +1,7 @@
 """A press of Smooth with a faired border: flaws that run across the border go from the region, and the design stays."""
+from collections.abc import Callable
+from functools import cache
+
 import numpy as np
 import pytest
 import reflines
@@ -177,16 +180,27 @@ def test_a_mask_of_another_size_is_refused() -> None:
         press(panel, fair_border=np.ones(3, bool))
 
 
+def noisy_panel() -> Panel:
+    clean, F = design("jittered")
+    clean[:, 2] += flaw("noise", clean)
+    return Panel(clean, F)
+
+
+@cache
+def free_moves(border: Callable) -> Array:
+    """The moves that a press of the noisy panel makes without a limit."""
+    panel = noisy_panel()
+    return (border(panel, limit=np.inf)[0] - panel.V)[panel.used, 2]
+
+
 @pytest.mark.parametrize("side", [(-1.0, 1.0), (0.0, 1.0), (-0.5, 0.1)])
 @pytest.mark.parametrize("strength", [0.0, 0.3, 1.0])
 def test_the_vertices_that_the_limit_holds_back_are_counted(strength: float, side: tuple[float, float]) -> None:
     """Those that go beyond it where there is none, whatever share of the move is made, and it is said."""
-    clean, F = design("jittered")
-    clean[:, 2] += flaw("noise", clean)
-    panel, limit = Panel(clean, F), 1e-4
+    panel, limit = noisy_panel(), 1e-4
     share = np.tile(side, (len(panel.used), 1))
     for border in (press, fair):
-        free = (border(panel, limit=np.inf)[0] - panel.V)[panel.used, 2]
+        free = free_moves(border)
         _, told = border(panel, limit=limit, limit_share=share, strength=strength)
         beyond = int(((free < limit * side[0]) | (free > limit * side[1])).sum())
         assert beyond > 100 and told.limited == beyond
@@ -228,19 +242,21 @@ def spoil(kind: str, panel: Panel) -> Panel:
     return with_faces(panel, np.column_stack([np.full(len(rim), count), rim, rim + 1]), [[0.0, 0.0, 0.3], *fan])
 
 
+@cache
+def faired_noise() -> Array:
+    return fair(noisy_panel())[0]
+
+
 FAULTS = ["zero area", "third face at the border", "third face beside", "doubled", "doubled and loose", "pole"]
 
 
 @pytest.mark.parametrize("kind", FAULTS)
 def test_faces_that_cannot_be_used_are_left_out(kind: str) -> None:
     """As if they were not there, but for those that meet them at an edge."""
-    clean, F = design("jittered")
-    clean[:, 2] += flaw("noise", clean)
-    tidy, _ = fair(Panel(clean, F))
-    panel = spoil(kind, Panel(clean, F))
+    panel = spoil(kind, noisy_panel())
     V, told = fair(panel)
     if "third" not in kind and kind != "doubled":
-        assert np.array_equal(V, tidy) and not told.notes
+        assert np.array_equal(V, faired_noise()) and not told.notes
     border = ~panel.build("fixed").free
     held = border & (V == panel.V)[panel.used].all(axis=1)
     assert told.applied and held.sum() < 0.05 * border.sum()

@@ -1,4 +1,6 @@
 """Presses with a set of lights, each with the eye that sees it: none becomes worse, and bad sets get a sentence."""
+from functools import cache
+
 import numpy as np
 import pytest
 import reflines
@@ -31,10 +33,16 @@ def measure(V: Array, F: Array, eye: Array, line: Array) -> float:
     return float(np.degrees(np.sqrt(np.mean(np.angle(np.exp(1j * (values[0] - values[1]))) ** 2))))
 
 
+@cache
+def press_dome(limit: float | None) -> tuple[Array, Array, Array, reflines.SmoothPanelReport]:
+    """Presses a dome with three dents with the walk around: vertices before, triangles, vertices after, report."""
+    V, F = grid(dented(count=3), CELLS)
+    return V, F, *press(V, F, walk(), limit=limit)
+
+
 @pytest.mark.parametrize("limit", [None, 0.001])
 def test_no_light_from_no_side_is_worse_after_a_press_with_the_walk_around(limit: float | None):
-    V, F = grid(dented(count=3), CELLS)
-    positions, report = press(V, F, walk(), limit=limit)
+    V, F, positions, report = press_dome(limit)
     assert report.applied and len(report.seen) == len(PAIRS)
     assert all(after < before for before, after in
                zip(report.unevenness_before, report.unevenness_after, strict=True))
@@ -45,8 +53,7 @@ def test_no_light_from_no_side_is_worse_after_a_press_with_the_walk_around(limit
 
 def test_the_set_serves_each_light_nearly_as_well_as_a_press_for_it_alone():
     """That holds with a limit, too, where the lights compete; and the press moves no further."""
-    V, F = grid(dented(count=3), CELLS)
-    positions, report = press(V, F, walk(), limit=0.001)
+    V, F, positions, report = press_dome(0.001)
     assert report.limited
     for eye, line in PAIRS:
         alone, own = press(V, F, reflines.LightSet([line], [eye]), limit=0.001)

@@ -60,7 +60,7 @@ def test_partners_of_a_cage_keep_equal_moves_under_unequal_shares() -> None:
     share = np.tile([-1.0, 1.0], (len(V), 1))
     share[V[:, 0] > 0] *= 0.1
     positions, _ = reflines.smooth_cage_panel(V, offsets, corners, view_direction=CAGE_VIEW, line_direction=CAGE_LINE,
-                                              partner=partner, limit_share=share, limit=1e-3)
+                                              level=1, partner=partner, limit_share=share, limit=1e-3)
     moves = (positions - V) @ CAGE_VIEW
     assert np.abs(moves).max() > 1e-5
     assert np.abs(moves - moves[partner]).max() < 1e-12

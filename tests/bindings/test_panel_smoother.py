@@ -61,10 +61,10 @@ def test_press_of_a_cage_is_that_of_smooth_cage_panel() -> None:
     V, offsets, corners = sample_cages.hood()
     cage = V + np.outer(4e-3 * np.random.default_rng(2).standard_normal(len(V)), VIEW), offsets, corners
     share = np.tile([-1.0, 0.5], (len(V), 1))
-    smoother = reflines.PanelSmoother.create_for_cage(*cage, **DIRECTIONS)
+    smoother = reflines.PanelSmoother.create_for_cage(*cage, **DIRECTIONS, level=1)
     for amount in ({}, {"limit": 1e-3, "limit_share": share}, {"strength": 0.5}, {}):
         again, told = smoother.press(**amount)
-        assert np.array_equal(again, reflines.smooth_cage_panel(*cage, **DIRECTIONS, **amount)[0]), amount
+        assert np.array_equal(again, reflines.smooth_cage_panel(*cage, **DIRECTIONS, level=1, **amount)[0]), amount
     assert told.largest_control_move > 0
 
 
