@@ -11,8 +11,6 @@ suites that have them: 3.11 and 3.13 are those of Blender 4.1 to 5.0 and of 5.1 
 (Blender's manual, "Python Wheels"). No suite has those of 3.10, which Blender 3.4 to 4.0 from there embed: they are
 taken from a python3.10 of this machine where there is one.
 
-The project's addresses on the web are those of pyproject.toml, [project.urls]; .ci/addresses.py has where they go.
-
 One compiler and one C library, those of this machine, serve all. SuiteSparse, METIS, OpenBLAS, OpenSubdiv and libstdc++
 are inside the module and show no symbol outside, so that they cannot meet Blender's own copies. libgomp stays outside:
 two OpenMP runtimes in one process fight over the cores, and Blender's own libraries bring it.
@@ -25,7 +23,6 @@ import sys
 import time
 from pathlib import Path
 
-from addresses import add_to_bl_info, manifest_lines, read_addresses
 from debian import CACHE, Suite, Unavailable, output
 from static_libraries import static_libraries
 from wheel import version, write_wheel, write_zip
@@ -103,8 +100,6 @@ def addon_files() -> list[Path]:
 def addon_content() -> dict[Path, bytes]:
     """Returns the files that each package has, by their places in its folder; the manifest is that of the checkout."""
     inside = {file.relative_to(ROOT / "addon"): file.read_bytes() for file in addon_files()}
-    start = Path("__init__.py")
-    inside[start] = add_to_bl_info(inside[start].decode()).encode()
     return inside | {Path("LICENSE"): (ROOT / "LICENSE").read_bytes()}
 
 
@@ -118,7 +113,7 @@ def manifest(modules: list[Path], wheels: list[Path]) -> str:
     text = (ROOT / "addon/blender_manifest.toml").read_text()
     head, tables = re.sub(r"platforms = \[.*\]", f"platforms = [{platforms}]", text).split("\n[", maxsplit=1)
     rows = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
-    return head + manifest_lines() + (f"wheels = [\n{rows}]\n" if wheels else "") + f"\n[{tables}"
+    return head + (f"wheels = [\n{rows}]\n" if wheels else "") + f"\n[{tables}"
 
 
 def make_zip(path: Path, built: list[Path]) -> Path:
@@ -154,7 +149,6 @@ def make_extension(built: list[Path], wheels: list[Path]) -> Path:
 
 def main() -> None:
     start = time.monotonic()
-    read_addresses()  # a bad one is told before anything is built
     os.environ.setdefault("CCACHE_NOHASHDIR", "1")
     try:
         pythons = [headers(Suite(name)) for name in SUITES]

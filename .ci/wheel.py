@@ -7,8 +7,6 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from addresses import metadata_lines
-
 ROOT = Path(__file__).resolve().parent.parent
 
 
@@ -22,7 +20,8 @@ def metadata(number: str) -> str:
     lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {number}",
              f"Summary: {project['description']}", f"License: {project['license']['text']}",
              f"Requires-Python: {project['requires-python']}"]
-    lines += [f"Requires-Dist: {name}" for name in project["dependencies"]] + metadata_lines()
+    lines += [f"Requires-Dist: {name}" for name in project["dependencies"]]
+    lines += [f"Project-URL: {name}, {address}" for name, address in project.get("urls", {}).items()]
     return "\n".join([*lines, "Description-Content-Type: text/markdown", "", (ROOT / project["readme"]).read_text()])
 
 

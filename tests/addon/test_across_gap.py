@@ -322,17 +322,6 @@ def test_an_object_that_cannot_be_solved_leaves_the_others_to_be() -> None:
     assert [np.array_equal(*pair) for pair in zip(before, after, strict=True)] == [False, False, True]
 
 
-def test_one_undo_takes_back_what_was_done_to_several_objects() -> None:
-    right, left = half("Right", 0.002, 1.0, dented, 17), half("Left", -1.0, -0.002, dented)
-    start_several(left, right)
-    bpy.ops.ed.undo_push(message="before")
-    before = places(left), places(right)
-    assert scenes.smooth(border='follow') == {'FINISHED'}
-    bpy.ops.ed.undo()
-    for name, was in zip(("Left", "Right"), before, strict=True):
-        assert np.array_equal(places(bpy.data.objects[name]), was)
-
-
 def test_a_linked_neighbour_is_followed_and_stays(tmp_path: Path) -> None:
     """An object of another file cannot be edited, and is read all the same."""
     right = half("Right", 0.0, 1.0, scenes.crown)

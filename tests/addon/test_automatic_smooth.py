@@ -179,16 +179,6 @@ def test_a_clean_panel_stays() -> None:
     assert np.abs(scenes.positions(ob) - before).max() < 5e-4 * diagonal
 
 
-def test_one_undo_takes_the_press_back() -> None:
-    ob = ready()
-    bpy.ops.ed.undo_push(message="start")
-    before = scenes.fingerprint(ob)
-    scenes.smooth()
-    assert scenes.fingerprint(ob) != before
-    bpy.ops.ed.undo()
-    assert scenes.fingerprint(bpy.context.view_layer.objects.active) == before
-
-
 def test_what_the_native_function_refuses_is_not_applied(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its judgement is tested beside it: here it is made to refuse."""
     real = native.reflines.PanelSmoother
