@@ -58,10 +58,6 @@ class Patch:
         a, b, c = (self.V[self.F[:, k]] for k in range(3))
         return 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
 
-    def count_faces(self, triangles: np.ndarray) -> int:
-        """Counts the faces of the mesh that have a triangle in the mask (#F, bool)."""
-        return len(np.unique(self.face_of_triangle[triangles]))
-
     def to_world(self, local: np.ndarray) -> np.ndarray:
         """Transforms #points x 3 from object space to world space."""
         return local @ self.matrix[:3, :3].T + self.matrix[:3, 3]

@@ -80,8 +80,8 @@ def explain_solve(settings: bpy.types.PropertyGroup, shown: list[bpy.types.Objec
 
 def explain_verdict(shown: list[bpy.types.Object]) -> str:
     """Says why there is no verdict to draw: only a press of Smooth Lines without a length gives one."""
-    found = {ob.name: solve_history.find_last_solve(ob.name_full) for ob in shown}
-    lacking = [name for name, solution in found.items() if solution is None or solution.verdict is None]
+    found = [(ob.name, solve_history.find_last_solve(ob.name_full)) for ob in shown]
+    lacking = [name for name, solution in found if solution is None or solution.verdict is None]
     return f"{lacking[0]}: there is no verdict of its last solve: press Smooth Lines" if lacking else ""
 
 
