@@ -41,7 +41,7 @@ class DraggedOperator(Protocol):
     """The interface of an operator to its drag, in which the mouse changes its properties."""
     bl_label: str
     border: str
-    smooths: bool  # whether the tool's gain is told by how smooth the lines are
+    smooths: bool  # whether the tool's gain is reported by how smooth the lines are
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]: ...
     def build_handles(self) -> tuple[Handle, ...]: ...

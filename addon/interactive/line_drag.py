@@ -359,7 +359,7 @@ class LineDrag(Drag):
         return handle_texts.describe_handle(context.scene, self.handles, index, self.tool.builder.reached, self.typed)
 
     def describe_gain(self, context: bpy.types.Context) -> str:
-        """Says the move alone: what is reached is told of each handle."""
+        """Says the move alone: what is reached is reported of each handle."""
         return f"Moved at most {units.format_length(self.largest_move, context.scene, precision=2)}"
 
     def end(self, context: bpy.types.Context) -> None:

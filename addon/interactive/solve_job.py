@@ -198,7 +198,7 @@ class SolveJob:
         follower.keep_within(limit)
 
     async def measure(self, request: SolveRequest) -> Gain:
-        """Measures the present heights against those of the start, by the numbers that the result will be told by."""
+        """Measures the present heights against those of the start, by the numbers that the result is reported by."""
         begin = time.perf_counter()
         numbers = []
         every = zip(self.patches, self.starts, self.followers, request.builds, request.settings, strict=True)

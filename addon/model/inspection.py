@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-# How the views of a walk around are told, in the order of reflines.walk_around.
+# How the views of a walk around are named, in the order of reflines.walk_around.
 VIEWS = ("the view", "its left", "its right", "above", "below")
 
 

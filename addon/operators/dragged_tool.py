@@ -50,7 +50,7 @@ class DraggedTool(SolveTool):
     """
     bl_options = {'REGISTER', 'UNDO', 'BLOCKING', 'GRAB_CURSOR'}
 
-    smooths = False  # whether the gain is told by how smooth the lines are, not by how near the wanted ones
+    smooths = False  # whether the gain is reported by how smooth the lines are, not by how near the wanted ones
 
     lights: lights_property()
     limit: limit_property()
@@ -112,7 +112,7 @@ class DraggedTool(SolveTool):
         return None
 
     def hear_refused(self, refusals: Iterable[Refusal]) -> None:
-        """Keeps why some of several objects have no result, until all is told."""
+        """Keeps why some of several objects have no result, until all is reported."""
 
     def refuse_hidden(self, context: bpy.types.Context) -> None:
         """Refuses a drag of which nothing would be seen."""

@@ -94,8 +94,8 @@ class REFLINES_OT_draw_film(FilmSettings, bpy.types.Operator):
     def begin(self, context: bpy.types.Context) -> None:
         """Reads the panel as it is now: what is changed later is in no frame."""
         shown, looked = read_picture.read_picture(context, scene_objects.read_active_object(context))
-        told = Film(shown, looked, self.kind, self.swing, self.frames, self.width, self.height)
-        self.film = replace(told, looked=replace(looked, width=ROOM * told.measure_width()))
+        film = Film(shown, looked, self.kind, self.swing, self.frames, self.width, self.height)
+        self.film = replace(film, looked=replace(looked, width=ROOM * film.measure_width()))
         self.path = Path(bpy.path.abspath(self.filepath))
         self.band, self.drawn = 0, []
 

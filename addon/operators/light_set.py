@@ -10,7 +10,7 @@ from ..model.refusal import Refusal
 from ..read import scene_objects
 from ..view import view_and_light
 
-LIGHTS = ("light", "crossed")  # how those of a walk around are told
+LIGHTS = ("light", "crossed")  # how those of a walk around are named
 
 
 def has_light(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:

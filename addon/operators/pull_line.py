@@ -85,7 +85,7 @@ where a line was pulled to; Enter applies them all"""
         self.lines = LineBuild(context.scene)
         self.builder, self.in_session = self.lines.builder, in_session
         self.are_kept = False            # whether the handles are those of the object, as it has them
-        self.told: tuple[str, ...] = ()  # of the keys of handles
+        self.key_notes: tuple[str, ...] = ()  # of the keys of handles
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         self.begin(context, in_session=False)
@@ -212,7 +212,7 @@ where a line was pulled to; Enter applies them all"""
             (drag.step_forward if event.shift else drag.step_back)()
 
     def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
-        return self.builder.conflicts + self.builder.missed + self.told
+        return self.builder.conflicts + self.builder.missed + self.key_notes
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
         held = self.builder.missed and not solution.report.limited and self.border != 'free'
@@ -223,7 +223,7 @@ where a line was pulled to; Enter applies them all"""
     def keep_handles(self, ob: bpy.types.Object) -> None:
         """Keeps the handles with the object, and takes their numbers for the redo panel."""
         kept = ob.reflection_lines.handles
-        self.told = kept.keep(line_handle.decode_handles(self.handles), ob.data)
+        self.key_notes = kept.keep(line_handle.decode_handles(self.handles), ob.data)
         self.handles = line_handle.encode_handles(kept.read(ob.data))
 
     def end_drag(self, context: bpy.types.Context) -> None:

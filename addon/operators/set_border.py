@@ -37,8 +37,8 @@ of selected faces it is set at their rim"""
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
         label = next(item[1] for item in (*BORDERS, UNSET) if item[0] == self.border)
-        told = (f"{ob.name}: {count} vertices" for ob, count in zip(objects, counts, strict=True) if count)
-        self.report({'INFO'}, f"Border {label}, {'; '.join(told)}")
+        counted = (f"{ob.name}: {count} vertices" for ob, count in zip(objects, counts, strict=True) if count)
+        self.report({'INFO'}, f"Border {label}, {'; '.join(counted)}")
         return {'FINISHED'}
 
 

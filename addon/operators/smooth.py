@@ -150,7 +150,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         super().record_solution(ob, replace(solution, automatic_length=0.0) if given else solution)
 
     def solve_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[Solution]:
-        """Presses all objects as one problem; those that cannot be solved are left, and told of."""
+        """Presses all objects as one problem; those that cannot be solved are left, and named."""
         press = self.choose_press()
         if press is None:
             return super().solve_all(context, subjects)
@@ -163,7 +163,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         return [each for each in outcomes if not isinstance(each, Refusal)]
 
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
-        """Gathers the patches; of several in an automatic press those that cannot be are left, and told of."""
+        """Gathers the patches; of several in an automatic press those that cannot be are left, and named."""
         self.refusals = []
         if not self.is_automatic() or len(subjects) == 1:
             return super().gather_all(context, subjects)

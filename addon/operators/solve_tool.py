@@ -234,5 +234,5 @@ class SolveTool:
         unjoined = unjoined_border.find_unjoined(scene, ob, patch, within=not self.is_automatic())
         turn = shown_surface.measure_rounding(patch)
         report.merge_distance, report.rounding = unjoined.distance if unjoined.own else 0.0, turn
-        told = unjoined.describe() if self.border != "follow" else ()  # then the lines do not break there
-        return (*shown_surface.describe_rounding(scene, patch, turn), *told)
+        breaks = unjoined.describe() if self.border != "follow" else ()  # then the lines do not break there
+        return (*shown_surface.describe_rounding(scene, patch, turn), *breaks)

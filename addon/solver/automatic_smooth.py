@@ -84,10 +84,10 @@ async def preview_press(kept: KeptPress, settings: AutomaticSmooth,
                         progress: "native.Progress | None" = None) -> Preview:
     """Presses without measuring the result; raises the native module's errors."""
     problem, patch = kept.problem, kept.problem.patch
-    positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
-                                 limit_share=problem.limit_range, progress=progress, judged=False)
-    live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
-    return Preview(read_own(problem, positions), "" if told.applied else word_note(told.notes[0]))
+    positions, report = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
+                                   limit_share=problem.limit_range, progress=progress, judged=False)
+    live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), report.region.closed)
+    return Preview(read_own(problem, positions), "" if report.applied else word_note(report.notes[0]))
 
 
 async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
@@ -98,39 +98,39 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
     differs from its smoothed self. After a refusal both are those of the start.
     """
     begin = time.perf_counter()
-    positions, told = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
-                                 limit_share=kept.problem.limit_range, progress=progress)
-    return build_solution(kept.problem, positions, told, settings, time.perf_counter() - begin)
+    positions, report = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
+                                   limit_share=kept.problem.limit_range, progress=progress)
+    return build_solution(kept.problem, positions, report, settings, time.perf_counter() - begin)
 
 
-def build_solution(problem: PanelProblem, positions: np.ndarray, told: "native.SmoothPanelReport",
+def build_solution(problem: PanelProblem, positions: np.ndarray, report: "native.SmoothPanelReport",
                    settings: AutomaticSmooth, seconds: float) -> Solution:
     """Builds the solution from what the native press returns for a problem."""
     patch = problem.patch
-    press = read_press(problem, positions, told)
-    live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), told.region.closed)
-    report = build_report(told, seconds)
-    unevenness = told.unevenness_before, told.unevenness_after if told.applied else told.unevenness_before
-    lacks = (np.radians(each[0]) / told.length for each in unevenness)
-    scores = told.score_before, told.score_after if told.applied else told.score_before
+    press = read_press(problem, positions, report)
+    live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), report.region.closed)
+    summary = summarize(report, seconds)
+    unevenness = report.unevenness_before, report.unevenness_after if report.applied else report.unevenness_before
+    lacks = (np.radians(each[0]) / report.length for each in unevenness)
+    scores = report.score_before, report.score_after if report.applied else report.score_before
     shifts, turns = np.mean([[(score.shift, score.turn) for score in each] for each in scores], axis=1).T.tolist()
-    notes = (note for note in told.region.notes if note.kind != "unseen")  # of lights, which are told of by their names
-    return Solution(patch, press.positions, report, None, press.line_deviation, *lacks, told.length, *shifts,
-                    choose_notes(problem, told, settings.light_set), told.length,
-                    automatic_limit=0.0 if settings.limit else told.limit, cage_move=press.cage_move,
+    notes = (note for note in report.region.notes if note.kind != "unseen")  # lights are reported by their names
+    return Solution(patch, press.positions, summary, None, press.line_deviation, *lacks, report.length, *shifts,
+                    choose_notes(problem, report, settings.light_set), report.length,
+                    automatic_limit=0.0 if settings.limit else report.limit, cage_move=press.cage_move,
                     turn_before=turns[0], turn_after=turns[1],
                     kept=(*remarks.describe_marked_creases(patch), *word_notes(notes)),
-                    healed=Healed(told.healed.area, told.healed.worst_before, told.healed.worst_after),
-                    worse=find_worse(problem, settings, told), longer_waves=told.longer_waves,
+                    healed=Healed(report.healed.area, report.healed.worst_before, report.healed.worst_after),
+                    worse=find_worse(problem, settings, report), longer_waves=report.longer_waves,
                     verdict=press.verdict)
 
 
 def find_worse(problem: PanelProblem, settings: AutomaticSmooth,
-               told: "native.SmoothPanelReport") -> Worse | None:
+               report: "native.SmoothPanelReport") -> Worse | None:
     """Finds the place that a press made worse by most, in its own lights or those that judge it; None where there is
     none.
     """
-    worse, length, judges = told.healed.worse, told.length, settings.find_judges(problem.patch)
+    worse, length, judges = report.healed.worse, report.length, settings.find_judges(problem.patch)
     center = problem.patch.center
     if settings.light_set is not None:
         return settings.light_set.tell_worse(worse, center, length)
@@ -138,22 +138,22 @@ def find_worse(problem: PanelProblem, settings: AutomaticSmooth,
            Worse("the crossed light" if worse.light else "the light",
                  tuple(problem.view.both_directions[worse.light].tolist()), tuple(worse.place.tolist()), length,
                  worse.before, worse.after))
-    elsewhere = None if judges is None else judges.tell_worse(told.healed.worse_for_judges, center, length)
+    elsewhere = None if judges is None else judges.tell_worse(report.healed.worse_for_judges, center, length)
     return max(filter(None, (own, elsewhere)), key=lambda each: each.after - each.before, default=None)
 
 
-def build_report(told: "native.SmoothPanelReport", seconds: float) -> SolveReport:
-    termination = told.solve.termination if told.applied else "not_applied"
-    message = told.solve.message if told.applied else word_note(told.notes[0])
-    move, limited = (told.largest_move, told.limited) if told.applied else (0.0, 0)
-    return SolveReport(termination, message, told.solve.iterations, seconds, told.solve.unknowns, move, limited)
+def summarize(report: "native.SmoothPanelReport", seconds: float) -> SolveReport:
+    termination = report.solve.termination if report.applied else "not_applied"
+    message = report.solve.message if report.applied else word_note(report.notes[0])
+    move, limited = (report.largest_move, report.limited) if report.applied else (0.0, 0)
+    return SolveReport(termination, message, report.solve.iterations, seconds, report.solve.unknowns, move, limited)
 
 
-def choose_notes(problem: PanelProblem, told: "native.SmoothPanelReport",
+def choose_notes(problem: PanelProblem, report: "native.SmoothPanelReport",
                  light_set: LightSet | None) -> tuple[str, ...]:
     """Returns the most important sentences. That the limit holds vertices back stands in the headline of the result."""
-    notes = [note for note in told.notes if note.kind != "limited"]
-    lopsided = () if told.mirrored else remarks.describe_mirror(problem)
-    lights = () if light_set is None else light_set.describe(told.seen, told.unevenness_before, told.unevenness_after,
-                                                             applied=told.applied)
+    notes = [note for note in report.notes if note.kind != "limited"]
+    lopsided = () if report.mirrored else remarks.describe_mirror(problem)
+    lights = () if light_set is None else light_set.describe(
+        report.seen, report.unevenness_before, report.unevenness_after, applied=report.applied)
     return (*word_notes(notes), *lights, *lopsided)[:MOST_NOTES]

@@ -56,11 +56,11 @@ async def build_joint(patches: Sequence[Patch], views: Sequence[View], border: s
 
 async def press_joint(kept: KeptJoint, settings: AutomaticSmooth,
                       progress: "native.Progress | None" = None) -> list[Solution]:
-    """Presses all patches once; raises the native module's errors. The time told is that of all."""
+    """Presses all patches once; raises the native module's errors. The time reported is that of all."""
     begin = time.perf_counter()
     count = len(kept.problems)
     results = await call(kept.smoother.press, strengths=[settings.strength] * count, limits=[settings.limit] * count,
                          limit_shares=[problem.limit_range for problem in kept.problems], progress=progress)
     seconds = time.perf_counter() - begin
-    return [build_solution(problem, positions, told, settings, seconds)
-            for problem, (positions, told) in zip(kept.problems, results, strict=True)]
+    return [build_solution(problem, positions, report, settings, seconds)
+            for problem, (positions, report) in zip(kept.problems, results, strict=True)]

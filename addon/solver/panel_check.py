@@ -51,6 +51,6 @@ def build_row(row: "native.CheckRow", name: str = "", shut_line: int = 0, beside
 
 def build_checked(rows: list[TableRow], segments: np.ndarray, passes: np.ndarray, change: np.ndarray) -> Checked:
     """Builds the result of a check, with the worst places of its lines."""
-    told = [row for row in rows if row.change == "worse" or not row.passes]
-    return Checked(rows, segments, passes, change, np.array([(row.x, row.y, row.z) for row in told]).reshape(-1, 3),
-                   np.array([row.change == "worse" for row in told], dtype=bool))
+    shown = [row for row in rows if row.change == "worse" or not row.passes]
+    return Checked(rows, segments, passes, change, np.array([(row.x, row.y, row.z) for row in shown]).reshape(-1, 3),
+                   np.array([row.change == "worse" for row in shown], dtype=bool))

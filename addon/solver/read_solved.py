@@ -57,12 +57,12 @@ def read_residual(problem: PanelProblem, optimizer: "native.ShapeOptimizer", res
     return repeat_on_triangles(problem, np.sqrt(squared / np.maximum(area, 1e-300)))
 
 
-def read_press(problem: PanelProblem, positions: np.ndarray, told: "native.SmoothPanelReport") -> Press:
+def read_press(problem: PanelProblem, positions: np.ndarray, report: "native.SmoothPanelReport") -> Press:
     """Converts what the native smoother returns to arrays of the patch."""
-    deviation, verdict, own = told.stray, told.verdict, len(problem.patch.F)
+    deviation, verdict, own = report.stray, report.verdict, len(problem.patch.F)
     if problem.is_cage:
         return Press(read_own(problem, positions), repeat_on_triangles(problem, deviation),
-                     repeat_on_triangles(problem, verdict), told.largest_control_move)
+                     repeat_on_triangles(problem, verdict), report.largest_control_move)
     return Press(read_own(problem, positions), deviation[:own], verdict[:own])
 
 

@@ -47,27 +47,27 @@ async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: 
     wanted = await live_optimizer.build_targets(live, build_target, settings)  # that of a fit moves the optimizer first
     lacking = None if wanted.is_plain else await wanted.measure(optimizer)
     limit, problem = choose_limit(live.patch, settings), live.problem
-    told = await call(native.reflines.solve_panel, optimizer, wanted.targets, length=length, limit=limit,
-                      limit_share=await choose_ranges(live), around=choose_rim(live), progress=progress)
+    report = await call(native.reflines.solve_panel, optimizer, wanted.targets, length=length, limit=limit,
+                        limit_share=await choose_ranges(live), around=choose_rim(live), progress=progress)
     worse = await judge(live, settings.judges, progress)
-    left = told.residual_after if wanted.is_plain else await wanted.measure(optimizer)
-    lacking = told.residual_before if wanted.is_plain else lacking
-    report = build_report(told)
-    short = settings.explains_shortfall and wanted.is_plain and told.falls_short and not told.limited
-    bend = told.rim_bend if told.rim_bend > BENT else 0.0
-    return Solution(live.patch, read_positions(problem, optimizer), report, wanted.targets[0],
-                    read_residual(problem, optimizer, told.residual), lacking, left,
-                    length, told.score_before.shift, told.score_after.shift,
+    left = report.residual_after if wanted.is_plain else await wanted.measure(optimizer)
+    lacking = report.residual_before if wanted.is_plain else lacking
+    summary = summarize(report)
+    short = settings.explains_shortfall and wanted.is_plain and report.falls_short and not report.limited
+    bend = report.rim_bend if report.rim_bend > BENT else 0.0
+    return Solution(live.patch, read_positions(problem, optimizer), summary, wanted.targets[0],
+                    read_residual(problem, optimizer, report.residual), lacking, left,
+                    length, report.score_before.shift, report.score_after.shift,
                     (*(remarks.describe_shortfall(1.0 - left / lacking, live.border) if short else ()),
-                     *remarks.describe_unfinished(report), *remarks.describe_bent_rim(bend),
-                     *remarks.describe_limit(report.limited, limit, automatic=not settings.limit),
+                     *remarks.describe_unfinished(summary), *remarks.describe_bent_rim(bend),
+                     *remarks.describe_limit(summary.limited, limit, automatic=not settings.limit),
                      *remarks.describe_mirror(problem),
-                     *remarks.describe_far_move(live.patch, report.largest_move, live.border),
-                     *remarks.describe_turned_faces(told.turned_faces)),
+                     *remarks.describe_far_move(live.patch, summary.largest_move, live.border),
+                     *remarks.describe_turned_faces(report.turned_faces)),
                     choose_length(live.patch, 0.0), choose_remedy(live.border, short=short, bent=bend > 0.0),
                     measure_cage_move(problem, optimizer), automatic_limit=0.0 if settings.limit else limit,
-                    turn_before=told.score_before.turn, turn_after=told.score_after.turn, worse=worse,
-                    kept=(*word_notes(optimizer.region.notes), *remarks.describe_held_faces(told.held_faces)))
+                    turn_before=report.score_before.turn, turn_after=report.score_after.turn, worse=worse,
+                    kept=(*word_notes(optimizer.region.notes), *remarks.describe_held_faces(report.held_faces)))
 
 
 async def judge(live: LiveOptimizer, judges: LightSet | None, progress: "native.Progress | None") -> Worse | None:
@@ -82,10 +82,10 @@ async def judge(live: LiveOptimizer, judges: LightSet | None, progress: "native.
     return shown.tell_worse(found, live.patch.center, length)
 
 
-def build_report(told: "native.SolvePanelReport") -> SolveReport:
-    solve = told.solve
+def summarize(report: "native.SolvePanelReport") -> SolveReport:
+    solve = report.solve
     return SolveReport(solve.termination, solve.message, solve.iterations, solve.seconds, solve.unknowns,
-                       solve.largest_move, told.limited)
+                       solve.largest_move, report.limited)
 
 
 def choose_rim(live: LiveOptimizer) -> tuple[np.ndarray, np.ndarray] | None:

@@ -32,7 +32,7 @@ def find_check(name: str) -> DrawnCheck | None:
 
 @bpy.app.handlers.persistent
 def forget_changed(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """Forgets the checks of meshes that have changed; a new selection or attribute is told as a change, too."""
+    """Forgets the checks of meshes that have changed; a new selection or attribute counts as a change, too."""
     for update in depsgraph.updates if _checks else ():
         ob = update.id.original
         check = _checks.get(ob.name_full) if isinstance(ob, bpy.types.Object) else None

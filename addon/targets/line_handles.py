@@ -16,7 +16,7 @@ ROOM = 1.5
 # The tolerance of a drag's solves: the values at a handle weigh so much that 1e-4 would leave 1e-5 of the size after a
 # closed path.
 FOLLOW_TOLERANCE = 1e-7
-MISSED = 0.02  # fraction of the lines' spacing beside a handle from which that is told
+MISSED = 0.02  # fraction of the lines' spacing beside a handle from which that is reported
 
 
 ChooseTriangles = Callable[["native.ShapeOptimizer"], np.ndarray]

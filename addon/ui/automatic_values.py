@@ -1,12 +1,12 @@
-"""Lengths for which 0 means automatic: they are drawn as what 0 stood for in the last run, where that is told, beside a
-switch.
+"""Lengths for which 0 means automatic: they are drawn as what 0 stood for in the last run, where that is known, beside
+a switch.
 """
 import bpy
 from bpy.props import BoolProperty, FloatProperty
 
 from ..blender import units
 
-# Of the object's size: what the switch turned off begins with where no run told a value.
+# Of the object's size: what the switch turned off begins with where no run gave a value.
 UNKNOWN_FRACTIONS = {"length": 0.01, "limit": 0.01, "radius": 0.25, "width": 0.5}
 HIDDEN = {'options': {'HIDDEN', 'SKIP_SAVE'}}  # they are other faces of a setting, which keeps the value
 
@@ -16,8 +16,8 @@ def find_automatic_value(name: str) -> float:
     is not known.
     """
     ob = bpy.context.view_layer.objects.active
-    told = getattr(ob.reflection_lines.report, f"automatic_{name}", 0.0) if ob is not None else 0.0
-    return float(f"{told:.2g}")
+    found = getattr(ob.reflection_lines.report, f"automatic_{name}", 0.0) if ob is not None else 0.0
+    return float(f"{found:.2g}")
 
 
 def choose_own_value(name: str) -> float:
@@ -44,7 +44,7 @@ def switch_property(name: str, label: str) -> object:
 
 def draw_value(layout: bpy.types.UILayout, settings: object, name: str) -> None:
     """Draws a setting of the scene and its switch: the properties NAME, NAME_shown and NAME_automatic."""
-    if not getattr(settings, name) and not find_automatic_value(name):  # no run has told it
+    if not getattr(settings, name) and not find_automatic_value(name):  # no run has given it
         row = layout.row(heading=settings.bl_rna.properties[name].name)
         row.prop(settings, f"{name}_automatic", text="Automatic", toggle=True)
         return
@@ -61,7 +61,7 @@ def draw_plain_value(layout: bpy.types.UILayout, settings: object, name: str) ->
     if name not in UNKNOWN_FRACTIONS or getattr(settings, name):
         return
     value = find_automatic_value(name)
-    told = f", {units.format_length(value, bpy.context.scene, precision=2)}" if value else ""
+    length = f", {units.format_length(value, bpy.context.scene, precision=2)}" if value else ""
     row = layout.row()
     row.active, row.alignment = False, 'RIGHT'
-    row.label(text=f"0: automatic{told}")
+    row.label(text=f"0: automatic{length}")

@@ -152,9 +152,9 @@ class ReflinesCheck(bpy.types.PropertyGroup):
             return f"Passes: {len(self.rows)} lines, {self.seams} edges of borders and creases"
         worse = [row.name for row in self.rows if row.change == "worse"]
         better = [row.name for row in self.rows if row.change == "better"]
-        told = (("worse than before", worse), ("better than before", better),
-                ("beyond the mark, as before", [name for name in beyond if name not in worse]))
-        said = "; ".join(f"{what}: {', '.join(names)}" for what, names in told if names)
+        changes = (("worse than before", worse), ("better than before", better),
+                   ("beyond the mark, as before", [name for name in beyond if name not in worse]))
+        said = "; ".join(f"{what}: {', '.join(names)}" for what, names in changes if names)
         return f"{said[:1].upper()}{said[1:]}" if said else "Nothing has changed by more than the marks"
 
 

@@ -1,4 +1,4 @@
-"""Properties of an object's last inspection: its worst spots, and what is told of all lights and views."""
+"""Properties of an object's last inspection: its worst spots, and what is reported of all lights and views."""
 import bpy
 import numpy as np
 from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty

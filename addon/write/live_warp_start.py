@@ -71,7 +71,7 @@ def read_live_coordinates(ob: bpy.types.Object) -> np.ndarray:
 
 
 def store_mark(ob: bpy.types.Object) -> None:
-    """Stores a hash of the region's positions, so that changes by others can be told from the live warp's own."""
+    """Stores a hash of the region's positions, so that changes by others differ from the live warp's own."""
     ob.data[LEFT] = hash_region(ob)
 
 
