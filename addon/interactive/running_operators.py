@@ -1,6 +1,7 @@
 """The operators that run in the window and have something to take back. Disabling the add-on ends them while they are
 there: Blender drops the operators of a class that is unregistered without calling them.
 """
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Protocol
 
@@ -9,6 +10,7 @@ import bpy
 
 class RunningOperator(Protocol):
     """The interface of an operator that runs."""
+    timer: bpy.types.Timer | None
 
     def take_back(self, context: bpy.types.Context) -> None: ...
 
@@ -16,8 +18,21 @@ class RunningOperator(Protocol):
 _running: list[RunningOperator] = []
 
 
-def note_begin(operator: RunningOperator) -> None:
+def begin(operator: RunningOperator, context: bpy.types.Context, interval: float = 0.0) -> set[str]:
+    """Lets an operator run with the window's events and, with an interval in seconds, those of a timer."""
+    manager = context.window_manager
+    operator.timer = manager.event_timer_add(interval, window=context.window) if interval else None
+    manager.modal_handler_add(operator)
     _running.append(operator)
+    return {'RUNNING_MODAL'}
+
+
+def end(operator: RunningOperator, context: bpy.types.Context) -> None:
+    """Ends what `begin` began, and takes the operator's text from the status bar."""
+    note_end(operator)
+    if operator.timer is not None:
+        context.window_manager.event_timer_remove(operator.timer)
+    context.workspace.status_text_set(None)
 
 
 def note_end(operator: RunningOperator) -> None:
@@ -30,3 +45,15 @@ def take_back(kind: type[RunningOperator]) -> None:
         note_end(operator)
         with suppress(ReferenceError):  # Blender has dropped it after an error
             operator.take_back(bpy.context)
+
+
+def make_registration(*kinds: type[bpy.types.Operator]) -> tuple[Callable[[], None], Callable[[], None]]:
+    """Makes the functions that register operators and unregister them, which first takes back what they do."""
+    register, unregister_classes = bpy.utils.register_classes_factory(kinds)
+
+    def unregister() -> None:
+        for kind in kinds:
+            take_back(kind)
+        unregister_classes()
+
+    return register, unregister

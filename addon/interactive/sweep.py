@@ -32,9 +32,7 @@ class Sweep:
         self.move_mouse(context, event)
         self.follow(context)
         context.workspace.status_text_set(drag_input.describe_keys(self.values))
-        context.window_manager.modal_handler_add(self)
-        running_operators.note_begin(self)
-        return {'RUNNING_MODAL'}
+        return running_operators.begin(self, context)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if drag_input.cancels(event) or not self.can_go_on(context):
@@ -63,6 +61,5 @@ class Sweep:
         self.take_back(context)
 
     def end(self, context: bpy.types.Context) -> None:
-        running_operators.note_end(self)
+        running_operators.end(self, context)
         self.area.header_text_set(None)
-        context.workspace.status_text_set(None)

@@ -62,11 +62,8 @@ the scene moves the panel"""
         self.work = BackgroundWork(self.bake.solve, self.bake.progress.cancel)
         self.work.submit(request)
         self.area = context.area
-        self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        running_operators.note_begin(self)
         self.show_progress(context)
-        return {'RUNNING_MODAL'}
+        return running_operators.begin(self, context, TICK_INTERVAL)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Takes a frame and begins with the next, or ends. Other events are swallowed: an undo would meet a scene at
@@ -123,12 +120,10 @@ the scene moves the panel"""
         context.workspace.status_text_set("Esc: cancel")
 
     def end_modal(self, context: bpy.types.Context) -> None:
-        running_operators.note_end(self)
+        running_operators.end(self, context)
         self.work.stop()
         self.work = None
-        context.window_manager.event_timer_remove(self.timer)
         self.area.header_text_set(None)
-        context.workspace.status_text_set(None)
 
     def take_back(self, context: bpy.types.Context) -> None:
         """Goes back to the frame and the mode before, where the bake does not go on, or the add-on is disabled."""
@@ -143,9 +138,4 @@ the scene moves the panel"""
         self.drop(set())
 
 
-register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_bake_handles])
-
-
-def unregister() -> None:
-    running_operators.take_back(REFLINES_OT_bake_handles)
-    unregister_classes()
+register, unregister = running_operators.make_registration(REFLINES_OT_bake_handles)

@@ -124,10 +124,7 @@ class REFLINES_OT_draw_film(FilmSettings, bpy.types.Operator):
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
-        self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        running_operators.note_begin(self)
-        return {'RUNNING_MODAL'}
+        return running_operators.begin(self, context, TICK_INTERVAL)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type == 'ESC' and event.value == 'PRESS':
@@ -152,18 +149,11 @@ class REFLINES_OT_draw_film(FilmSettings, bpy.types.Operator):
 
     def take_back(self, context: bpy.types.Context) -> None:
         """Ends the work; the frames that are written stay."""
-        running_operators.note_end(self)
-        context.window_manager.event_timer_remove(self.timer)
-        context.workspace.status_text_set(None)
+        running_operators.end(self, context)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Ends the work when Blender exits or opens another file."""
         self.take_back(context)
 
 
-register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_export_film, REFLINES_OT_draw_film])
-
-
-def unregister() -> None:
-    running_operators.take_back(REFLINES_OT_draw_film)
-    unregister_classes()
+register, unregister = running_operators.make_registration(REFLINES_OT_export_film, REFLINES_OT_draw_film)

@@ -52,9 +52,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
-        context.window_manager.modal_handler_add(self)
-        running_operators.note_begin(self)
-        return {'RUNNING_MODAL'}
+        return running_operators.begin(self, context)
 
     def begin_stroke(self, context: bpy.types.Context) -> None:
         self.find_subjects(context)  # refuses where no face is selected
@@ -106,7 +104,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
 
     def end(self, context: bpy.types.Context, why: str) -> set[str]:
         """Ends the stroke and drops it: Blender keeps the operator."""
-        running_operators.note_end(self)
+        running_operators.end(self, context)
         self.stroke.area.header_text_set(None)
         self.stroke = None
         if why:
@@ -125,9 +123,4 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         self.end(context, "")
 
 
-register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_fair_brush])
-
-
-def unregister() -> None:
-    running_operators.take_back(REFLINES_OT_fair_brush)
-    unregister_classes()
+register, unregister = running_operators.make_registration(REFLINES_OT_fair_brush)

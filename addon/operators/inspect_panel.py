@@ -84,10 +84,7 @@ of the set. Nothing is changed; Esc cancels"""
             return {'CANCELLED'}
         self.panel, self.shape = ob.name, read_mesh.read_shown_coordinates(ob)
         self.job = InspectionJob(request)
-        self.timer = context.window_manager.event_timer_add(TICK_INTERVAL, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        running_operators.note_begin(self)
-        return {'RUNNING_MODAL'}
+        return running_operators.begin(self, context, TICK_INTERVAL)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type == 'ESC' and event.value == 'PRESS':
@@ -129,14 +126,7 @@ of the set. Nothing is changed; Esc cancels"""
         self.take_back(context)
 
     def end(self, context: bpy.types.Context) -> None:
-        running_operators.note_end(self)
-        context.window_manager.event_timer_remove(self.timer)
-        context.workspace.status_text_set(None)
+        running_operators.end(self, context)
 
 
-register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_inspect])
-
-
-def unregister() -> None:
-    running_operators.take_back(REFLINES_OT_inspect)
-    unregister_classes()
+register, unregister = running_operators.make_registration(REFLINES_OT_inspect)

@@ -26,10 +26,8 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         self.points = []
         self.view: View | None = None  # that of the first click, one of four in Quad View
-        context.window_manager.modal_handler_add(self)
-        running_operators.note_begin(self)
         context.workspace.status_text_set("Click where the line starts, then where it goes. Esc: leave all as it is")
-        return {'RUNNING_MODAL'}
+        return running_operators.begin(self, context)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type in {'ESC', 'RIGHTMOUSE'}:
@@ -62,17 +60,11 @@ class REFLINES_OT_pick_direction(bpy.types.Operator):
 
     def take_back(self, context: bpy.types.Context) -> None:
         """Takes back the text of the status bar."""
-        running_operators.note_end(self)
-        context.workspace.status_text_set(None)
+        running_operators.end(self, context)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Takes the text away when Blender exits or opens another file."""
         self.take_back(context)
 
 
-register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_pick_direction])
-
-
-def unregister() -> None:
-    running_operators.take_back(REFLINES_OT_pick_direction)
-    unregister_classes()
+register, unregister = running_operators.make_registration(REFLINES_OT_pick_direction)

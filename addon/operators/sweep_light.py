@@ -94,9 +94,4 @@ picture, the wheel tilts it"""
         self.end(context)
 
 
-register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_sweep_light])
-
-
-def unregister() -> None:
-    running_operators.take_back(REFLINES_OT_sweep_light)
-    unregister_classes()
+register, unregister = running_operators.make_registration(REFLINES_OT_sweep_light)

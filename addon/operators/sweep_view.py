@@ -75,9 +75,4 @@ it about the vertical, the wheel tilts it; the lights stay where they are"""
         self.end(context)
 
 
-register, unregister_classes = bpy.utils.register_classes_factory([REFLINES_OT_sweep_view])
-
-
-def unregister() -> None:
-    running_operators.take_back(REFLINES_OT_sweep_view)
-    unregister_classes()
+register, unregister = running_operators.make_registration(REFLINES_OT_sweep_view)
