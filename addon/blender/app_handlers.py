@@ -18,3 +18,17 @@ def remove_app_handlers(handlers: Handlers) -> None:
         registered = getattr(bpy.app.handlers, name)
         if function in registered:
             registered.remove(function)
+
+
+def forget_at_load(forget: Callable[..., None]) -> tuple[Callable[[], None], Callable[[], None]]:
+    """Makes the functions that register and unregister what a module knows of a file, which `forget` clears, persistent
+    as a handler: before another file is read, and at last.
+    """
+    def register() -> None:
+        bpy.app.handlers.load_pre.append(forget)
+
+    def unregister() -> None:
+        bpy.app.handlers.load_pre.remove(forget)
+        forget()
+
+    return register, unregister

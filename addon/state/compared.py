@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import bpy
 
+from ..blender.app_handlers import forget_at_load
+
 MIDDLE = 0.5
 Span = tuple[float, float]  # left and right end, in pixels of the region
 
@@ -63,10 +65,4 @@ def forget_spans(*_: object) -> None:
     _now.spans.clear()
 
 
-def register() -> None:
-    bpy.app.handlers.load_pre.append(forget_spans)
-
-
-def unregister() -> None:
-    bpy.app.handlers.load_pre.remove(forget_spans)
-    forget_spans()
+register, unregister = forget_at_load(forget_spans)

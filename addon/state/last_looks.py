@@ -3,6 +3,8 @@ from dataclasses import dataclass, replace
 
 import bpy
 
+from ..blender.app_handlers import forget_at_load
+
 
 @dataclass(frozen=True)
 class Look:
@@ -35,10 +37,4 @@ def forget_looks(*_: object) -> None:
     _looks.clear()
 
 
-def register() -> None:
-    bpy.app.handlers.load_pre.append(forget_looks)
-
-
-def unregister() -> None:
-    bpy.app.handlers.load_pre.remove(forget_looks)
-    forget_looks()
+register, unregister = forget_at_load(forget_looks)

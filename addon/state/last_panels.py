@@ -3,6 +3,7 @@ from collections.abc import Iterable
 
 import bpy
 
+from ..blender.app_handlers import forget_at_load
 from ..read import scene_objects
 
 _names: dict[str, tuple[str, ...]] = {}  # of the meshes, by the name of the scene
@@ -35,10 +36,4 @@ def forget_panels(*_: object) -> None:
     _names.clear()
 
 
-def register() -> None:
-    bpy.app.handlers.load_pre.append(forget_panels)
-
-
-def unregister() -> None:
-    bpy.app.handlers.load_pre.remove(forget_panels)
-    forget_panels()
+register, unregister = forget_at_load(forget_panels)

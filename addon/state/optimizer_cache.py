@@ -5,6 +5,7 @@ from dataclasses import replace
 import bpy
 
 from .. import native
+from ..blender.app_handlers import forget_at_load
 from ..model.patch import Patch
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
@@ -74,10 +75,4 @@ def clear_cache(*_: object) -> None:
     _optimizers.clear()
 
 
-def register() -> None:
-    bpy.app.handlers.load_pre.append(clear_cache)
-
-
-def unregister() -> None:
-    bpy.app.handlers.load_pre.remove(clear_cache)
-    clear_cache()
+register, unregister = forget_at_load(clear_cache)

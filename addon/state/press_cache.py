@@ -8,6 +8,7 @@ from typing import TypeVar
 import bpy
 
 from .. import native
+from ..blender.app_handlers import forget_at_load
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution
@@ -113,10 +114,4 @@ def clear_cache(*_: object) -> None:
     _joint.clear()
 
 
-def register() -> None:
-    bpy.app.handlers.load_pre.append(clear_cache)
-
-
-def unregister() -> None:
-    bpy.app.handlers.load_pre.remove(clear_cache)
-    clear_cache()
+register, unregister = forget_at_load(clear_cache)

@@ -4,6 +4,7 @@ Objects go by their full names, which tell those of this file from linked ones.
 """
 import bpy
 
+from ..blender.app_handlers import forget_at_load
 from ..model.solution import LastSolve
 
 _solves: dict[str, LastSolve] = {}  # by the full name of the object
@@ -55,10 +56,4 @@ def clear_history(*_: object) -> None:
     _changed.clear()
 
 
-def register() -> None:
-    bpy.app.handlers.load_pre.append(clear_history)
-
-
-def unregister() -> None:
-    bpy.app.handlers.load_pre.remove(clear_history)
-    clear_history()
+register, unregister = forget_at_load(clear_history)
