@@ -1,7 +1,7 @@
 """The operator Add Warp Lattice."""
 import bpy
 
-from ..model.refusal import Refusal
+from ..model.refusal import report_refusals
 from ..read import read_patch, region_faces, scene_objects
 from ..solver import live_optimizer
 from ..ui.tool_properties import SPLINES
@@ -28,17 +28,14 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
     def poll(cls, context: bpy.types.Context) -> bool:
         return is_ready(cls, context)
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()
         settings = context.scene.reflection_lines
-        try:
-            ob = scene_objects.find_subjects(context)[0]
-            patch = read_patch.gather_mesh_patch(ob)
-            seen = facing.read_patch_view(context.scene, patch)
-            frame = live_optimizer.compute_image_frame(patch, seen)
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        ob = scene_objects.find_subjects(context)[0]
+        patch = read_patch.gather_mesh_patch(ob)
+        seen = facing.read_patch_view(context.scene, patch)
+        frame = live_optimizer.compute_image_frame(patch, seen)
         region_faces.keep_region(ob, patch)
         added = warp_lattice.add_lattice(patch, frame, columns=self.columns, rows=self.rows, kind=self.interpolation,
                             collection=scene_objects.find_editable_collection(context))

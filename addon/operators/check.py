@@ -6,7 +6,7 @@ from ..model import check_table
 from ..model.check_table import TableRow
 from ..model.checked_surface import CheckedSurface
 from ..model.patch import Patch, compute_bounds
-from ..model.refusal import Refusal
+from ..model.refusal import Refusal, report_refusals
 from ..read import mesh_checks, read_beside, read_checked, read_mesh, read_patch, scene_objects
 from ..read.mesh_checks import Purpose
 from ..solver import live_optimizer, panel_check, shut_lines
@@ -29,18 +29,15 @@ last run, or beyond its mark; without a run the selected faces alone"""
         cls.poll_message_set("Make a panel's mesh active, in Edit Mode or Object Mode")
         return ob is not None and ob.type == 'MESH' and ob.mode in {'EDIT', 'OBJECT'}
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob, settings = scene_objects.read_active_object(context), context.scene.reflection_lines.marks
-        try:
-            patch, positions, own = self.find_subject(ob)
-            marks = panel_check.Marks(settings.gap, settings.angle, settings.curvature, find_limit(own))
-            with live_optimizer.convert_native_errors(patch):
-                surface = read_checked.read_checked_surface(ob, patch, positions)
-                found = panel_check.check_surface(surface, marks)
-                shut = check_shut_lines(context.scene, ob, surface)
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        patch, positions, own = self.find_subject(ob)
+        marks = panel_check.Marks(settings.gap, settings.angle, settings.curvature, find_limit(own))
+        with live_optimizer.convert_native_errors(patch):
+            surface = read_checked.read_checked_surface(ob, patch, positions)
+            found = panel_check.check_surface(surface, marks)
+            shut = check_shut_lines(context.scene, ob, surface)
         stored = ob.reflection_lines.check
         stored.fill([*found.rows, *own, *shut.rows], len(found.passes), int((~found.passes).sum()),
                     compared=bool(own))

@@ -11,7 +11,7 @@ from bpy_extras.io_utils import ExportHelper
 from ..blender import compat
 from ..interactive import read_picture, running_operators
 from ..model.film import Film
-from ..model.refusal import Refusal
+from ..model.refusal import Refusal, report_refusals
 from ..read import scene_objects
 from ..view import view_and_light
 from ..write.png import encode_png
@@ -80,14 +80,11 @@ class REFLINES_OT_draw_film(FilmSettings, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return has_panel(cls, context)
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            self.begin(context)
-            while not self.draw_next():
-                pass
-        except (Refusal, OSError) as error:
-            self.report({'ERROR'}, str(error))
-            return {'CANCELLED'}
+        self.begin(context)
+        while not self.draw_next():
+            pass
         self.tell()
         return {'FINISHED'}
 

@@ -11,7 +11,7 @@ from ..blender import units
 from ..interactive import read_picture
 from ..model.canvas import Canvas
 from ..model.panel_picture import Looked, Pictured
-from ..model.refusal import Refusal
+from ..model.refusal import report_refusals
 from ..model.sheet import HEIGHT, PICTURE, WIDTH, Sheet, draw_sheet
 from ..read import scene_objects
 from ..read.text_outlines import TextReader
@@ -40,14 +40,11 @@ worst spots from near, each in the light that shows it"""
         cls.poll_message_set(obstacle)
         return not obstacle
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
-        try:
-            pixels = draw(context, ob)
-            path.write_bytes(encode_png(pixels))
-        except (Refusal, OSError) as error:
-            self.report({'ERROR'}, str(error))
-            return {'CANCELLED'}
+        pixels = draw(context, ob)
+        path.write_bytes(encode_png(pixels))
         self.report({'INFO'}, f"{ob.name}: sheet written to {path.name}")
         return {'FINISHED'}
 

@@ -7,7 +7,7 @@ from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..model import check_table, inspection
-from ..model.refusal import Refusal
+from ..model.refusal import Refusal, report_refusals
 from ..read import scene_objects
 
 TABLES = (
@@ -38,18 +38,15 @@ class REFLINES_OT_export_table(ExportHelper, bpy.types.Operator):
         return ob is not None and ob.type == 'MESH' and (
             len(ob.reflection_lines.check.rows) > 0 or len(ob.reflection_lines.inspection.spots) > 0)
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
         count, kinds = (format_check if self.table == 'CHECK' else format_spots)(ob)
-        try:
-            if not count:
-                raise Refusal(f"{ob.name} has no such table: check or inspect it first")
-            if path.suffix.lower() not in kinds:
-                raise Refusal(f"{path.name or 'The file'} does not end in {' or '.join(kinds)}: add that")
-            path.write_text(kinds[path.suffix.lower()](), encoding="utf-8")
-        except (Refusal, OSError) as error:
-            self.report({'ERROR'}, str(error))
-            return {'CANCELLED'}
+        if not count:
+            raise Refusal(f"{ob.name} has no such table: check or inspect it first")
+        if path.suffix.lower() not in kinds:
+            raise Refusal(f"{path.name or 'The file'} does not end in {' or '.join(kinds)}: add that")
+        path.write_text(kinds[path.suffix.lower()](), encoding="utf-8")
         self.report({'INFO'}, f"{ob.name}: {count} lines written to {path.name}")
         return {'FINISHED'}
 

@@ -6,7 +6,7 @@ from bpy.props import EnumProperty
 from ..interactive import running_operators
 from ..interactive.inspection_job import InspectionJob, InspectionOutcome, InspectionRequest
 from ..model.inspection import Inspection
-from ..model.refusal import Refusal
+from ..model.refusal import Refusal, report_refusals
 from ..native_call import run_now
 from ..read import gather, read_checked, read_mesh, scene_objects
 from ..read.mesh_checks import Purpose
@@ -41,15 +41,12 @@ of the set. Nothing is changed; Esc cancels"""
         cls.poll_message_set(obstacle)
         return not obstacle
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = scene_objects.read_active_object(context)
-        try:
-            request = self.build_request(context, ob)
-            with live_optimizer.convert_native_errors(request.patch):
-                found = run_now(panel_inspection.inspect_surface(request.wanted))
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        request = self.build_request(context, ob)
+        with live_optimizer.convert_native_errors(request.patch):
+            found = run_now(panel_inspection.inspect_surface(request.wanted))
         self.store(ob, found)
         return {'FINISHED'}
 

@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 
-from ..model.refusal import Refusal
+from ..model.refusal import report_refusals
 from ..read import scene_objects
 from ..view import view_and_light
 from ..write import matcap
@@ -21,17 +21,14 @@ the view: the stripes over the mesh are the finer judge"""
         cls.poll_message_set(obstacle)
         return not obstacle
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reflection_lines
         center = np.array(view_and_light.measure_extent(scene_objects.read_active_object(context))[0])
-        try:
-            seen = view_and_light.read_scene_view(context.scene, center)
-            up = np.array(settings.camera.matrix_world, dtype=np.float64)[:3, 1]
-            up = view_and_light.normalize(up - up @ seen.view_direction * seen.view_direction, settings.camera.name)
-            matcap.install_matcap(matcap.render_matcap(seen, up, settings.stripes))
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        seen = view_and_light.read_scene_view(context.scene, center)
+        up = np.array(settings.camera.matrix_world, dtype=np.float64)[:3, 1]
+        up = view_and_light.normalize(up - up @ seen.view_direction * seen.view_direction, settings.camera.name)
+        matcap.install_matcap(matcap.render_matcap(seen, up, settings.stripes))
         self.report({'INFO'}, f"{matcap.NAME} is among your MatCaps")
         return {'FINISHED'}
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..model.inspection import VIEWS
 from ..model.light_set import find_walk
-from ..model.refusal import Refusal
+from ..model.refusal import report_refusals
 from ..read import scene_objects
 from ..view import view_and_light
 
@@ -70,15 +70,12 @@ by themselves stay"""
     def poll(cls, context: bpy.types.Context) -> bool:
         return has_light(cls, context)
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reflection_lines
         center = view_and_light.measure_extent(scene_objects.read_active_object(context))[0]
-        try:
-            seen = view_and_light.read_scene_view(context.scene, np.array(center))
-            eyes, lines = find_walk(seen, view_and_light.read_camera_axes(settings.camera)[1])
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        seen = view_and_light.read_scene_view(context.scene, np.array(center))
+        eyes, lines = find_walk(seen, view_and_light.read_camera_axes(settings.camera)[1])
         entries = settings.light_set.entries
         for index in reversed([k for k, entry in enumerate(entries) if entry.keeps_directions]):
             entries.remove(index)

@@ -13,7 +13,7 @@ from ..interactive.solve_job import SolveOutcome
 from ..model import line_handle
 from ..model.line_handle import Handles
 from ..model.patch import Patch
-from ..model.refusal import Refusal
+from ..model.refusal import Refusal, report_refusals
 from ..model.solution import Solution
 from ..read import scene_objects
 from ..solver.live_optimizer import BuildTarget
@@ -251,13 +251,10 @@ class REFLINES_OT_delete_handles(bpy.types.Operator):
         cls.poll_message_set("Make a panel active that has handles")
         return ob is not None and bool(ob.reflection_lines.handles.text)
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = scene_objects.find_active_object(context)
-        try:
-            left = self.find_left(ob)
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        left = self.find_left(ob)
         for note in ob.reflection_lines.handles.keep(left, ob.data):
             self.report({'WARNING'}, f"{ob.name}: {note}")
         return {'FINISHED'}

@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import EnumProperty
 
-from ..model.refusal import Refusal
+from ..model.refusal import report_refusals
 from ..read import border_segments, scene_objects
 from ..ui.tool_properties import BORDERS
 
@@ -29,13 +29,10 @@ of selected faces it is set at their rim"""
         cls.poll_message_set("Select edges or vertices of a panel's border in Edit Mode")
         return scene_objects.has_edited_selection(context, "total_vert_sel")
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         objects = [ob for ob in scene_objects.list_edited_meshes(context) if ob.data.total_vert_sel > 0]
-        try:
-            counts = border_segments.set_selected_borders(objects, self.border)
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        counts = border_segments.set_selected_borders(objects, self.border)
         label = next(item[1] for item in (*BORDERS, UNSET) if item[0] == self.border)
         counted = (f"{ob.name}: {count} vertices" for ob, count in zip(objects, counts, strict=True) if count)
         self.report({'INFO'}, f"Border {label}, {'; '.join(counted)}")

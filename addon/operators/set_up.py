@@ -4,7 +4,7 @@ import numpy as np
 from bpy.props import EnumProperty, FloatVectorProperty
 from mathutils import Matrix, Vector
 
-from ..model.refusal import Refusal
+from ..model.refusal import Refusal, report_refusals
 from ..read import scene_objects
 from ..state import last_panels
 from ..view import light_angles, light_arrow, view_camera
@@ -43,14 +43,11 @@ light direction where there are none, and show the stripes"""
         cls.poll_message_set("Make the panel's mesh the active object")
         return last_panels.find_panel(context) is not None
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reflection_lines
-        try:
-            if self.part != 'LIGHT':
-                self.aim_camera(context, settings.picture_camera() if self.part == 'ALL' else None)
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        if self.part != 'LIGHT':
+            self.aim_camera(context, settings.picture_camera() if self.part == 'ALL' else None)
         if self.part == 'LIGHT' or (self.part == 'ALL' and not settings.present(settings.light)):
             settings.light = light_arrow.add_light_arrow(
                 context, Vector(self.direction) if self.part == 'LIGHT' else Vector())

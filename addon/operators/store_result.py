@@ -4,7 +4,7 @@ from collections.abc import Iterable
 import bpy
 import numpy as np
 
-from ..model.refusal import Refusal
+from ..model.refusal import Refusal, report_refusals
 from ..model.solution import LastSolve
 from ..read import mesh_checks, read_mesh, scene_objects
 from ..solver import solve
@@ -25,17 +25,14 @@ mesh's vertices, for shaders, modifiers and other programs"""
         cls.poll_message_set("Make a panel active that is as a tool left it")
         return ob is not None and ob.type == 'MESH' and solve_history.find_last_solve(ob.name_full) is not None
 
+    @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = scene_objects.read_active_object(context)
         if ob.mode == 'EDIT':
             ob.update_from_editmode()
         solution = solve_history.find_last_solve(ob.name_full)
         values = {f"reflines_{name}": each for name, each in solve.compute_vertex_values(solution).items()}
-        try:
-            self.refuse_unfit(ob, solution, values)
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        self.refuse_unfit(ob, solution, values)
         for name, each in values.items():
             everywhere = np.zeros(len(ob.data.vertices))
             everywhere[solution.patch.index] = each
