@@ -4,12 +4,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .border import CODES
+
 
 @dataclass(frozen=True)
 class Crossing:
     """The choice of what a border follows."""
     everywhere: bool  # whether the whole border does, or only the segments that are set so
     joint: frozenset[str] = frozenset()  # names of objects that are solved with this one
+    cages: frozenset[str] = frozenset()  # those of them that are solved for their cages
+
+    def concerns(self, border: np.ndarray) -> bool:
+        """Returns whether something of a border with these codes (#V) follows."""
+        return self.everywhere or bool((border == CODES["follow"]).any())
 
 
 @dataclass(frozen=True)

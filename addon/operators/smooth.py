@@ -15,6 +15,7 @@ from ..model.refusal import Refusal
 from ..model.solution import BuildCrossed, Solution, SolveSettings
 from ..model.view import View
 from ..native_call import run_now
+from ..read import modifiers
 from ..solver import solve
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
@@ -136,8 +137,9 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
     def choose_crossing(self) -> Crossing | None:
         if not self.is_automatic():
             return None
-        joint = [ob.name for ob in self.find_subjects(bpy.context) if ob.mode == 'EDIT']
-        return Crossing(self.border == 'follow', frozenset(joint))
+        joint = [ob for ob in self.find_subjects(bpy.context) if ob.mode == 'EDIT']
+        cages = [ob.name for ob in joint if self.solve_for == 'CAGE' and modifiers.is_cage(ob)]
+        return Crossing(self.border == 'follow', frozenset(ob.name for ob in joint), frozenset(cages))
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
         """Returns the objects in the order of their names, so that no result depends on the order of their selection.

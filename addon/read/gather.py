@@ -1,10 +1,12 @@
 """Gathers the patch of an object: of its cage or of its mesh, whichever is solved for."""
+from dataclasses import replace
+
 import bpy
 import numpy as np
 
 from ..model.beside import Crossing
 from ..model.patch import Patch
-from . import modifiers, read_cage, read_patch, shape_keys
+from . import modifiers, read_beside, read_cage, read_patch, shape_keys
 from .mesh_checks import Purpose
 
 
@@ -18,6 +20,9 @@ def gather_patch(ob: bpy.types.Object, solve_for: str, result: str, local: np.nd
     """
     key = shape_keys.NAME if result == 'SHAPE_KEY' else ""
     if solve_for == 'CAGE' and modifiers.is_cage(ob):
-        return read_cage.gather_cage_patch(ob, local, key, or_all=or_all, purpose=purpose)
+        patch = read_cage.gather_cage_patch(ob, local, key, or_all=or_all, purpose=purpose)
+        if crossing is None or not crossing.concerns(patch.border):
+            return patch
+        return replace(patch, beside=read_beside.measure_beside(patch))
     return read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, purpose=purpose, margin=margin,
                                         crossing=crossing)

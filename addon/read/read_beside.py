@@ -8,7 +8,7 @@ from .. import native
 from ..model import triangulation
 from ..model.beside import Beside, Crossing, Neighbors, join_soups, label_soups
 from ..model.patch import Patch, compute_bounds
-from . import read_mesh, read_surroundings, region_faces
+from . import modifiers, read_mesh, read_surroundings, region_faces
 
 WIDER = 1.05  # than the two lengths that a press takes in
 NEIGHBOR_MARGIN = 0.25  # of the diagonal: what lies across a gap, and enough of it to tell how it runs on
@@ -23,13 +23,21 @@ def read_beside(ob: bpy.types.Object, patch: Patch, whole: np.ndarray, crossing:
     visible faces, and those of other objects as their modifiers leave them. In Edit Mode the mesh must have been
     updated from it. Nothing of it is changed.
     """
-    gap = native.reflines.AUTOMATIC_GAP * patch.diagonal
-    margin = WIDER * native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * patch.diagonal
+    nothing = measure_beside(patch)
     low, high = compute_bounds(patch.V)
-    box = low - gap - margin, high + gap + margin
+    margin = nothing.gap + nothing.margin
+    box = low - margin, high + margin
     own = cut_near(ob.data, whole, ~patch.faces, box, turned=np.linalg.det(patch.matrix[:3, :3]) < 0.0)
     others = [soup for _, soup in read_others(ob, box, crossing)]
-    return Beside(*join_soups([own, *others]), gap, margin)
+    return nothing.add_soups([own, *others])
+
+
+def measure_beside(patch: Patch) -> Beside:
+    """Measures how wide a gap beside a region is crossed and how far beyond it is read, without reading what is there.
+    """
+    gap = native.reflines.AUTOMATIC_GAP * patch.diagonal
+    margin = WIDER * native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * patch.diagonal
+    return Beside(*join_soups([]), gap, margin)
 
 
 def read_neighbors(ob: bpy.types.Object, V: np.ndarray) -> Neighbors:
@@ -72,7 +80,18 @@ def read_near(other: bpy.types.Object, matrix: np.ndarray, box: Box, crossing: C
     """
     if other.mode == 'EDIT':
         other.update_from_editmode()
-    mesh = other.data
+        if other.name not in crossing.joint - crossing.cages and modifiers.find_shaping_modifiers(other):
+            evaluated = other.evaluated_get(bpy.context.evaluated_depsgraph_get())
+            found = cut_object(other, evaluated.to_mesh(), matrix, box, crossing)
+            evaluated.to_mesh_clear()
+            return found
+    return cut_object(other, other.data, matrix, box, crossing)
+
+
+def cut_object(other: bpy.types.Object, mesh: bpy.types.Mesh, matrix: np.ndarray, box: Box, crossing: Crossing) -> Soup:
+    """Cuts what of an object's mesh is near a box, and not part of what is solved; a subdivided face is as selected as
+    the one that it was cut from.
+    """
     local = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", local)
     local = local.reshape(-1, 3)

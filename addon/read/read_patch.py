@@ -6,7 +6,6 @@ import numpy as np
 
 from ..model import triangulation
 from ..model.beside import Crossing
-from ..model.border import CODES
 from ..model.mirror import Mirror
 from ..model.patch import Patch, compute_bounds
 from ..model.refusal import Refusal
@@ -45,7 +44,7 @@ def gather_mesh_patch(ob: bpy.types.Object, local: np.ndarray | None = None, key
                   read_mesh.find_face_of_triangles(ob.data, faces), matrix, key, mirror,
                   read_creases.read_creases(ob, index), border_segments.read_border(ob, index), around,
                   read_limit_range.read_limit_range(ob, index))
-    if crossing is None or not (crossing.everywhere or (patch.border == CODES["follow"]).any()):
+    if crossing is None or not crossing.concerns(patch.border):
         return patch
     return replace(patch, beside=read_beside.read_beside(ob, patch, whole, crossing))
 

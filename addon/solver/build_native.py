@@ -5,6 +5,7 @@ import numpy as np
 
 from .. import native
 from ..model.border import CODES, UNSET, needs_surroundings
+from ..model.cage import Option
 from ..model.refusal import Refusal
 from ..native_call import call
 from .panel_problem import (
@@ -53,18 +54,27 @@ async def build_cage_smoother(problem: PanelProblem, border: str, settings: Pres
     if fair:
         raise Refusal(f"{problem.patch.name}: the border of a cage cannot be faired: switch Fair Border off, or solve "
                       "for the mesh")
+    return await call(
+        native.reflines.PanelSmoother.create_for_cage, **choose_cage_press(problem),
+        border=choose_border(problem, border), **settings)
+
+
+def choose_cage_press(problem: PanelProblem) -> dict[str, Option | np.ndarray | None]:
+    """Returns the cage and the directions as arguments of the native presses."""
     arguments = problem.patch.cage.build_arguments(problem.is_symmetric)
     arguments["limit_surface"] = arguments.pop("limit")
-    return await call(
-        native.reflines.PanelSmoother.create_for_cage, **arguments, **choose_press_directions(problem),
-        border=choose_border(problem, border), **settings)
+    return {**arguments, **choose_press_directions(problem)}
 
 
 def build_joint_panel(problem: PanelProblem, border: str, settings: PressSettings) -> "native.JointPanel":
     """Builds the panel of a press of several from a patch that follows what lies beside it; raises the module's errors.
     """
-    beside, around = join_beside(problem), join_surroundings(problem)
     codes = np.where(find_following(problem, border), CODES["follow"], fill_codes(problem, border))
+    if problem.is_cage:
+        beside = problem.patch.beside
+        return native.reflines.JointPanel.for_cage(
+            **choose_cage_press(problem), border=codes, gap=beside.gap, reach=beside.margin, **settings)
+    beside, around = join_beside(problem), join_surroundings(problem)
     return native.reflines.JointPanel(
         **choose_press_mesh(problem), border=codes, around=(around.V, around.F), beside=(beside.V, beside.F),
         gap=beside.gap, reach=beside.margin, **settings)

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from .. import native
-from ..model.cage import CagePatch
 from ..model.patch import Patch
 from ..model.solution import Solution
 from ..model.view import View
@@ -16,7 +15,7 @@ from .panel_problem import PanelProblem, pose_problem
 
 def can_join(patch: Patch, settings: AutomaticSmooth) -> bool:
     """Returns whether a patch takes part in a joint press: it follows its neighbours."""
-    return patch.beside is not None and not isinstance(patch, CagePatch) and not settings.fair_border
+    return patch.beside is not None and not settings.fair_border
 
 
 def show_to_others(patches: Sequence[Patch], settings: AutomaticSmooth) -> list[Patch]:

@@ -11,6 +11,7 @@
 #include "python/array_arguments.h"
 #include "python/bind.h"
 #include "python/border_codes.h"
+#include "python/cage_arrays.h"
 #include "python/exclusive_use.h"
 #include "python/index_arrays.h"
 #include "python/native_call.h"
@@ -43,6 +44,26 @@ JointPanel make_panel(const Positions& V, const Indices& F, const Vector3& view_
   return panel;
 }
 
+JointPanel make_cage_panel(const Positions& V, const Indices& face_offsets, const Indices& face_vertices,
+                           const Vector3& view_direction, const Vector3& line_direction,
+                           const std::optional<Mask>& region, const Codes& border, const std::optional<Mask>& fixed,
+                           const std::optional<Indices>& partner, const std::optional<Indices>& image_of, int level,
+                           const std::string& scheme, const std::string& boundary, const Indices& creases,
+                           const Numbers& crease_sharpness, const Indices& corners, const Numbers& corner_sharpness,
+                           bool limit_surface, const std::string& lights, const std::optional<LightSet>& set,
+                           const std::optional<LightSet>& judges, const std::optional<double>& length, double flaw_size,
+                           bool symmetric, const std::optional<double>& gap, const std::optional<double>& reach) {
+  JointCage own{cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
+                        static_cast<int>(V.rows())),
+                V, cage_options_of(region, border, V.rows(), fixed, partner)};
+  if (image_of) own.options.image_of = index_vector(*image_of);
+  own.options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
+  JointPanel panel{{}, {}, view_direction, line_direction, options_of(lights, set, judges, length, flaw_size, symmetric)};
+  panel.gap = {given(gap, "The gap"), given(reach, "The reach")};
+  panel.cage = std::make_shared<const JointCage>(std::move(own));
+  return panel;
+}
+
 std::function<std::unique_ptr<JointSmoother>()> prepare_smoother(const std::vector<JointPanel>& panels) {
   return [panels] { return std::make_unique<JointSmoother>(panels); };
 }
@@ -71,6 +92,7 @@ py::object press(JointSmoother& smoother, const std::vector<double>& strengths,
 
 void bind_joint_smoother(py::module_& module) {
   const SmoothPanelOptions defaults;
+  const SubdivisionOptions subdivision;
   py::class_<JointPanel>(module, "JointPanel", py::module_local())
       .def(py::init(&make_panel), py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"),
            py::arg("line_direction"), py::arg("border") = "follow", py::arg("fixed") = py::none(),
@@ -78,7 +100,18 @@ void bind_joint_smoother(py::module_& module) {
            py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("judges") = py::none(),
            py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
            py::arg("symmetric") = defaults.symmetric, py::arg("beside") = py::none(), py::arg("gap") = py::none(),
-           py::arg("reach") = py::none());
+           py::arg("reach") = py::none())
+      .def_static("for_cage", &make_cage_panel, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
+                  py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),
+                  py::arg("border") = "follow", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
+                  py::arg("image_of") = py::none(), py::arg("level") = subdivision.level,
+                  py::arg("scheme") = "catmull_clark", py::arg("boundary") = "all", py::arg("creases") = Indices(),
+                  py::arg("crease_sharpness") = Numbers(), py::arg("corners") = Indices(),
+                  py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
+                  py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("judges") = py::none(),
+                  py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
+                  py::arg("symmetric") = defaults.symmetric, py::arg("gap") = py::none(),
+                  py::arg("reach") = py::none());
   py::class_<JointSmoother>(module, "JointSmoother", py::module_local())
       .def(py::init(construct(&prepare_smoother)), py::arg("panels"))
       .def_static("create", create(&prepare_smoother), py::arg("panels"))

@@ -334,6 +334,20 @@ class JointPanel:
                  length: float | None = None, flaw_size: float = 1.0,
                  symmetric: bool = True, beside: tuple[np.ndarray, np.ndarray] | None = None, gap: float | None = None,
                  reach: float | None = None) -> None: ...
+    @staticmethod
+    def for_cage(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
+                 view_direction: Sequence[float], line_direction: Sequence[float],
+                 region: np.ndarray | None = None, border: Border | np.ndarray = "follow",
+                 fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
+                 image_of: np.ndarray | None = None, level: int = 2, scheme: Scheme = "catmull_clark",
+                 boundary: Boundary = "all", creases: np.ndarray = ..., crease_sharpness: np.ndarray = ...,
+                 corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit_surface: bool = True,
+                 lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None,
+                 judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0,
+                 symmetric: bool = True, gap: float | None = None, reach: float | None = None) -> JointPanel:
+        """Makes the panel of a cage, with the arguments of smooth_cage_panel. Its surface faces the other panels; what of its border
+        faces none is clamped. It takes of its surface's move what it can, and as much as makes lines more even; the rims of meshes
+        across follow it."""
 
 class JointSmoother:
     """Presses of Smooth on several panels that face each other over gaps: lines are smoothed across as inside, and both sides of a

@@ -4,12 +4,20 @@
 #include <memory>
 #include <vector>
 
+#include "reflines/cage_optimizer.h"
 #include "reflines/gap_continuation.h"
 #include "reflines/panel_smoother.h"
 #include "reflines/smooth_panel.h"
 #include "reflines/types.h"
 
 namespace reflines {
+
+// The cage of a panel that is a subdivision surface, whose vertices move instead of the surface's.
+struct JointCage {
+  Cage cage;
+  Positions V;          // #C x 3
+  CageOptions options;  // of the border, what has Border::kFollow follows other panels and is clamped elsewhere
+};
 
 // One panel of several, as smooth_panel takes it. Its border vertices with Border::kFollow follow the other panels, and
 // what lies beside but is no panel, over gaps; see continue_over_gap. `options.around` are the faces joined with it,
@@ -25,6 +33,9 @@ struct JointPanel {
   // True: border vertices with Border::kFollow that `options.around` has triangles at follow these, as in smooth_panel,
   // instead of `V_beside`.
   bool around_is_followed = false;
+  // Or null. With a cage V, F, `V_beside` and what `options` say of vertices are not read, and the result's positions
+  // are the cage's.
+  std::shared_ptr<const JointCage> cage = nullptr;
 };
 
 class JointPress;
@@ -38,9 +49,11 @@ class JointPress;
 //  4. what the moves turned at the gap is turned back, half by each side.
 // Flaws are as long as those of a panel of the size of all that face each other, within 1.5 times their length on each
 // alone; moves saturate at the limit. All sides take each step before any takes the next, so the order of the panels
-// does not matter. Where a panel would have a worse place than before, or a light would become worse, all are pressed
-// with a border that is clamped towards the others, and their reports say so. A panel that faces no other is pressed as
-// smooth_panel does.
+// does not matter. A cage takes of its surface's move what it can, and as much as makes its lines more even; the meshes
+// across follow its rim then. Where a panel would have a worse place than before, or a light would become worse, kinks
+// are left (without 3 and 4), and so they are where a place would become half as bad as the worst one before; where a
+// panel would still be worse, all are pressed with a border that is clamped towards the others, and their reports say
+// so. A panel that faces no other is pressed as smooth_panel does.
 class JointSmoother {
  public:
   // Throws InvalidInput as smooth_panel does. Keeps no reference to its arguments.

@@ -72,6 +72,19 @@ Vector CageControlledSurface::gather_faces(const Vector& values) const {
   return (squares.array() / areas.array().max(1e-300)).sqrt();
 }
 
+Vector CageControlledSurface::fit(const Vector& surface_move) {
+  optimizer().reset();
+  const Vector area = optimizer().area();
+  Vector weight = Vector::Zero(surface_move.size());
+  for (Eigen::Index t = 0; t < area.size(); ++t) {
+    for (const int v : triangles().row(t)) weight(v) += area(t) / 3;
+  }
+  optimizer_->fit(optimizer().heights() + surface_move, weight);
+  const Vector move = control_move();
+  optimizer().reset();
+  return move;
+}
+
 Mask CageControlledSurface::controls_of(const Mask& vertices) const {
   return (optimizer_->influence().transpose() * vertices.cast<double>().matrix()).array() > 0;
 }

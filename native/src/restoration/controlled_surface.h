@@ -102,6 +102,10 @@ class CageControlledSurface : public ControlledSurface {
   Vector surface_move(const Vector& control_move) const override { return optimizer_->influence() * control_move; }
   Mask controls_of(const Mask& vertices) const override;
   Vector gather_faces(const Vector& values) const override;
+
+  // Returns the moves of the free control vertices (#C) that make the surface move most nearly as wanted (#V), by least
+  // squares over its area.
+  Vector fit(const Vector& surface_move);
   void hold(const Mask& vertices) override;
   void rebuild() override;
   void watch(std::shared_ptr<Progress> progress) override;

@@ -14,7 +14,7 @@ namespace {
 
 // Returns the amount for the vertices of a panel that are in faces.
 PressAmount narrow(const JointSide& side, const JointPanel& panel, PressAmount amount) {
-  if (amount.limit_share.exists()) {
+  if (amount.limit_share.exists() && !panel.cage) {
     const UsedVertices used = find_used_vertices(panel.F, static_cast<int>(panel.V.rows()));
     amount.limit_share = {amount.limit_share.lowest(used.index), amount.limit_share.highest(used.index)};
   }
@@ -24,23 +24,25 @@ PressAmount narrow(const JointSide& side, const JointPanel& panel, PressAmount a
 
 }  // namespace
 
-JointPress::JointPress(std::vector<JointPanel> panels, const std::vector<PressAmount>& amounts)
-    : panels_(std::move(panels)) {
+JointPress::JointPress(std::vector<JointPanel> panels, const std::vector<PressAmount>& amounts) {
+  for (JointPanel& panel : panels) panels_.push_back(panel.cage ? read_surface(panel) : CagePanel{std::move(panel), {}});
   for (size_t k = 0; k < panels_.size(); ++k) sides_.push_back(std::make_unique<JointSide>(panels_[k], amounts[k]));
   for (size_t k = 0; k < sides_.size(); ++k) sides_[k]->face(others_of(k));
   widen_flaws();
 }
 
 std::vector<SmoothPanelResult> JointPress::run(std::vector<PressAmount> amounts) {
-  for (size_t k = 0; k < sides_.size(); ++k) amounts[k] = narrow(*sides_[k], panels_[k], amounts[k]);
+  for (size_t k = 0; k < sides_.size(); ++k) amounts[k] = narrow(*sides_[k], panels_[k].panel, amounts[k]);
   std::vector<SmoothPanelResult> results = press_jointly(amounts);
-  for (size_t k = 0; k < sides_.size(); ++k) results[k].positions = widen(k, results[k].positions);
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (!sides_[k]->is_cage()) results[k].positions = widen(k, results[k].positions);
+  }
   return results;
 }
 
 Positions JointPress::widen(size_t k, const Positions& used_positions) const {
-  Positions all = panels_[k].V;
-  all(find_used_vertices(panels_[k].F, static_cast<int>(all.rows())).index, Eigen::all) = used_positions;
+  Positions all = panels_[k].panel.V;
+  all(find_used_vertices(panels_[k].panel.F, static_cast<int>(all.rows())).index, Eigen::all) = used_positions;
   return all;
 }
 
@@ -125,10 +127,11 @@ JointPress::Across JointPress::find_across(size_t own, int v) const {
 double JointPress::find_difference(size_t own, int v) const {
   const JointSide& side = *sides_[own];
   const auto [number, place] = find_across(own, v);
+  if (side.is_firm()) return 0;
   if (number < 0 || !is_joint(number)) return -side.move()(v);
   const JointSide& other = *sides_[number];
   const auto between = [share = place.share](double a, double b) { return (1 - share) * a + share * b; };
-  const double movable = between(other.joint()(place.first), other.joint()(place.second));
+  const double movable = other.is_firm() ? 0 : between(other.joint()(place.first), other.joint()(place.second));
   const double across = between(other.move()(place.first), other.move()(place.second));
   return (1 - 0.5 * movable) * (across * other.axis().dot(side.axis()) - side.move()(v));
 }
@@ -142,17 +145,34 @@ void JointPress::even_rims() {
     }
   }
   for (size_t k = 0; k < sides_.size(); ++k) {
-    if (is_joint(k)) sides_[k]->even(changes[k]);
+    if (is_joint(k) && !sides_[k]->is_firm()) sides_[k]->even(changes[k]);
   }
   if (!is_limited()) return;
   for (size_t k = 0; k < sides_.size(); ++k) {  // all of them, so that rims still move alike
-    if (is_joint(k)) sides_[k]->saturate();
+    if (is_joint(k) && !sides_[k]->is_firm()) sides_[k]->saturate();
   }
 }
 
 bool JointPress::is_limited() const {
   return std::any_of(sides_.begin(), sides_.end(),
-                     [](const auto& side) { return side->is_joint() && side->is_beyond_limit(); });
+                     [](const auto& side) { return side->is_joint() && !side->is_firm() && side->is_beyond_limit(); });
+}
+
+// Lets cages take what they can of their moves, a second time after both sides of each gap were evened, and then all
+// others follow their rims.
+void JointPress::settle_cages() {
+  std::vector<JointSide*> cages;
+  for (const auto& side : sides_) {
+    if (side->is_cage() && side->is_joint()) cages.push_back(side.get());
+  }
+  if (cages.empty()) return;
+  for (JointSide* cage : cages) cage->take_shape();
+  even_rims();
+  for (JointSide* cage : cages) {
+    cage->take_shape();
+    cage->make_firm();
+  }
+  even_rims();
 }
 
 void JointPress::find_moves(const std::vector<PressAmount>& amounts) {
@@ -164,24 +184,42 @@ void JointPress::find_moves(const std::vector<PressAmount>& amounts) {
   even_rims();
 }
 
-void JointPress::move_jointly(const std::vector<PressAmount>& amounts) {
+void JointPress::move_jointly(const std::vector<PressAmount>& amounts, Kinks kinks) {
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (is_joint(k)) sides_[k]->begin(amounts[k]);
   }
   find_moves(amounts);
-  if (begin_turned()) find_moves(amounts);
-  for (int pass = 0; pass < kRules.joint.turns_after; ++pass) turn_after();
+  if (kinks == Kinks::kGo) {
+    if (begin_turned()) find_moves(amounts);
+    for (int pass = 0; pass < kRules.joint.turns_after; ++pass) turn_after();
+  }
+  settle_cages();
+}
+
+// Judges the moves of the joint sides; returns whether none has a worse place, or one that turned kinks made bad.
+bool JointPress::judge(const std::vector<PressAmount>& amounts, Kinks kinks,
+                       std::vector<SmoothPanelResult>& results) {
+  bool good = true;
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (!is_joint(k)) continue;
+    results[k] = sides_[k]->judge(amounts[k]);
+    const HealedFlaws& healed = results[k].report.healed;
+    good = good && results[k].report.applied && !has_worse_place(healed);
+    if (kinks == Kinks::kGo) good = good && healed.worse.after <= kRules.joint.kink_worse * healed.worst_before;
+  }
+  return good;
 }
 
 std::vector<SmoothPanelResult> JointPress::press_jointly(const std::vector<PressAmount>& amounts) {
-  move_jointly(amounts);
   std::vector<SmoothPanelResult> results(sides_.size());
-  bool good = true;
   for (size_t k = 0; k < sides_.size(); ++k) {
-    results[k] = is_joint(k) ? sides_[k]->judge(amounts[k]) : sides_[k]->press_alone(amounts[k]);
-    if (is_joint(k)) good = good && results[k].report.applied && !has_worse_place(results[k].report.healed);
+    if (!is_joint(k)) results[k] = sides_[k]->press_alone(amounts[k]);
   }
-  for (size_t k = 0; k < sides_.size() && !good; ++k) {
+  for (const Kinks kinks : {Kinks::kGo, Kinks::kStay}) {
+    move_jointly(amounts, kinks);
+    if (judge(amounts, kinks, results)) return results;
+  }
+  for (size_t k = 0; k < sides_.size(); ++k) {
     if (is_joint(k)) results[k] = sides_[k]->press_clamped(amounts[k]);
   }
   return results;

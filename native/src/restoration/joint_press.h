@@ -17,6 +17,8 @@ class JointPress {
   std::vector<SmoothPanelResult> run(std::vector<PressAmount> amounts);
 
  private:
+  enum class Kinks { kGo, kStay };  // along gaps
+
   struct Across {
     int side = -1;
     RimPlace place{};
@@ -33,11 +35,13 @@ class JointPress {
   Across find_across(size_t own, int v) const;
   double find_difference(size_t own, int v) const;
   void even_rims();
+  void settle_cages();
   void find_moves(const std::vector<PressAmount>& amounts);
-  void move_jointly(const std::vector<PressAmount>& amounts);
+  void move_jointly(const std::vector<PressAmount>& amounts, Kinks kinks);
+  bool judge(const std::vector<PressAmount>& amounts, Kinks kinks, std::vector<SmoothPanelResult>& results);
   std::vector<SmoothPanelResult> press_jointly(const std::vector<PressAmount>& amounts);
 
-  std::vector<JointPanel> panels_;
+  std::vector<CagePanel> panels_;
   std::vector<std::unique_ptr<JointSide>> sides_;  // refer to panels_
 };
 

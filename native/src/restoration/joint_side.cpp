@@ -9,6 +9,7 @@
 
 #include "geometry/bounding_box.h"
 #include "geometry/mesh.h"
+#include "restoration/cage_press.h"
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
 #include "restoration/joined_options.h"
@@ -22,6 +23,7 @@
 namespace reflines {
 namespace {
 
+constexpr double kHeldByCage = 1e-9;  // influence of the free vertices of a cage
 constexpr double kWhole = std::numeric_limits<double>::infinity();
 
 // Returns the edges of the border as triangles without area: first, second, second.
@@ -60,15 +62,16 @@ Vector mirror_alike(const IndexVector& partner, Vector change) {
 
 }  // namespace
 
-JointSide::JointSide(const JointPanel& panel, const PressAmount& amount)
-    : panel_(panel),
-      used_(find_used_vertices(panel.F, static_cast<int>(panel.V.rows()))),
-      V_(panel.V(used_.index, Eigen::all)),
+JointSide::JointSide(const CagePanel& panel, const PressAmount& amount)
+    : panel_(panel.panel),
+      corner_(panel.corner),
+      used_(find_used_vertices(panel_.F, static_cast<int>(panel_.V.rows()))),
+      V_(panel_.V(used_.index, Eigen::all)),
       F_(used_.F),
-      families_(make_families(panel.view_direction, panel.line_direction, panel.options)),
-      shape_(choose_shape(used_, panel.options, panel.V.rows())),
-      options_(panel.options),
-      gap_(panel.gap.gap > 0 ? panel.gap.gap : kAutomaticGap * bounding_box_diagonal(V_)),
+      families_(make_families(panel_.view_direction, panel_.line_direction, panel_.options)),
+      shape_(choose_shape(used_, panel_.options, panel_.V.rows())),
+      options_(panel_.options),
+      gap_(panel_.gap.gap > 0 ? panel_.gap.gap : kAutomaticGap * bounding_box_diagonal(V_)),
       joint_(Mask::Constant(V_.rows(), false)),
       still_(joint_),
       rim_(find_rim_edges(F_)) {
@@ -133,6 +136,10 @@ ShapeOptions JointSide::clamp_joint() const {
 }
 
 SmoothPanelResult JointSide::press_alone(const PressAmount& amount) {
+  if (is_cage()) {
+    if (!other_) other_ = prepare_cage(*panel_.cage, panel_.view_direction, families_, panel_.options, amount);
+    return other_->run(amount);
+  }
   const ShapeOptions shape = clamp_joint();
   const auto prepare = follows(shape.border) ? prepare_followed_border : prepare_held_border;
   if (!other_) other_ = prepare(V_, F_, panel_.view_direction, families_, shape, options_);
@@ -145,15 +152,28 @@ SmoothPanelResult JointSide::press_clamped(const PressAmount& amount) {
   return result;
 }
 
-void JointSide::begin(const PressAmount& amount) {
-  if (!region_) {
-    region_ = std::make_unique<MeshSurface>(V_, F_, panel_.view_direction, families_, own_);
-    alone_ = std::make_unique<Restoration>(*region_, joint_options_);
-    free_ = region_->optimizer().free();
-    joint_ = joint_ && free_;
+void JointSide::build_region() {
+  if (is_cage()) {
+    JointCage own = free_border(*panel_.cage, corner_, joint_);
+    set_restoration_rules(options_, {}, kRules.cage.proximity, own.options.shape);
+    cage_ = std::make_unique<CageControlledSurface>(own.cage, own.V, panel_.view_direction, families_, own.options);
+    const Vector share = cage_->surface_move(cage_->control_free().cast<double>());
+    own_.held = share.array() < kHeldByCage;
   }
+  region_ = std::make_unique<MeshSurface>(V_, F_, panel_.view_direction, families_, own_);
+  alone_ = std::make_unique<Restoration>(*region_, joint_options_);
+  free_ = region_->optimizer().free();
+  joint_ = joint_ && free_;
+}
+
+void JointSide::begin(const PressAmount& amount) {
+  if (!region_) build_region();
   alone_->choose(amount);
-  range_ = std::make_unique<ControlRange>(alone_->report().limit, amount.limit_share, V_.rows());
+  const double limit = alone_->report().limit;
+  range_ = std::make_unique<ControlRange>(limit, is_cage() ? MoveLimit{} : amount.limit_share, V_.rows());
+  if (is_cage())
+    control_range_ = std::make_unique<ControlRange>(limit, amount.limit_share, panel_.cage->V.rows());
+  firm_ = false;
   move_ = turned_ = Vector::Zero(V_.rows());
 }
 
@@ -223,6 +243,14 @@ void JointSide::press(const Skin& others, const PressAmount& amount) {
   const Vector found = press_->find_move(unlimited);
   move_ = turned_ + found.head(V_.rows());
   beside_ = found.tail(joined_.V.rows() - V_.rows());
+  if (is_cage()) gain_ = weigh_gain();
+}
+
+// Returns the share that a cage makes of its move, by what it can take of that.
+double JointSide::weigh_gain() const {
+  Vector move(joined_.V.rows());
+  move << cage_->surface_move(cage_->fit(move_)) - turned_, beside_;
+  return press_->weigh_gain(move);
 }
 
 void JointSide::even(const Vector& change) {
@@ -241,6 +269,26 @@ void JointSide::saturate() {
   beside_ = ControlRange(alone_->report().limit, {}, beside_.size()).saturate(beside_);
 }
 
+void JointSide::take_shape() {
+  const double share = std::exchange(gain_, 1.0);
+  control_ = share * cage_->fit(move_);
+  limited_ = static_cast<int>(control_range_->find_beyond(control_).count());
+  if (limited_ > 0) control_ = control_range_->saturate(control_);
+  move_ = cage_->surface_move(control_);
+}
+
+// Returns the result for a cage from that for its surface.
+SmoothPanelResult JointSide::read_cage(SmoothPanelResult surface, const PressAmount& amount) const {
+  const Vector move = amount.strength * control_;
+  SmoothPanelReport& report = surface.report;
+  surface.positions = control_range_->apply(panel_.cage->V, axis(), move);
+  report.largest_control_move = move.cwiseAbs().maxCoeff();
+  for (Vector* values : {&report.stray, &report.verdict}) {
+    if (values->size() > 0) *values = cage_->gather_faces(*values);
+  }
+  return surface;
+}
+
 SmoothPanelResult JointSide::judge(const PressAmount& amount) {
   Vector move(joined_.V.rows());
   move << move_ - turned_, beside_;
@@ -249,8 +297,9 @@ SmoothPanelResult JointSide::judge(const PressAmount& amount) {
   judged.report.limited = limited_;
   if (limited_ > 0) judged.report.notes = tell_result(judged.report);
   const TangentMatch match{joined_, V_.rows(), F_.rows(), turned_border_, region_->optimizer().frame()};
-  return take_region({judged, V_, *range_, region_->optimizer().region(), alone_->report().limit}, match,
-                     amount.strength * move_, amount.strength * turned_);
+  SmoothPanelResult own = take_region({judged, V_, *range_, region_->optimizer().region(), alone_->report().limit}, match,
+                                      amount.strength * move_, amount.strength * turned_);
+  return is_cage() ? read_cage(std::move(own), amount) : own;
 }
 
 RimPlace JointSide::find_rim(const Vector3& point, double within) const {

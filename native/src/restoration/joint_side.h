@@ -7,6 +7,7 @@
 
 #include "geometry/nearest_surface.h"
 #include "reflines/joint_smoother.h"
+#include "restoration/cage_panel.h"
 #include "restoration/control_range.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/joined_mesh.h"
@@ -38,7 +39,7 @@ struct Turn {
 
 class JointSide {
  public:
-  JointSide(const JointPanel& panel, const PressAmount& amount);
+  JointSide(const CagePanel& panel, const PressAmount& amount);
   JointSide(const JointSide&) = delete;  // parts refer to others
 
   // Finds by the shape at the start where the border faces the others, and where what stays.
@@ -64,14 +65,22 @@ class JointSide {
   // on in the others.
   void saturate();
   void turn_after(const Vector& change);
-  SmoothPanelResult judge(const PressAmount& amount);
+
+  // Replaces the move of a cage's surface by what the cage can take of it; the first time by the share that makes
+  // its lines more even.
+  void take_shape();
+  void make_firm() { firm_ = true; }  // from now on others follow its rim
+  bool is_cage() const { return panel_.cage != nullptr; }
+  bool is_firm() const { return firm_; }
+
+  SmoothPanelResult judge(const PressAmount& amount);  // positions are those of the control vertices
 
   const Mask& joint() const { return joint_; }           // #V: border vertices that face others and move with them
   const Vector& move() const { return move_; }           // #V, along axis(), so far
   bool is_beyond_limit() const { return limited_ > 0; }  // after even()
   Vector3 axis() const { return region_->optimizer().frame().z(); }
   Vector3 place(int v) const { return V_.row(v); }  // at the start
-  const IndexVector& partner() const { return shape_.partner; }
+  const IndexVector& partner() const { return is_cage() ? panel_.cage->options.partner : shape_.partner; }
   double gap() const { return gap_; }  // the widest
 
   // Finds the nearest place of the rim at the start, no further than `within`; the distance is infinite where there is
@@ -89,9 +98,13 @@ class JointSide {
   ShapeOptions choose_joined_shape(const JoinedMesh& joined) const;
   ShapeOptions clamp_joint() const;
   Positions present() const;  // #V x 3
+  void build_region();
+  double weigh_gain() const;
+  SmoothPanelResult read_cage(SmoothPanelResult surface, const PressAmount& amount) const;
   void add(const Vector& change);
 
   const JointPanel& panel_;
+  const IndexVector& corner_;  // see CagePanel
   UsedVertices used_;  // in the panel; the other numbers are of these
   Positions V_;
   Triangles F_;
@@ -114,6 +127,12 @@ class JointSide {
   std::unique_ptr<MeshSurface> surface_;
   std::unique_ptr<Restoration> press_;
   std::unique_ptr<Press> other_;  // alone or clamped
+  // Of a cage.
+  std::unique_ptr<CageControlledSurface> cage_;
+  std::unique_ptr<ControlRange> control_range_;
+  Vector control_;     // #C: moves of its vertices, after take_shape()
+  double gain_ = 1.0;  // share of the move that it makes when it takes it first
+  bool firm_ = false;
 };
 
 }  // namespace reflines

@@ -13,7 +13,10 @@
 namespace reflines {
 namespace {
 
+Eigen::Index count_vertices(const JointPanel& panel) { return panel.cage ? panel.cage->V.rows() : panel.V.rows(); }
+
 void check(const JointPanel& panel) {
+  if (panel.cage) return check_press_options(panel.options, panel.cage->V.rows());
   check_press_options(panel.options, panel.V.rows());
   check_surroundings(panel.options.around, panel.V.rows());
   check_partners(panel.options.partner, panel.V.rows());
@@ -35,7 +38,7 @@ JointSmoother::~JointSmoother() = default;
 // Presses with work that owns all that it uses, as PanelSmoother::press does.
 std::vector<SmoothPanelResult> JointSmoother::press(const std::vector<PressAmount>& amounts) {
   if (amounts.size() != panels_.size()) throw InvalidInput("Each panel needs an amount of its own.");
-  for (size_t k = 0; k < panels_.size(); ++k) check_amount(amounts[k], panels_[k].V.rows());
+  for (size_t k = 0; k < panels_.size(); ++k) check_amount(amounts[k], count_vertices(panels_[k]));
   struct Work {
     std::shared_ptr<JointPress> press;
     std::vector<SmoothPanelResult> results;

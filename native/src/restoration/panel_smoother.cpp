@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reflines/errors.h"
+#include "restoration/cage_press.h"
 #include "restoration/faired_border.h"
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
@@ -68,26 +69,6 @@ std::unique_ptr<Press> prepare_mesh(const Positions& V, const Triangles& F, cons
   return parted ? std::move(parted) : prepare_whole();
 }
 
-class CagePress : public Press {
- public:
-  CagePress(const Cage& cage, const Positions& V, const Vector3& view, const Vector3& lines, CageOptions cage_options,
-            const SmoothPanelOptions& options, const PressAmount& amount)
-      : partner_(cage_options.partner) {
-    set_restoration_rules(options, amount, kRules.cage.proximity, cage_options.shape);
-    press_ = prepare_held_cage_border(cage, V, view, make_families(view, lines, options), cage_options, options);
-  }
-
-  SmoothPanelResult run(const PressAmount& amount) override {
-    PressAmount own = amount;
-    own.limit_share = intersect_limits(amount.limit_share, partner_);
-    return press_->run(own);
-  }
-
- private:
-  IndexVector partner_;  // of the cage's vertices
-  std::unique_ptr<Press> press_;
-};
-
 }  // namespace
 
 PressAmount amount_of(const SmoothPanelOptions& options) {
@@ -110,7 +91,8 @@ PanelSmoother::PanelSmoother(const Cage& cage, const Positions& V, const Vector3
                              const Vector3& line_direction, const CageOptions& cage_options,
                              const SmoothPanelOptions& options)
     : control_count_(V.rows()), prepare_([=](const PressAmount& amount) {
-        return std::make_unique<CagePress>(cage, V, view_direction, line_direction, cage_options, options, amount);
+        const std::vector<Vector3> families = make_families(view_direction, line_direction, options);
+        return prepare_cage({cage, V, cage_options}, view_direction, families, options, amount);
       }) {
   check_press_options(options, V.rows());
   if (options.fair_border.any())

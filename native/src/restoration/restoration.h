@@ -42,6 +42,9 @@ class Restoration {
 
   const SmoothPanelReport& report() const { return report_; }  // so far: the length from the beginning
   const Mask& limited() const { return limited_; }             // #C: those that wanted to go beyond the limit
+  // Returns the share of a cage's move (#C) that is to be made; see CageRules.
+  double weigh_gain(const Vector& move);
+
   bool turns_faces(const Vector& move) const;  // a move of the control vertices, by more than 45 degrees
 
   const Mask& held_triangles() const { return held_triangles_; }  // #F: those that would have turned too far
@@ -66,7 +69,6 @@ class Restoration {
   const Unevenness& measure_start();
   bool has_longer_waves();
   Vector leave_uneven_places(const Vector& move, const Unevenness& after);
-  double weigh_gain();
   void compare_with_start(const Vector& end, Unevenness after);
   Vector tell_places(const Vector& healed) const;
   SmoothPanelResult apply(const Vector& move);
@@ -94,7 +96,7 @@ class Restoration {
   bool at_unlimited_ = false;         // the optimizer is where that solve left it
   std::optional<Unevenness> uneven_;  // of the start
   std::optional<Vector> course_;      // #V: the heights whose lines are the course of the lines without flaws
-  std::optional<double> gain_;        // see weigh_gain
+  std::optional<double> gain_;        // see weigh_gain, of the unlimited move
   std::optional<bool> longer_waves_;  // see has_longer_waves
 };
 

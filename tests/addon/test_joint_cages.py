@@ -1,0 +1,107 @@
+"""Smooth Lines on several objects in Edit Mode of which some are cages below a Subdivision Surface."""
+from pathlib import Path
+
+import bpy
+import numpy as np
+from reflection_lines.model.beside import Crossing
+from reflection_lines.read import gather
+
+import car_crossings
+import scenes
+from test_across_gap import CELLS, dented, half, places, rim_heights, start, start_several
+
+GAP = 0.008
+SAMPLES = Path(__file__).resolve().parents[2] / "blend_samples"
+
+
+def subdivide(ob: bpy.types.Object) -> None:
+    modifier = ob.modifiers.new("Subdivision", 'SUBSURF')
+    modifier.levels, modifier.boundary_smooth = 2, 'PRESERVE_CORNERS'
+    bpy.context.view_layer.update()
+
+
+def shown(ob: bpy.types.Object) -> np.ndarray:
+    """The places of the evaluated surface: #V x 3, world space."""
+    evaluated = ob.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    values = np.empty(3 * len(evaluated.to_mesh().vertices), np.float32)
+    evaluated.to_mesh().vertices.foreach_get("co", values)
+    evaluated.to_mesh_clear()
+    return values.reshape(-1, 3).astype(float)
+
+
+def depth(V: np.ndarray) -> float:
+    return float(np.abs(V[:, 2] - scenes.crown(V[:, 0], V[:, 1])).max())
+
+
+def dented_pair() -> tuple[bpy.types.Object, bpy.types.Object]:
+    """A mesh and a cage beside each other, with a dent across the gap, in Edit Mode."""
+    right, left = half("Right", 0.5 * GAP, 1.0, dented, 30), half("Left", -1.0, -0.5 * GAP, dented, 40)
+    subdivide(right)
+    start_several(left, right)
+    return left, right
+
+
+def test_a_dent_across_the_gap_to_a_cage_goes_and_the_gap_stays() -> None:
+    left, right = dented_pair()
+    before = places(left), shown(right)
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    after = places(left), shown(right)
+    assert all(depth(V) > 0.0075 for V in before) and all(depth(V) < 0.1 * 0.008 for V in after)
+    (y, _), (other_y, _) = rim_heights(before[0], -0.5 * GAP), rim_heights(before[1], 0.5 * GAP)
+    steps = [np.interp(y, other_y, rim_heights(cage, 0.5 * GAP)[1]) - rim_heights(mesh, -0.5 * GAP)[1]
+             for mesh, cage in (before, after)]
+    assert np.abs(steps[1] - steps[0]).max() < 0.01 * 0.008
+    assert [modifier.type for modifier in right.modifiers] == ['SUBSURF']
+
+
+def test_one_undo_takes_back_mesh_and_cage() -> None:
+    left, right = dented_pair()
+    bpy.ops.ed.undo_push(message="before")
+    before = places(left), places(right)
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    assert not np.array_equal(places(bpy.data.objects["Right"]), before[1])
+    bpy.ops.ed.undo()
+    assert all(np.array_equal(places(bpy.data.objects[name]), was)
+               for name, was in zip(("Left", "Right"), before, strict=True))
+
+
+def test_what_lies_beside_is_the_shown_surface_of_a_cage_in_edit_mode() -> None:
+    """Of one that is solved, too, without its region."""
+    right, left = half("Right", 0.0, 1.0, scenes.crown, 12), half("Left", -1.0, 0.0, scenes.crown)
+    subdivide(right)
+    start_several(left, right)
+    counts = []
+    for crossing in (Crossing(everywhere=True), Crossing(True, frozenset({"Left", "Right"}), frozenset({"Right"}))):
+        counts.append(len(gather.gather_patch(left, 'CAGE', 'MESH', crossing=crossing).beside.F))
+    scenes.select_faces(right, lambda face: face >= 12)
+    counts.append(len(gather.gather_patch(left, 'CAGE', 'MESH', crossing=crossing).beside.F))
+    assert counts[0] > 16 * 2 * 24 and counts[1] == 0 and 0 < counts[2] < counts[0]
+
+
+def test_a_cage_alone_with_the_border_that_follows_is_clamped() -> None:
+    results = []
+    for border in ('clamped', 'follow'):
+        bpy.ops.wm.read_homefile(use_empty=True)
+        ob = half("Cage", -1.0, 1.0, dented, CELLS)
+        subdivide(ob)
+        start(ob)
+        assert scenes.smooth(border=border) == {'FINISHED'}
+        results.append(places(ob))
+    assert np.array_equal(*results)
+
+
+def test_bonnet_wing_and_door_of_the_car_are_healed_in_one_press() -> None:
+    """Bonnet and door are meshes, the wing is a cage, and all have a Mirror; two dents lie across their shut lines."""
+    bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "car.blend"), load_ui=False)
+    bpy.ops.object.mode_set(mode='OBJECT')
+    panels = car_crossings.dent_shut_lines()
+    others = car_crossings.read_points(bpy.data.objects["Body"])[car_crossings.WING_VERTICES:]
+    assert scenes.smooth(border='follow') == {'FINISHED'}
+    worst = {ob.name: (ob.reflection_lines.report.worst_before, ob.reflection_lines.report.worst_after)
+             for ob in panels}
+    print(worst)
+    assert worst["Bonnet"][0] > 6.0 and worst["Bonnet"][1] < 0.8
+    assert worst["Doors"][0] > 3.0 and worst["Doors"][1] < 0.5
+    assert worst["Body"][0] > 6.5 and worst["Body"][1] < 2.5
+    scenes.object_mode()
+    assert np.array_equal(car_crossings.read_points(bpy.data.objects["Body"])[car_crossings.WING_VERTICES:], others)
