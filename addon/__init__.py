@@ -15,7 +15,7 @@ bl_info = {
 # unregistered backwards.
 NAMES = (
     "library_copy", "native", "native_call",
-    "model.beside", "model.border", "model.check_table", "model.checked_surface", "model.edit_cage", "model.gain",
+    "model.border", "model.beside", "model.check_table", "model.checked_surface", "model.edit_cage", "model.gain",
     "model.inspection", "model.looks",
     "model.creases", "model.line_curve", "model.mirror", "model.orientation", "model.refusal",
     "model.surroundings",

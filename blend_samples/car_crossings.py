@@ -1,12 +1,17 @@
-"""Dents across the shut lines of the car: between bonnet and wing, and between wing and door. numpy and Blender."""
+"""Dents across the shut lines of the car, which is clean elsewhere: between bonnet and wing, and between wing and door.
+numpy and Blender.
+"""
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-DIRECTION, AIM, SCALE = (0.73, -0.46, 0.51), (0.74, -1.02, 0.66), 2.3  # of the camera, which has no perspective
+import car_mesh
+import car_sheets
+
+DIRECTION, AIM, SCALE = (0.73, -0.46, 0.51), (0.76, -1.05, 0.62), 2.0  # of the camera, which has no perspective
 # Place on a shut line, the way outwards, radius and depth, metres.
-DENTS = (((0.666, -1.495, 0.805), (0.17, -0.20, 0.96), 0.050, 0.0020),
-         ((0.846, -0.675, 0.540), (1.0, 0.01, -0.05), 0.065, 0.0020))
+DENTS = (((0.666, -1.495, 0.805), (0.17, -0.20, 0.96), 0.055, 0.0020),
+         ((0.842, -0.681, 0.500), (1.0, 0.0, -0.02), 0.055, 0.0020))
 WING, WING_VERTICES = 840, 912  # faces and vertices of the body, its first ones: the cage of the wing
 
 
@@ -26,11 +31,17 @@ def read_points(ob: bpy.types.Object) -> np.ndarray:
     return values.reshape(-1, 3).astype(float)
 
 
+def read_clean_points(ob: bpy.types.Object) -> np.ndarray:
+    """The vertices of a panel in Object Mode as they are without flaws."""
+    sheets = dict(zip(("Bonnet", "Doors"), car_sheets.dense_sheets(), strict=True))
+    return car_mesh.dense_of(sheets[ob.name], flawed=False).V if ob.name in sheets else read_points(ob)
+
+
 def dent_shut_lines() -> list[bpy.types.Object]:
     """In Object Mode of the opened car: dents it, looks at it, and selects bonnet, door and wing in Edit Mode."""
     panels = [bpy.data.objects[name] for name in ("Bonnet", "Doors", "Body")]
     for ob in panels:
-        ob.data.vertices.foreach_set("co", dent(read_points(ob)).astype(np.float32).ravel())
+        ob.data.vertices.foreach_set("co", dent(read_clean_points(ob)).astype(np.float32).ravel())
         chosen = np.arange(len(ob.data.polygons)) < (WING if ob.name == "Body" else len(ob.data.polygons))
         for kind in (ob.data.vertices, ob.data.edges):
             kind.foreach_set("select", np.zeros(len(kind), bool))

@@ -32,8 +32,8 @@ def take(_: window.Window) -> Steps:
     press_smooth(driver)
     print(f"car: {bpy.context.view_layer.objects.active.reflection_lines.report.headline()}")
     yield from shoot(driver, "after")
-    join([pictures.pixels(FOLDER / f"{name}.png")[LOW[1]:HIGH[1], LOW[0]:HIGH[0]] for name in ("before", "after")], "car",
-         WIDTH, QUALITY)
+    shots = [pictures.pixels(FOLDER / f"{name}.png") for name in ("before", "after")]
+    join([shot[LOW[1]:HIGH[1], LOW[0]:HIGH[0]] for shot in shots], FOLDER / "car.jpg", WIDTH, QUALITY)
 
 
 def open_car() -> Generator[float, None, window.Window]:
@@ -79,15 +79,15 @@ def shoot(driver: window.Window, name: str) -> Steps:
     yield 0.2
 
 
-def join(parts: list[np.ndarray], name: str, width: int, quality: int) -> None:
-    """Puts two pictures side by side and writes them as FOLDER/name.jpg."""
+def join(parts: list[np.ndarray], path: pathlib.Path, width: int, quality: int) -> None:
+    """Puts two pictures side by side."""
     gutter = np.ones((len(parts[0]), pictures.GUTTER, 4), np.float32)
     joined = np.concatenate([parts[0], gutter, parts[1]], axis=1)
-    image = bpy.data.images.new(name, joined.shape[1], joined.shape[0])
+    image = bpy.data.images.new(path.stem, joined.shape[1], joined.shape[0])
     image.pixels.foreach_set(np.ascontiguousarray(joined, np.float32).ravel())
-    image.filepath_raw, image.file_format = str(FOLDER / f"{name}.png"), 'PNG'
+    image.filepath_raw, image.file_format = str(path.with_suffix(".png")), 'PNG'
     image.save()
-    pictures.shrink(FOLDER / f"{name}.png", FOLDER / f"{name}.jpg", width, quality)
+    pictures.shrink(path.with_suffix(".png"), path, width, quality)
 
 
 if __name__ == "__main__":

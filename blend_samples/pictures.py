@@ -40,11 +40,14 @@ def side_by_side(pictures: list[pathlib.Path], path: pathlib.Path) -> None:
 
 
 def shrink(path: pathlib.Path, small: pathlib.Path, width: int, quality: int = QUALITY) -> None:
-    """Writes a JPEG `width` pixels wide. Changes the scene's output settings, so it comes after all rendering."""
+    """Writes a JPEG, or a WebP where its name says so, `width` pixels wide. Changes the scene's output settings, so it
+    comes after all rendering.
+    """
     scene = bpy.context.scene
     scene.view_settings.view_transform = 'Standard'
     output = scene.render.image_settings
-    output.file_format, output.color_mode, output.quality = 'JPEG', 'RGB', quality
+    output.file_format = 'WEBP' if small.suffix == ".webp" else 'JPEG'
+    output.color_mode, output.quality = 'RGB', quality
     image = bpy.data.images.load(str(path))
     image.scale(width, round(image.size[1] * width / image.size[0]))
     image.save_render(str(small), scene=scene)

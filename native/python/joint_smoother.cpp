@@ -58,7 +58,8 @@ JointPanel make_cage_panel(const Positions& V, const Indices& face_offsets, cons
                 V, cage_options_of(region, border, V.rows(), fixed, partner)};
   if (image_of) own.options.image_of = index_vector(*image_of);
   own.options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
-  JointPanel panel{{}, {}, view_direction, line_direction, options_of(lights, set, judges, length, flaw_size, symmetric)};
+  JointPanel panel{
+      {}, {}, view_direction, line_direction, options_of(lights, set, judges, length, flaw_size, symmetric)};
   panel.gap = {given(gap, "The gap"), given(reach, "The reach")};
   panel.cage = std::make_shared<const JointCage>(std::move(own));
   return panel;

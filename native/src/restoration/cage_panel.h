@@ -8,7 +8,7 @@
 namespace reflines {
 
 struct CagePanel {
-  JointPanel panel;   // V, F, border and surroundings are those of the cage's surface
+  JointPanel panel;    // V, F, border and surroundings are those of the cage's surface
   IndexVector corner;  // #V: the cage's vertex whose place on the surface each is, or -1
 };
 

@@ -25,7 +25,8 @@ PressAmount narrow(const JointSide& side, const JointPanel& panel, PressAmount a
 }  // namespace
 
 JointPress::JointPress(std::vector<JointPanel> panels, const std::vector<PressAmount>& amounts) {
-  for (JointPanel& panel : panels) panels_.push_back(panel.cage ? read_surface(panel) : CagePanel{std::move(panel), {}});
+  for (JointPanel& panel : panels)
+    panels_.push_back(panel.cage ? read_surface(panel) : CagePanel{std::move(panel), {}});
   for (size_t k = 0; k < panels_.size(); ++k) sides_.push_back(std::make_unique<JointSide>(panels_[k], amounts[k]));
   for (size_t k = 0; k < sides_.size(); ++k) sides_[k]->face(others_of(k));
   widen_flaws();
@@ -197,8 +198,7 @@ void JointPress::move_jointly(const std::vector<PressAmount>& amounts, Kinks kin
 }
 
 // Judges the moves of the joint sides; returns whether none has a worse place, or one that turned kinks made bad.
-bool JointPress::judge(const std::vector<PressAmount>& amounts, Kinks kinks,
-                       std::vector<SmoothPanelResult>& results) {
+bool JointPress::judge(const std::vector<PressAmount>& amounts, Kinks kinks, std::vector<SmoothPanelResult>& results) {
   bool good = true;
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (!is_joint(k)) continue;

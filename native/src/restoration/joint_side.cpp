@@ -171,8 +171,7 @@ void JointSide::begin(const PressAmount& amount) {
   alone_->choose(amount);
   const double limit = alone_->report().limit;
   range_ = std::make_unique<ControlRange>(limit, is_cage() ? MoveLimit{} : amount.limit_share, V_.rows());
-  if (is_cage())
-    control_range_ = std::make_unique<ControlRange>(limit, amount.limit_share, panel_.cage->V.rows());
+  if (is_cage()) control_range_ = std::make_unique<ControlRange>(limit, amount.limit_share, panel_.cage->V.rows());
   firm_ = false;
   move_ = turned_ = Vector::Zero(V_.rows());
 }
@@ -297,8 +296,8 @@ SmoothPanelResult JointSide::judge(const PressAmount& amount) {
   judged.report.limited = limited_;
   if (limited_ > 0) judged.report.notes = tell_result(judged.report);
   const TangentMatch match{joined_, V_.rows(), F_.rows(), turned_border_, region_->optimizer().frame()};
-  SmoothPanelResult own = take_region({judged, V_, *range_, region_->optimizer().region(), alone_->report().limit}, match,
-                                      amount.strength * move_, amount.strength * turned_);
+  SmoothPanelResult own = take_region({judged, V_, *range_, region_->optimizer().region(), alone_->report().limit},
+                                      match, amount.strength * move_, amount.strength * turned_);
   return is_cage() ? read_cage(std::move(own), amount) : own;
 }
 

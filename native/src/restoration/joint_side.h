@@ -105,7 +105,7 @@ class JointSide {
 
   const JointPanel& panel_;
   const IndexVector& corner_;  // see CagePanel
-  UsedVertices used_;  // in the panel; the other numbers are of these
+  UsedVertices used_;          // in the panel; the other numbers are of these
   Positions V_;
   Triangles F_;
   std::vector<Vector3> families_;
@@ -127,7 +127,7 @@ class JointSide {
   std::unique_ptr<MeshSurface> surface_;
   std::unique_ptr<Restoration> press_;
   std::unique_ptr<Press> other_;  // alone or clamped
-  // Of a cage.
+  // These are of a cage alone.
   std::unique_ptr<CageControlledSurface> cage_;
   std::unique_ptr<ControlRange> control_range_;
   Vector control_;     // #C: moves of its vertices, after take_shape()

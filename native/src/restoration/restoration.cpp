@@ -107,8 +107,8 @@ Vector Restoration::find_move(const PressAmount& amount) {
   return *gain_ * move;
 }
 
-// The share is by how much more even the whole move, which no limit holds back, makes the lines. A cage follows the shape without flaws only roughly: clean doors were bent by 1.0 to 1.8
-// degrees for 2 % less unevenness.
+// Returns the share by how much more even the whole move, which no limit holds back, makes the lines. A cage follows
+// the shape without flaws only roughly: clean doors were bent by 1.0 to 1.8 degrees for 2 % less unevenness.
 double Restoration::weigh_gain(const Vector& move) {
   const Unevenness& before = measure_start();
   const Unevenness after = measure_move(move);
