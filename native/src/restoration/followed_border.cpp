@@ -56,7 +56,7 @@ class FollowedBorderPress : public Press {
     begin(turned);
     Vector move = turned + press_->find_move(begin_after(joined_amount, turned));
     move += pad(turn(range, limit, move.head(V_.rows()), kRules.border.turned_after));
-    const SmoothPanelResult judged = press_->judge(amount.strength * (move - turned));
+    const SmoothPanelResult judged = press_->judge(amount.strength * (move - turned), true);
     if (!judged.report.applied || has_worse_place(judged.report.healed)) return press_clamped(amount);
     return take_region({judged, V_, range, region_.optimizer().region(), alone_.report().limit}, match_,
                        amount.strength * move.head(V_.rows()), amount.strength * turned.head(V_.rows()));

@@ -291,7 +291,7 @@ SmoothPanelResult JointSide::read_cage(SmoothPanelResult surface, const PressAmo
 SmoothPanelResult JointSide::judge(const PressAmount& amount) {
   Vector move(joined_.V.rows());
   move << move_ - turned_, beside_;
-  SmoothPanelResult judged = press_->judge(amount.strength * move);
+  SmoothPanelResult judged = press_->judge(amount.strength * move, true);
   if (!judged.report.applied) return judged;
   judged.report.limited = limited_;
   if (limited_ > 0) judged.report.notes = tell_result(judged.report);

@@ -252,11 +252,11 @@ Vector Restoration::leave_uneven_places(const Vector& move, const Unevenness& af
   return move.array() * (1.0 - left * (1.0 - even.array()));
 }
 
-SmoothPanelResult Restoration::judge(const Vector& wanted) {
+SmoothPanelResult Restoration::judge(const Vector& wanted, bool whole) {
   Vector move = wanted;
   if (amount_.judged) {
     Unevenness after = measure_move(move);
-    move = leave_uneven_places(wanted, after);
+    if (!whole) move = leave_uneven_places(wanted, after);
     if (move != wanted) after = measure_move(move);
     compare_with_start(start_ + surface_.surface_move(move), std::move(after));
   }

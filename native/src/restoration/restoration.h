@@ -32,8 +32,8 @@ class Restoration {
 
   Vector find_move(const PressAmount& amount);  // of the control vertices (#C), not judged yet
 
-  // Judges a move of the control vertices (#C), after find_move or choose.
-  SmoothPanelResult judge(const Vector& move);
+  // Judges a move of the control vertices (#C), after find_move or choose; `whole`, no places are left.
+  SmoothPanelResult judge(const Vector& move, bool whole = false);
 
   void choose(const PressAmount& amount);  // for what follows, as find_move does
 
