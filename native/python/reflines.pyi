@@ -373,7 +373,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  fair_border: np.ndarray | None = None,             # #V bool: border vertices that move, too, see below
                  parts_gap: float | None = None,  # widest between parts that no edge joins, which are smoothed as one; None: touching
                  lights: Literal["crossed", "single"] = "crossed",  # with the lines turned by 90 degrees, or without
-                 light_set: LightSet | None = None,                 # takes the place of these and of line_direction
+                 light_set: LightSet | None = None,                 # takes the place of these; flaws are found as without it
                  judges: LightSet | None = None,                    # take no part; see HealedFlaws.worse_for_judges
                  length: float | None = None,                       # size of the flaws; None: the diagonal / 14 times flaw_size
                  flaw_size: float = 1.0,

@@ -61,6 +61,14 @@ def test_the_set_serves_each_light_nearly_as_well_as_a_press_for_it_alone():
         assert report.largest_move <= 1.1 * own.largest_move
 
 
+def test_which_flaws_are_found_does_not_depend_on_the_lights_of_the_set():
+    """Where nothing holds a press back it ends in the shape without flaws, whatever lights it is for."""
+    V, F = grid(dented(count=3), CELLS)
+    crossed, _ = press(V, F)
+    for eye, line in ((EYES[0], LINES[1]), (EYES[2], LINES[6])):
+        assert np.abs(press(V, F, reflines.LightSet([line], [eye]))[0] - crossed).max() < 1e-9 * np.abs(V).max()
+
+
 def test_a_cage_is_pressed_for_the_set():
     cage = sample_cages.dented(sample_cages.hood(), sample_cages.VIEW, sample_cages.LINE)
     eyes, lines = reflines.walk_around(sample_cages.VIEW, sample_cages.LINE)

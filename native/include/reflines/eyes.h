@@ -12,6 +12,9 @@ struct Eyes {
   // These surfaces, #B x 3 each, or none, may hide the region from an eye, as its own triangles may.
   Positions blocker_vertices;
   Triangles blockers;
+  // The frame's y axis follows this light line where it is one; 0: the first of the families that is not parallel to
+  // the view. What rounding and thresholds make of a surface is then the same for all sets of families.
+  Vector3 frame_line = Vector3::Zero();
 
   bool exist() const { return !directions.empty(); }
 };

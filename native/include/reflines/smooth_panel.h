@@ -45,7 +45,8 @@ struct SmoothPanelOptions {
   // JointSmoother); 0: a tenth of the border's edges, so parts that touch. Not for cages.
   double parts_gap = 0.0;
   Lights lights = Lights::kCrossed;
-  LightSet set;            // or none; where it exists it takes the place of the light lines given and of `lights`
+  // Or none: it takes the place of the light lines given and of `lights`. Which flaws are found does not depend on it.
+  LightSet set;
   LightSet judges;         // or none: lights with eyes that take no part; see HealedFlaws::worse_for_judges
   double length = 0.0;     // size of the flaws, in units of V; 0: kAutomaticLength times the diagonal and flaw_size
   double flaw_size = 1.0;  // see length; above 0

@@ -75,7 +75,7 @@ JointSide::JointSide(const CagePanel& panel, const PressAmount& amount)
       joint_(Mask::Constant(V_.rows(), false)),
       still_(joint_),
       rim_(find_rim_edges(F_)) {
-  set_restoration_rules(options_, amount, kRules.proximity, shape_);
+  set_restoration_rules(options_, panel.line_direction, amount, kRules.proximity, shape_);
   options_.partner = shape_.partner;
   std::vector<int> all(rim_.rows());
   std::iota(all.begin(), all.end(), 0);

@@ -30,7 +30,7 @@ class MeshPress : public Press {
             const SmoothPanelOptions& options, const PressAmount& amount)
       : V_(std::move(V)), used_(find_used_vertices(F, static_cast<int>(V_.rows()))) {
     ShapeOptions shape = choose_shape(used_, options, V_.rows());
-    set_restoration_rules(options, amount, kRules.proximity, shape);
+    set_restoration_rules(options, lines, amount, kRules.proximity, shape);
     partner_ = shape.partner;
     SmoothPanelOptions own = options;
     own.partner = partner_;

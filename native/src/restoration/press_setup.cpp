@@ -12,9 +12,12 @@ std::vector<Vector3> make_families(const Vector3& view, const Vector3& lines, co
   return {lines, view.cross(lines)};
 }
 
-void set_restoration_rules(const SmoothPanelOptions& options, const PressAmount& amount, double proximity,
-                           ShapeOptions& shape) {
-  if (options.set.exist()) shape.eyes = options.set.eyes;
+void set_restoration_rules(const SmoothPanelOptions& options, const Vector3& lines, const PressAmount& amount,
+                           double proximity, ShapeOptions& shape) {
+  if (options.set.exist()) {
+    shape.eyes = options.set.eyes;
+    shape.eyes.frame_line = lines;
+  }
   shape.creases.rule = CreaseRule::kNone;
   shape.proximity = proximity;
   shape.progress = amount.progress;

@@ -14,9 +14,10 @@ namespace reflines {
 std::vector<Vector3> make_families(const Vector3& view, const Vector3& lines, const SmoothPanelOptions& options);
 
 // Sets the options that all presses share. Noise makes creases, and held ones would keep it; smoother and weights keep
-// what bends.
-void set_restoration_rules(const SmoothPanelOptions& options, const PressAmount& amount, double proximity,
-                           ShapeOptions& shape);
+// what bends. The frame follows the light lines given also where a set takes their place: which flaws are found does
+// not depend on the lights of a set.
+void set_restoration_rules(const SmoothPanelOptions& options, const Vector3& lines, const PressAmount& amount,
+                           double proximity, ShapeOptions& shape);
 
 // Returns what holds of the used vertices, of `vertex_count` that there are.
 ShapeOptions choose_shape(const UsedVertices& used, const SmoothPanelOptions& options, Eigen::Index vertex_count);

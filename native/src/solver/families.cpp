@@ -79,6 +79,7 @@ std::vector<Vector> weigh_eyes(const Positions& V, const Triangles& F, const Eye
 ImagePlane choose_frame(const Vector3& view_direction, const std::vector<Vector3>& line_directions, const Eyes& eyes) {
   if (line_directions.empty())
     throw InvalidInput("There is no family of light lines; give at least one line direction.");
+  if (const auto plane = try_plane(view_direction, eyes.frame_line)) return *plane;
   if (eyes.exist() && view_direction.allFinite() && !view_direction.isZero(0)) {
     for (const Vector3& line : line_directions) {
       if (const auto plane = try_plane(view_direction, line)) return *plane;

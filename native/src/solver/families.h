@@ -16,9 +16,9 @@ struct Families {
   std::vector<Vector> sight;
 };
 
-// Returns the frame of heights along a view. Its y axis follows the first of the line directions that is not parallel
-// to the view: with eyes of their own they may be. Throws InvalidInput where there is no line direction, and, without
-// eyes, where the first is parallel to the view.
+// Returns the frame of heights along a view. Its y axis follows the eyes' frame_line, or the first of the line
+// directions that is not parallel to the view: with eyes of their own they may be. Throws InvalidInput where there is
+// no line direction, and, without eyes, where the first is parallel to the view.
 ImagePlane choose_frame(const Vector3& view_direction, const std::vector<Vector3>& line_directions, const Eyes& eyes);
 
 // Makes the families for a region V (#V x 3), F (#F x 3). Throws InvalidInput for eyes that do not fit, a family whose
