@@ -43,18 +43,18 @@ def main() -> None:
 
 def draw_row(add_on: object, context: bpy.types.Context, ob: bpy.types.Object, name: str) -> np.ndarray:
     """Draws the panel as it is now from each side, with a caption below each."""
-    shown, looked = add_on.interactive.read_picture.read_picture(context, ob)
+    shown, looked = add_on.model.steps.finish(add_on.interactive.read_picture.read_picture(context, ob))
     panel_picture = add_on.model.panel_picture
-    with add_on.read.text_outlines.TextReader() as reader:
-        canvas = add_on.model.canvas.Canvas(3 * SIZE[0] + 2 * GUTTER, SIZE[1] + CAPTION, reader.read)
-        for index, side in enumerate(SIDES):
-            light = context.scene.reflection_lines.light_set.entries[side]
-            eye = np.array(light.eye)
-            right, up = panel_picture.turn_to(looked, eye)
-            own = replace(looked, right=right, up=up, eye=eye, line=np.array(light.line), count=STRIPES)
-            left = index * (SIZE[0] + GUTTER)
-            canvas.paste(panel_picture.draw_panel(shown, fit(shown, own), *SIZE), left, 0)
-            canvas.write(f"{name}: {side.split(',')[0].lower()}", left + 2, SIZE[1] + 34, 26)
+    canvas = add_on.model.canvas.Canvas(3 * SIZE[0] + 2 * GUTTER, SIZE[1] + CAPTION,
+                                        add_on.read.text_outlines.read_outlines)
+    for index, side in enumerate(SIDES):
+        light = context.scene.reflection_lines.light_set.entries[side]
+        eye = np.array(light.eye)
+        right, up = panel_picture.turn_to(looked, eye)
+        own = replace(looked, right=right, up=up, eye=eye, line=np.array(light.line), count=STRIPES)
+        left = index * (SIZE[0] + GUTTER)
+        canvas.paste(panel_picture.draw_panel(shown, fit(shown, own), *SIZE), left, 0)
+        canvas.write(f"{name}: {side.split(',')[0].lower()}", left + 2, SIZE[1] + 34, 26)
     return canvas.to_bytes()
 
 

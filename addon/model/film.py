@@ -3,9 +3,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .panel_picture import Looked, Pictured, draw_panel
+from .panel_picture import Looked, Pictured, draw_in_bands
+from .steps import Steps
 
-BAND = 30000  # pixels that are drawn at once, within 50 ms: Blender's window goes on between them
 LOOKS = 24  # frames that tell how much room the panel takes
 UPWARDS = np.array([0.0, 0.0, 1.0])
 
@@ -37,18 +37,10 @@ class Film:
         x, y = (max(float(np.abs(away @ getattr(each, name)).max()) for each in looks) for name in ("right", "up"))
         return 2.0 * max(x, y * self.width / self.height)
 
-    @property
-    def bands(self) -> int:
-        """The number of bands of a frame, each of which is drawn by itself."""
-        return min(-(-self.width * self.height // BAND), self.height)
-
-    def draw_band(self, frame: int, band: int) -> np.ndarray:
-        """Draws a band of a frame, from the top: height x width x 3, uint8."""
-        first, last = (round(self.height * each / self.bands) for each in (band, band + 1))
-        whole = self.look(frame)
-        lower = (0.5 * (first + last) - 0.5 * self.height) * whole.width / self.width
-        looked = replace(whole, center=whole.center - lower * whole.up)
-        return np.round(255.0 * draw_panel(self.shown, looked, self.width, last - first)).astype(np.uint8)
+    def draw_frame(self, frame: int) -> Steps[np.ndarray]:
+        """Draws a frame: height x width x 3, uint8."""
+        drawn = yield from draw_in_bands(self.shown, self.look(frame), self.width, self.height)
+        return np.round(255.0 * drawn).astype(np.uint8)
 
 
 def rotate(direction: np.ndarray, axis: np.ndarray, angle: float) -> np.ndarray:

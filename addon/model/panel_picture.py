@@ -1,11 +1,13 @@
 """Pictures of a panel with its reflection lines, drawn without a window."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import native
+from .steps import Steps, wait_for
 
 FINE = 2  # samples of a pixel each way
+BAND = 30000  # pixels that are drawn in one step, within 50 ms
 DARK, LIGHT = 0.09, 0.98        # of stripes
 GROUND = 0.87                   # behind all
 NEAR, FAR = 0.78, 0.60          # of what lies beside the panel: facing the viewer, and edge on
@@ -48,13 +50,14 @@ def turn_to(looked: Looked, eye: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
                  for each in (looked.right, looked.up))
 
 
-def cut_surface(V: np.ndarray, F: np.ndarray, region: np.ndarray) -> Pictured:
+def cut_surface(V: np.ndarray, F: np.ndarray, region: np.ndarray) -> Steps[Pictured]:
     """Prepares a surface: its panel with fitted normals, as the stripes of the window have them. What lies beside it at
     places that are no numbers is left out.
     """
     points, own = split(V, F[region])
     around, beside = split(V, F[~region & np.isfinite(V).all(axis=1)[F].all(axis=1)])
-    fitted = native.reflines.NormalFit(points, own).normals(points)
+    fit = yield from wait_for(native.reflines.start(native.reflines.NormalFit.create, points, own))
+    fitted = fit.normals(points)
     return Pictured(np.concatenate([points, around]), np.concatenate([own, beside + len(points)]),
                     np.concatenate([fitted, average_normals(around, beside)]),
                     np.arange(len(own) + len(beside)) < len(own))
@@ -93,6 +96,21 @@ def draw_panel(shown: Pictured, looked: Looked, width: int, height: int) -> np.n
                            FAR + (NEAR - FAR) * np.abs(normals @ looked.eye))
     grey = shades.reshape(height, FINE, width, FINE).mean(axis=(1, 3))
     return np.repeat(grey[..., None], 3, axis=2)
+
+
+def draw_in_bands(shown: Pictured, looked: Looked, width: int, height: int) -> Steps[np.ndarray]:
+    """Draws the surface likewise, one band of the picture after the other from its top."""
+    count, drawn = count_bands(width, height), []
+    for band in range(count):
+        first, last = (round(height * each / count) for each in (band, band + 1))
+        lower = (0.5 * (first + last) - 0.5 * height) * looked.width / width
+        drawn.append(draw_panel(shown, replace(looked, center=looked.center - lower * looked.up), width, last - first))
+        yield
+    return np.concatenate(drawn)
+
+
+def count_bands(width: int, height: int) -> int:
+    return min(-(-width * height // BAND), height)
 
 
 def measure_turn(shown: Pictured, looked: Looked, height: float) -> float:

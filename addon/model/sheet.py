@@ -6,7 +6,8 @@ import numpy as np
 
 from .canvas import Canvas, Color
 from .inspection import Spot
-from .panel_picture import Looked, Pictured, draw_panel, measure_turn, turn_to
+from .panel_picture import Looked, Pictured, count_bands, draw_in_bands, measure_turn, turn_to
+from .steps import Steps
 
 WIDTH, HEIGHT = 1754, 1240  # pixels: an A4 page across at 150 dots an inch
 MARGIN = 60
@@ -39,24 +40,30 @@ class Sheet:
     format_length: Callable[[float], str]
 
 
-def draw_sheet(sheet: Sheet, canvas: Canvas) -> None:
+def draw_sheet(sheet: Sheet, canvas: Canvas) -> Steps[None]:
     """Draws all of the sheet."""
     canvas.write(sheet.title, MARGIN, 104, 46, INK)
     canvas.write(f"Inspection of its reflection lines. {sheet.summary}", MARGIN, 148, 22, FAINT)
     canvas.fill_box(MARGIN, 172, WIDTH - 2 * MARGIN, 2, RULE)
-    draw_whole(sheet, canvas, 200)
+    yield from draw_whole(sheet, canvas, 200)
     draw_table(sheet, canvas, MARGIN + PICTURE[0] + 46, 200)
-    draw_close_ups(sheet, canvas, 200 + PICTURE[1] + 26)
+    yield
+    yield from draw_close_ups(sheet, canvas, 200 + PICTURE[1] + 26)
     foot = ("Lines: how far, in degrees of the light's turn, they are off the course that they would have without the "
             "flaw. Height: over the surface without it.")
     canvas.write(foot, MARGIN, HEIGHT - 34, 16, FAINT)
     canvas.write("Reflection Lines for Blender", WIDTH - MARGIN, HEIGHT - 34, 16, FAINT, align=1.0)
 
 
-def draw_whole(sheet: Sheet, canvas: Canvas, top: int) -> None:
+def count_steps(sheet: Sheet) -> int:
+    """Counts the steps in which it is drawn."""
+    return count_bands(*PICTURE) + 1 + len(sheet.spots[:CLOSE]) * count_bands(*CLOSE_SIZE)
+
+
+def draw_whole(sheet: Sheet, canvas: Canvas, top: int) -> Steps[None]:
     """Draws the whole panel, with the number of each spot."""
     looked = sheet.looked
-    canvas.paste(draw_panel(sheet.shown, looked, *PICTURE), MARGIN, top)
+    canvas.paste((yield from draw_in_bands(sheet.shown, looked, *PICTURE)), MARGIN, top)
     places = looked.find_pixels(np.array([spot.place for spot in sheet.spots]).reshape(-1, 3), *PICTURE)
     scale = PICTURE[0] / looked.width
     for number, (spot, place) in enumerate(list(zip(sheet.spots, places, strict=True))[:ROWS], 1):
@@ -101,13 +108,13 @@ def tell_spot(sheet: Sheet, spot: Spot) -> tuple[str, ...]:
             where if len(where) <= LETTERS else f"{where[:LETTERS - 1]}\u2026")
 
 
-def draw_close_ups(sheet: Sheet, canvas: Canvas, top: int) -> None:
+def draw_close_ups(sheet: Sheet, canvas: Canvas, top: int) -> Steps[None]:
     """Draws the first spots from near, each in the light and from where it shows, with stripes fine enough for it."""
     step = (WIDTH - 2 * MARGIN - CLOSE_SIZE[0]) / (CLOSE - 1)
     for index, spot in enumerate(sheet.spots[:CLOSE]):
         left = round(MARGIN + index * step)
         looked = look_at(sheet, spot)
-        canvas.paste(draw_panel(sheet.shown, looked, *CLOSE_SIZE), left, top)
+        canvas.paste((yield from draw_in_bands(sheet.shown, looked, *CLOSE_SIZE)), left, top)
         canvas.draw_ring(np.array([left, top]) + 0.5 * np.array(CLOSE_SIZE), 0.5 * CLOSE_SIZE[0] / FRAMED, 2.0, RED)
         draw_number(canvas, np.array([left + 20.0, top + 20.0]), index + 1)
         apart = 360.0 / looked.count

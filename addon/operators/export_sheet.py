@@ -8,14 +8,14 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..blender import units
-from ..interactive import read_picture
+from ..interactive import file_work, read_picture
 from ..model.canvas import Canvas
 from ..model.panel_picture import Looked, Pictured
+from ..model.sheet import HEIGHT, PICTURE, WIDTH, Sheet, count_steps, draw_sheet
 from ..model.refusal import report_refusals
-from ..model.sheet import HEIGHT, PICTURE, WIDTH, Sheet, draw_sheet
+from ..model.steps import Steps
 from ..read import scene_objects
-from ..read.text_outlines import TextReader
-from ..view import view_and_light
+from ..read.text_outlines import read_outlines
 from ..write.png import encode_png
 
 ROOM = 1.12  # of the picture to the panel's extent
@@ -23,7 +23,7 @@ ROOM = 1.12  # of the picture to the panel's extent
 
 class REFLINES_OT_export_sheet(ExportHelper, bpy.types.Operator):
     """Write the last inspection as one page for others: the panel with its stripes and numbered spots, a table, and the
-worst spots from near, each in the light that shows it"""
+worst spots from near, each in the light that shows it. Esc cancels"""
     bl_idname = "reflines.export_sheet"
     bl_label = "Export Sheet"
 
@@ -36,34 +36,44 @@ worst spots from near, each in the light that shows it"""
         if ob is None or ob.type != 'MESH' or not ob.reflection_lines.inspection.summary:
             cls.poll_message_set("Make a panel active that was inspected")
             return False
-        obstacle = view_and_light.find_obstacle(context.scene)
-        cls.poll_message_set(obstacle)
-        return not obstacle
+        return file_work.has_panel(cls, context)
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
-        ob, path = scene_objects.read_active_object(context), Path(bpy.path.abspath(self.filepath))
-        pixels = draw(context, ob)
-        path.write_bytes(encode_png(pixels))
-        self.report({'INFO'}, f"{ob.name}: sheet written to {path.name}")
-        return {'FINISHED'}
+        return file_work.write_file(self, context, SheetWork(Path(bpy.path.abspath(self.filepath))))
 
 
-def draw(context: bpy.types.Context, ob: bpy.types.Object) -> np.ndarray:
-    """Draws the sheet: height x width x 3, uint8."""
-    sheet = build_sheet(context, ob)
-    with TextReader() as reader:
-        canvas = Canvas(WIDTH, HEIGHT, reader.read)
-        draw_sheet(sheet, canvas)
-    return canvas.to_bytes()
+class SheetWork:
+    """The work on one sheet."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.share = 0.0   # of the steps that are done
+        self.written = ""  # the panel's name
+
+    def write(self, context: bpy.types.Context) -> Steps[None]:
+        sheet = yield from build_sheet(context, scene_objects.read_active_object(context))
+        canvas = Canvas(WIDTH, HEIGHT, read_outlines)
+        for _ in draw_sheet(sheet, canvas):
+            self.share += 1.0 / count_steps(sheet)
+            yield
+        self.path.write_bytes(encode_png(canvas.to_bytes()))
+        self.written = sheet.title
+
+    def describe_progress(self) -> str:
+        return f"Sheet: {self.share:.0%}   Esc: cancel"
+
+    def describe_written(self) -> str:
+        return f"{self.written}: sheet written to {self.path.name}" if self.written else "No sheet was written"
 
 
-def build_sheet(context: bpy.types.Context, ob: bpy.types.Object) -> Sheet:
+def build_sheet(context: bpy.types.Context, ob: bpy.types.Object) -> Steps[Sheet]:
     """Reads what the sheet tells of the last inspection, and the panel as it is now."""
     stored = ob.reflection_lines.inspection
-    shown, looked = read_picture.read_picture(context, ob)
-    return Sheet(ob.name, f"{stored.summary}.", stored.unseen, [spot.to_spot() for spot in stored.spots], shown,
-                 frame(shown, looked), partial(units.format_length, scene=context.scene, precision=2))
+    texts = ob.name, f"{stored.summary}.", stored.unseen, [spot.to_spot() for spot in stored.spots]
+    format_length = partial(units.format_length, scene=context.scene, precision=2)
+    shown, looked = yield from read_picture.read_picture(context, ob)
+    return Sheet(*texts, shown, frame(shown, looked), format_length)
 
 
 def frame(shown: Pictured, looked: Looked) -> Looked:

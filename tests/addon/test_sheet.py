@@ -8,6 +8,7 @@ import pytest
 import scenes
 from reflection_lines.model import panel_picture, sheet
 from reflection_lines.model.panel_picture import Looked
+from reflection_lines.model.steps import finish
 from reflection_lines.operators import export_sheet
 from test_inspect import inspect, make_panel
 
@@ -37,7 +38,7 @@ def test_spots_are_ringed_where_they_are(lights: str, tmp_path: Path) -> None:
     pixels = export(tmp_path / "sheet.png")
     assert (scenes.fingerprint(ob), len(bpy.data.objects), len(bpy.data.curves)) == before
     assert pixels.shape == (sheet.HEIGHT, sheet.WIDTH, 3)
-    told = export_sheet.build_sheet(bpy.context, ob)
+    told = finish(export_sheet.build_sheet(bpy.context, ob))
     assert len(told.spots) == 2
     red = np.abs(pixels - RED).max(axis=2) < 0.02
     for spot in found.spots:
@@ -51,7 +52,7 @@ def test_stripes_run_as_theta_says() -> None:
     """On a crown, whose normals are known; what lies beside the region has none."""
     ob = make_panel(scenes.crown)
     inspect(ob)
-    told = export_sheet.build_sheet(bpy.context, ob)
+    told = finish(export_sheet.build_sheet(bpy.context, ob))
     size = np.array([300, 200])
     grey = panel_picture.draw_panel(told.shown, told.looked, *size)[..., 0]
     row, column = np.mgrid[20:180, 80:220]
@@ -82,7 +83,8 @@ def test_another_eye_turns_the_picture_no_further_than_needed() -> None:
 def test_vertices_nowhere_and_faces_beside_keep_no_panel_from_its_sheet() -> None:
     far, loose = (1e3, 0.0, 0.0), (np.nan,) * 3
     V = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), far, loose])
-    shown = panel_picture.cut_surface(V, np.array([[0, 1, 2], [0, 2, 3], [0, 1, 4]]), np.array([True, False, False]))
+    shown = finish(panel_picture.cut_surface(V, np.array([[0, 1, 2], [0, 2, 3], [0, 1, 4]]),
+                                             np.array([True, False, False])))
     assert shown.region.tolist() == [True, False] and np.isfinite(shown.V).all() and np.isfinite(shown.normals).all()
 
 

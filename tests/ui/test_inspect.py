@@ -101,6 +101,32 @@ def test_escape_ends_a_film_early(driver: window.Window) -> Steps:
         assert 1 <= len(list(Path(folder).iterdir())) < 6
 
 
+def begin_sheet(driver: window.Window, file: Path) -> Generator[float, None, None]:
+    """Writes the sheet of a panel as Export Sheet does once its file is chosen; returns while that is at work."""
+    with driver.override():
+        scenes.panel(height=dented, cells=40)
+        scenes.look_from_above()
+        assert bpy.ops.reflines.inspect('EXEC_DEFAULT', True) == {'FINISHED'}
+    driver.move(300, 300)
+    yield 0.1
+    with driver.override():
+        assert bpy.ops.reflines.export_sheet('EXEC_DEFAULT', filepath=str(file)) == {'FINISHED'}
+
+
+def test_a_sheet_is_written_beside_blender_and_escape_cancels_it(driver: window.Window) -> Steps:
+    with TemporaryDirectory() as folder:
+        file, running = Path(folder) / "sheet.png", sys.modules["reflection_lines"].interactive.running_operators
+        for cancelled in (True, False):
+            yield from begin_sheet(driver, file)
+            steps, begun = 0, time.monotonic()  # of Blender's
+            while running._running and time.monotonic() - begun < PATIENCE:
+                steps += 1
+                if cancelled and steps == 3:
+                    driver.key('ESC')
+                yield 0.01
+            assert file.exists() != cancelled and (cancelled or steps > 12), steps
+
+
 if __name__ == "__main__":
     window.run(test_blender_goes_on_and_a_spot_is_framed, test_escape_cancels, test_a_film_is_written_beside_blender,
-               test_escape_ends_a_film_early)
+               test_escape_ends_a_film_early, test_a_sheet_is_written_beside_blender_and_escape_cancels_it)
