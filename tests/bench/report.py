@@ -14,7 +14,7 @@ from dataclasses import asdict
 from datetime import date
 from pathlib import Path
 
-from bench import continuity, design_tools, handle_steps, live, ranking, restoration
+from bench import continuity, design_tools, handle_steps, light_set, live, ranking, restoration
 from bench.row import Row
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -50,6 +50,8 @@ REACH = {
     "restoration_ripple_given": (0.4, True), "restoration_ripple_crossed": (0.5, True),
     "restoration_noise_given": (0.4, True), "restoration_noise_crossed": (0.5, True), "restoration_move": (0.05, True),
     "restoration_cage_move": (3.0, True), "two_lights_over_one": (1.6, True), "families_over_one_8": (2.75, True),
+    "light_set_even": (1.0, True), "light_set_theta": (1.0, True), "light_set_over_alone": (1.35, True),
+    "light_set_move": (1.1, True),
     "handle_step_ms_10k": (16.0, True), "handle_step_ms_100k": (60.0, True),
     "brush_dab_ms_100k": (33.0, True), "handle_first_ms_10k": (100.0, True), "handle_first_ms_100k": (500.0, True),
     "press_over_solve_10k": (5.0, True), "press_over_solve_100k": (5.0, True),
@@ -229,7 +231,7 @@ def main() -> None:
     cages = medians(run("bench_solve", "^(cage_solve|dense_solve|cage_warm_step)", REPETITIONS)[0])
     bounded = run("bench_solve", "^bounded.*/10k", REPETITIONS)[0] | run("bench_solve", "^bounded.*/100k", 1)[0]
     rows = [*solve_rows(times), *bounded_rows(bounded), *cgal_rows(times), *strategy_rows(sizes), *cage_rows(cages),
-            *restoration.rows(), *continuity.rows(), *ranking.rows(), *design_tools.rows(),
+            *restoration.rows(), *light_set.rows(), *continuity.rows(), *ranking.rows(), *design_tools.rows(),
             *handle_steps.rows()]
     if not quick:
         rows += [*million_rows(times), *live.rows()]

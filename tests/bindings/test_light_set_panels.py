@@ -1,0 +1,13 @@
+"""A press with the walk around on the car's bonnet and two cages: no light and no view is worse, and each is served."""
+import pytest
+
+from bench.flawed_panels import list_panels
+from bench.light_set import judge_panel
+
+
+@pytest.mark.parametrize("name", ["car_bonnet", "cage_hood", "cage_fender"])
+def test_no_light_and_no_view_is_worse_and_each_is_served_as_by_a_press_for_it_alone(name: str):
+    """By evenness and by theta from the clean panel."""
+    told = judge_panel(list_panels()[name](), alone=(0,) if name == "car_bonnet" else (6,))
+    assert told.applied and max(told.even, told.theta, told.whole) < 0.4
+    assert told.over_alone < 1.35 and told.move < 1.1
