@@ -129,6 +129,21 @@ def test_what_a_change_made_worse_is_found_and_what_it_healed_is_not():
     assert reflines.judge_change(V, bent, F, **{**judged, "lights": behind}).light == -1
 
 
+def test_what_of_the_panel_lies_far_from_a_change_hides_it():
+    """A plate of the panel's own hides the dent from an eye aside, beyond the part that is looked at."""
+    V, F = grid(clean, 60)
+    bent = V.copy()
+    bent[:, 2] -= 0.003 * np.exp(-((V[:, 0] + 0.5)**2 + V[:, 1]**2) / 0.1**2)
+    corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) * 0.45
+    plate = np.column_stack([corners + (0.5, 0.0), np.full(4, 1.0)])
+    whole = np.concatenate([F, len(V) + np.array([[0, 1, 2], [0, 2, 3]])])
+    aside = reflines.LightSet(LINES[[0, 4]], np.tile([1.0, 0.0, 1.0], (2, 1)))
+    for faces, hidden in ((F, False), (whole, True)):
+        worse = reflines.judge_change(*(np.concatenate([each, plate]) for each in (V, bent)), faces,
+                                      view_direction=VIEW, lights=aside, length=0.2)
+        assert (worse.light == -1) == hidden
+
+
 def test_what_an_optimizer_solved_for_is_judged_as_its_positions_are():
     V, F = grid(clean, CELLS)
     optimizer = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LIGHT)
