@@ -34,8 +34,6 @@ ends it early"""
                         "it begins again")
     swing: FloatProperty(name="Swing", subtype='ANGLE', default=radians(40.0), min=0.0, max=radians(80.0),
                          description="Of the turntable, to each side")
-    width: IntProperty(name="Width", subtype='PIXEL', default=1280, min=16, max=3840, description="Of a picture")
-    height: IntProperty(name="Height", subtype='PIXEL', default=720, min=16, max=2160, description="Of a picture")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -43,9 +41,14 @@ ends it early"""
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
-        work = FilmWork(Path(bpy.path.abspath(self.filepath)), (self.kind, self.swing, self.frames, self.width,
-                                                                self.height))
+        size = read_render_size(context.scene.render)
+        work = FilmWork(Path(bpy.path.abspath(self.filepath)), (self.kind, self.swing, self.frames, *size))
         return file_work.write_file(self, context, work)
+
+
+def read_render_size(render: bpy.types.RenderSettings) -> tuple[int, int]:
+    """Returns how large a picture is that Blender renders, in pixels."""
+    return tuple(side * render.resolution_percentage // 100 for side in (render.resolution_x, render.resolution_y))
 
 
 class FilmWork:

@@ -12,20 +12,16 @@ def read_creases(ob: bpy.types.Object, index: np.ndarray) -> Creases:
 
     In Edit Mode the mesh must have been updated from it.
     """
-    mesh, settings = ob.data, ob.reflection_lines
-    ends = read_mesh.read_integers(mesh.edges, "vertices", 2).reshape(-1, 2)[find_marked(mesh, settings.crease_marks)]
+    mesh = ob.data
+    ends = read_mesh.read_integers(mesh.edges, "vertices", 2).reshape(-1, 2)[find_marked(mesh)]
     number = np.full(len(mesh.vertices), -1)
     number[index] = np.arange(len(index))
     marked = number[ends]
-    return Creases(settings.creases.lower(), marked[(marked >= 0).all(axis=1)])
+    return Creases(ob.reflection_lines.creases.lower(), marked[(marked >= 0).all(axis=1)])
 
 
-def find_marked(mesh: bpy.types.Mesh, marks: set[str]) -> np.ndarray:
-    """Returns which edges have one of the marks: #edges, bool."""
-    marked = np.zeros(len(mesh.edges), dtype=bool)
-    for mark, name in (("SHARP", "use_edge_sharp"), ("SEAM", "use_seam")):
-        if mark in marks:
-            values = np.empty(len(mesh.edges), dtype=bool)
-            mesh.edges.foreach_get(name, values)
-            marked |= values
-    return marked | (compat.read_edge_creases(mesh) > 0.0) if "CREASE" in marks else marked
+def find_marked(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Returns which edges are marked as sharp or have a crease: #edges, bool."""
+    sharp = np.empty(len(mesh.edges), dtype=bool)
+    mesh.edges.foreach_get("use_edge_sharp", sharp)
+    return sharp | (compat.read_edge_creases(mesh) > 0.0)

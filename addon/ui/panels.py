@@ -96,7 +96,7 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
             self.draw_borders(layout, settings)
             layout.prop(ob.reflection_lines, "limit_side")
             layout.prop_search(ob.reflection_lines, "limit_group", ob, "vertex_groups")
-            self.draw_creases(layout, ob.reflection_lines)
+            layout.prop(ob.reflection_lines, "creases")
         if ob is not None and ob.reflection_lines.is_cage():
             layout.prop(context.scene.reflection_lines, "solve_for")
             layout.operator("reflines.fit", icon='MOD_SHRINKWRAP')
@@ -109,13 +109,6 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
         grid = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
         for name in ("follow", "flow", "curvature", "clamped", "fixed", "free"):
             grid.operator("reflines.set_border", text=name_border(name)).border = name
-
-    def draw_creases(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
-        layout.prop(settings, "creases")
-        if settings.creases != 'NONE':
-            marks = layout.row(align=True)
-            marks.use_property_split = False
-            marks.prop(settings, "crease_marks", expand=True)
 
     def region_text(self, ob: bpy.types.Object | None) -> str:
         if ob is not None and ob.type == 'LATTICE' and ob.reflection_lines.panel is not None:

@@ -30,7 +30,7 @@ KINDS = (
 
 CREASES = (
     ('AUTOMATIC', "Automatic", "Edges that bend far more than the surface beside them, and marked ones"),
-    ('MARKED', "Marked", "Only edges with one of the marks"),
+    ('MARKED', "Marked", "Only edges that are marked as sharp, or have a crease for the Subdivision Surface"),
     ('NONE', "None", "No edge: the lines run across all of them"),
 )
 
@@ -38,12 +38,6 @@ LIMIT_SIDES = (
     ('BOTH', "Both Ways", "Up to the limit towards the view and away from it"),
     ('OUTWARD', "Only Outward", "Only towards the view: material is added, none is taken away"),
     ('INWARD', "Only Inward", "Only away from the view: material is taken away, none is added"),
-)
-
-CREASE_MARKS = (
-    ('SHARP', "Sharp", "Edges marked as sharp"),
-    ('CREASE', "Crease", "Edges with a crease for the Subdivision Surface"),
-    ('SEAM', "Seam", "Edges marked as seams"),
 )
 
 RESULTS = (
@@ -221,8 +215,6 @@ class ReflinesObject(bpy.types.PropertyGroup):
                                  "follow handles: its weight 0 holds them, 1 lets them go as far as the radius says")
     creases: EnumProperty(name="Creases", items=CREASES, default='AUTOMATIC',
                           description="Which edges of this object are held, with the lines solved on each side")
-    crease_marks: EnumProperty(name="Marks", items=CREASE_MARKS, default={'SHARP', 'CREASE'}, options={'ENUM_FLAG'},
-                               description="What marks an edge of this object as a crease")
     panel: PointerProperty(name="Panel", type=bpy.types.Object, poll=is_mesh,
                            description="The mesh that this lattice warps")
     center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")

@@ -283,7 +283,6 @@ FILES: dict[str, Change] = {
     "a number for all settings": partial(put_all, 5),
     "a choice of the object": partial(put_object, "limit_side", 99),
     "creases of no kind": partial(put_object, "creases", -1),
-    "marks of no kind": partial(put_object, "crease_marks", -1),
     "a limit by no group": partial(put_object, "limit_group", "Nobody"),
     "a centre that is no point": partial(put_object, "center", [NAN, INF, 0.0]),
     "a termination of no kind": partial(put_object, "report.termination", "nonsense"),

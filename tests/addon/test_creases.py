@@ -38,21 +38,21 @@ def has_moved(ob: bpy.types.Object, before: np.ndarray) -> bool:
     return not np.array_equal(now[COLUMN], before[COLUMN])
 
 
-@pytest.mark.parametrize("mark", ['SHARP', 'CREASE', 'SEAM'])
+@pytest.mark.parametrize("mark", ['SHARP', 'CREASE'])
 @pytest.mark.parametrize("rule", ['AUTOMATIC', 'MARKED'])
 def test_marked_edges_stay(mark: str, rule: str) -> None:
     ob = marked_panel(mark)
-    ob.reflection_lines.creases, ob.reflection_lines.crease_marks = rule, {mark}
+    ob.reflection_lines.creases = rule
     before = scenes.positions(ob)
     assert scenes.smooth() == {'FINISHED'}
     assert not has_moved(ob, before)
     assert "14 edges are marked as creases" in ob.reflection_lines.report.kept
 
 
-@pytest.mark.parametrize(("rule", "marks"), [('NONE', {'SHARP'}), ('AUTOMATIC', {'SEAM'}), ('MARKED', set())])
-def test_marks_that_are_not_asked_for_hold_nothing(rule: str, marks: set[str]) -> None:
-    ob = marked_panel('SHARP')
-    ob.reflection_lines.creases, ob.reflection_lines.crease_marks = rule, marks
+@pytest.mark.parametrize(("rule", "mark"), [('NONE', 'SHARP'), ('AUTOMATIC', 'SEAM'), ('MARKED', 'SEAM')])
+def test_marks_that_are_not_asked_for_and_seams_hold_nothing(rule: str, mark: str) -> None:
+    ob = marked_panel(mark)
+    ob.reflection_lines.creases = rule
     before = scenes.positions(ob)
     assert scenes.smooth() == {'FINISHED'}
     assert has_moved(ob, before)

@@ -19,9 +19,9 @@ SIZE = {"width": 160, "height": 90}
 
 def export(folder: Path, **settings: object) -> list[np.ndarray]:
     ob = bpy.context.object
-    before = scenes.fingerprint(ob)
-    assert bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(folder / "film_.png"), **SIZE,
-                                        **settings) == {'FINISHED'}
+    before, render = scenes.fingerprint(ob), bpy.context.scene.render
+    render.resolution_x, render.resolution_y, render.resolution_percentage = 320, 180, 50
+    assert bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(folder / "film_.png"), **settings) == {'FINISHED'}
     assert scenes.fingerprint(ob) == before
     files = sorted(folder.iterdir())
     assert [file.name for file in files] == [f"film_{k:04d}.png" for k in range(1, len(files) + 1)]
@@ -79,4 +79,4 @@ def test_the_panel_is_whole_in_every_frame(kind: str, wanted: float) -> None:
 def test_what_cannot_be_written_is_told(tmp_path: Path) -> None:
     make_panel()
     with pytest.raises(RuntimeError, match="No such file"):
-        bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(tmp_path / "nowhere" / "a.png"), **SIZE)
+        bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(tmp_path / "nowhere" / "a.png"))

@@ -116,9 +116,10 @@ def row(about: bpy.types.Property) -> tuple[str, str, str]:
 
 
 def settings(about: bpy.types.Struct) -> Iterator[bpy.types.Property]:
-    """Those that the artist can see and that are plain values."""
+    """Those that the artist can see and that are plain values; a file is chosen in Blender's own browser."""
     for each in about.properties:
-        if each.identifier != "rna_type" and not each.is_hidden and each.type not in {'POINTER', 'COLLECTION'}:
+        plain = not each.is_hidden and each.type not in {'POINTER', 'COLLECTION'}
+        if plain and each.identifier not in {"rna_type", "filepath"}:
             yield each
 
 

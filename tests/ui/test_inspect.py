@@ -72,6 +72,7 @@ def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, No
     with driver.override():
         scenes.panel(height=dented, cells=CELLS)
         scenes.look_from_above()
+        bpy.context.scene.render.resolution_x, bpy.context.scene.render.resolution_y = 640, 360
     driver.move(300, 300)
     yield 0.1
     with driver.override():
