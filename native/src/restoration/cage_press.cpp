@@ -10,11 +10,12 @@ namespace {
 
 class CagePress : public Press {
  public:
-  CagePress(JointCage cage, const Vector3& view, const std::vector<Vector3>& families,
-            const SmoothPanelOptions& options, const PressAmount& amount)
+  CagePress(JointCage cage, const Vector3& view, const Vector3& lines, const SmoothPanelOptions& options,
+            const PressAmount& amount)
       : partner_(cage.options.partner) {
-    set_restoration_rules(options, amount, kRules.cage.proximity, cage.options.shape);
-    press_ = prepare_held_cage_border(cage.cage, cage.V, view, families, cage.options, options);
+    set_restoration_rules(options, lines, amount, kRules.cage.proximity, cage.options.shape);
+    press_ =
+        prepare_held_cage_border(cage.cage, cage.V, view, make_families(view, lines, options), cage.options, options);
   }
 
   SmoothPanelResult run(const PressAmount& amount) override {
@@ -30,9 +31,9 @@ class CagePress : public Press {
 
 }  // namespace
 
-std::unique_ptr<Press> prepare_cage(const JointCage& cage, const Vector3& view, const std::vector<Vector3>& families,
+std::unique_ptr<Press> prepare_cage(const JointCage& cage, const Vector3& view, const Vector3& lines,
                                     const SmoothPanelOptions& options, const PressAmount& amount) {
-  return std::make_unique<CagePress>(cage, view, families, options, amount);
+  return std::make_unique<CagePress>(cage, view, lines, options, amount);
 }
 
 }  // namespace reflines

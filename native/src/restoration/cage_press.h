@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "reflines/joint_smoother.h"
 #include "reflines/panel_smoother.h"
@@ -11,7 +10,7 @@
 namespace reflines {
 
 // Prepares presses of a cage, whose border is held. Throws what smooth_cage_panel throws.
-std::unique_ptr<Press> prepare_cage(const JointCage& cage, const Vector3& view, const std::vector<Vector3>& families,
+std::unique_ptr<Press> prepare_cage(const JointCage& cage, const Vector3& view, const Vector3& lines,
                                     const SmoothPanelOptions& options, const PressAmount& amount);
 
 }  // namespace reflines

@@ -75,7 +75,7 @@ JointSide::JointSide(const CagePanel& panel, const PressAmount& amount)
       joint_(Mask::Constant(V_.rows(), false)),
       still_(joint_),
       rim_(find_rim_edges(F_)) {
-  set_restoration_rules(options_, panel.line_direction, amount, kRules.proximity, shape_);
+  set_restoration_rules(options_, panel_.line_direction, amount, kRules.proximity, shape_);
   options_.partner = shape_.partner;
   std::vector<int> all(rim_.rows());
   std::iota(all.begin(), all.end(), 0);
@@ -137,7 +137,8 @@ ShapeOptions JointSide::clamp_joint() const {
 
 SmoothPanelResult JointSide::press_alone(const PressAmount& amount) {
   if (is_cage()) {
-    if (!other_) other_ = prepare_cage(*panel_.cage, panel_.view_direction, families_, panel_.options, amount);
+    if (!other_)
+      other_ = prepare_cage(*panel_.cage, panel_.view_direction, panel_.line_direction, panel_.options, amount);
     return other_->run(amount);
   }
   const ShapeOptions shape = clamp_joint();
@@ -155,7 +156,7 @@ SmoothPanelResult JointSide::press_clamped(const PressAmount& amount) {
 void JointSide::build_region() {
   if (is_cage()) {
     JointCage own = free_border(*panel_.cage, corner_, joint_);
-    set_restoration_rules(options_, {}, kRules.cage.proximity, own.options.shape);
+    set_restoration_rules(options_, panel_.line_direction, {}, kRules.cage.proximity, own.options.shape);
     cage_ = std::make_unique<CageControlledSurface>(own.cage, own.V, panel_.view_direction, families_, own.options);
     const Vector share = cage_->surface_move(cage_->control_free().cast<double>());
     own_.held = share.array() < kHeldByCage;

@@ -91,8 +91,7 @@ PanelSmoother::PanelSmoother(const Cage& cage, const Positions& V, const Vector3
                              const Vector3& line_direction, const CageOptions& cage_options,
                              const SmoothPanelOptions& options)
     : control_count_(V.rows()), prepare_([=](const PressAmount& amount) {
-        const std::vector<Vector3> families = make_families(view_direction, line_direction, options);
-        return prepare_cage({cage, V, cage_options}, view_direction, families, options, amount);
+        return prepare_cage({cage, V, cage_options}, view_direction, line_direction, options, amount);
       }) {
   check_press_options(options, V.rows());
   if (options.fair_border.any())
