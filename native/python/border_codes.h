@@ -12,8 +12,7 @@ namespace reflines {
 
 using Codes = std::variant<std::string, Indices>;
 
-// Returns #V borders from "free", "fixed", "clamped" or "curvature", or from #V codes 0 to 3. Throws InvalidInput for
-// others.
+// Returns #V borders from a name of option_names.h, or from #V codes of Border. Throws InvalidInput for others.
 std::vector<Border> border_codes(const Codes& border, Eigen::Index vertex_count);
 
 }  // namespace reflines
