@@ -1,5 +1,7 @@
 """Reads the surfaces beside a region that its border can follow: what is visible near it, of all objects."""
+import time
 from collections.abc import Iterator
+from itertools import islice
 
 import bpy
 import numpy as np
@@ -8,10 +10,12 @@ from .. import native
 from ..model import triangulation
 from ..model.beside import Beside, Crossing, Neighbors, join_soups, label_soups
 from ..model.patch import Patch, compute_bounds
+from ..model.steps import Steps
 from . import modifiers, read_mesh, read_surroundings, region_faces
 
 WIDER = 1.05  # than the two lengths that a press takes in
 NEIGHBOR_MARGIN = 0.25  # of the diagonal: what lies across a gap, and enough of it to tell how it runs on
+STEP = 0.03  # seconds of reading between two looks at the window
 SOLID = {'SOLID', 'TEXTURED'}  # objects drawn as bounds or wires are cutters and aids
 
 Box = tuple[np.ndarray, np.ndarray]  # lowest and highest corner
@@ -28,7 +32,7 @@ def read_beside(ob: bpy.types.Object, patch: Patch, whole: np.ndarray, crossing:
     margin = nothing.gap + nothing.margin
     box = low - margin, high + margin
     own = cut_near(ob.data, whole, ~patch.faces, box, turned=np.linalg.det(patch.matrix[:3, :3]) < 0.0)
-    others = [soup for _, soup in read_others(ob, box, crossing)]
+    others = [soup for _, _, soup in read_others(ob, box, crossing)]
     return nothing.add_soups([own, *others])
 
 
@@ -40,19 +44,31 @@ def measure_beside(patch: Patch) -> Beside:
     return Beside(*join_soups([]), gap, margin)
 
 
-def read_neighbors(ob: bpy.types.Object, V: np.ndarray) -> Neighbors:
-    """Reads what other objects have near the vertices V (#V x 3, world space) of an object's surface."""
+def read_neighbors(ob: bpy.types.Object, V: np.ndarray) -> Steps[Neighbors]:
+    """Reads what other objects have near the vertices V (#V x 3, world space) of an object's surface, in steps of some
+    objects each, between which Blender may redraw, but the scene must not change.
+    """
     low, high = compute_bounds(V)
     margin = NEIGHBOR_MARGIN * float(np.linalg.norm(high - low))
-    soups = {}
-    for name, soup in read_others(ob, (low - margin, high + margin), Crossing(everywhere=True)):
-        soups[name] = join_soups([soups[name], soup]) if name in soups else soup  # instances have one name
+    box, soups, first = (low - margin, high + margin), {}, 0
+    while first >= 0:
+        end, begin, first = time.monotonic() + STEP, first, -1
+        for number, name, soup in read_others(ob, box, Crossing(everywhere=True), begin):
+            soups[name] = join_soups([soups[name], soup]) if name in soups else soup  # instances have one name
+            if time.monotonic() > end:
+                first = number + 1  # what Blender lists is its own only until the step ends
+                break
+        yield
     return label_soups(soups)
 
 
-def read_others(ob: bpy.types.Object, box: Box, crossing: Crossing) -> Iterator[tuple[str, Soup]]:
-    """Reads what other visible objects, and instances, have within a box, with their names."""
-    for instance in bpy.context.evaluated_depsgraph_get().object_instances:
+def read_others(ob: bpy.types.Object, box: Box, crossing: Crossing,
+                first: int = 0) -> Iterator[tuple[int, str, Soup]]:
+    """Reads what other visible objects, and instances, have within a box, with their numbers, from `first` on, and
+    names.
+    """
+    instances = bpy.context.evaluated_depsgraph_get().object_instances
+    for number, instance in enumerate(islice(instances, first, None), first):
         other, matrix = instance.object, np.array(instance.matrix_world, dtype=np.float64)
         original = other.original
         own = original == ob and not instance.is_instance
@@ -60,7 +76,7 @@ def read_others(ob: bpy.types.Object, box: Box, crossing: Crossing) -> Iterator[
             continue
         if not instance.is_instance and not original.visible_get():
             continue
-        yield other.name, read_near(original if original.mode == 'EDIT' else other, matrix, box, crossing)
+        yield number, other.name, read_near(original if original.mode == 'EDIT' else other, matrix, box, crossing)
 
 
 def is_near(other: bpy.types.Object, matrix: np.ndarray, box: Box) -> bool:

@@ -6,6 +6,7 @@ import numpy as np
 from .. import native
 from ..model.check_table import TableRow
 from ..model.checked_surface import CheckedSurface
+from ..native_call import call
 
 
 @dataclass(frozen=True)
@@ -33,10 +34,10 @@ class Checked:
         return Checked([*self.rows, *other.rows], **arrays)
 
 
-def check_surface(surface: CheckedSurface, marks: Marks) -> Checked:
+async def check_surface(surface: CheckedSurface, marks: Marks) -> Checked:
     """Measures gap, angle, curvature and deviation; raises the native module's errors."""
-    found = native.reflines.check(surface.before, surface.after, surface.F, surface.region, **surface.creases,
-                                  **asdict(marks))
+    found = await call(native.reflines.check, surface.before, surface.after, surface.F, surface.region,
+                       **surface.creases, **asdict(marks))
     rows = [build_row(row) for row in found.rows]
     judged = np.array([kind != "open" for kind in found.kind], dtype=bool)
     return build_checked(rows, surface.after[found.edges[judged]], found.passes[judged],

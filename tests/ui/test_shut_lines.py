@@ -1,5 +1,8 @@
-"""The shut line of a checked panel is drawn: green within its mark, red beyond it; and told in the panel."""
+"""The shut line of a checked panel is drawn: green within its mark, red beyond it; and told in the panel.
+Blender goes on while it is checked, and Esc leaves the last check as it was.
+"""
 import sys
+import time
 
 import bpy
 import numpy as np
@@ -10,6 +13,7 @@ import window
 from picture import Steps, pixels, prepare
 
 GAP, CELLS = 0.02, 24
+PATIENCE = 60.0  # seconds
 
 
 def half(name: str, low: float, high: float, step: float) -> bpy.types.Object:
@@ -38,8 +42,11 @@ def read_colors(driver: window.Window, ob: bpy.types.Object) -> Steps:
     return np.array(found)
 
 
-def test_the_shut_line_is_green_within_the_mark_and_red_beyond(driver: window.Window) -> Steps:
+def build_halves(driver: window.Window) -> bpy.types.Object:
+    """Builds two panels beside each other, and selects one in Edit Mode."""
     with driver.override():
+        if bpy.context.mode != 'OBJECT':
+            scenes.object_mode()
         for old in list(bpy.data.objects):
             bpy.data.objects.remove(old)
         half("Wing", 0.5 * GAP, 1.0, 0.0004)
@@ -52,7 +59,29 @@ def test_the_shut_line_is_green_within_the_mark_and_red_beyond(driver: window.Wi
         scenes.activate(ob)
         scenes.edit(ob)
         scenes.select_faces(ob, lambda _face: True)
-        assert bpy.ops.reflines.check('EXEC_DEFAULT', True) == {'FINISHED'}
+    return ob
+
+
+def begin(driver: window.Window) -> None:
+    """Checks as the button does, and returns while that is at work."""
+    with driver.override():
+        assert bpy.ops.reflines.check('INVOKE_DEFAULT', True) == {'RUNNING_MODAL'}
+
+
+def wait() -> Steps:
+    """Waits until no operator runs; returns how often Blender came to do something else."""
+    turns, begun = 0, time.monotonic()
+    while sys.modules["reflection_lines"].interactive.running_operators._running:
+        assert time.monotonic() - begun < PATIENCE
+        turns += 1
+        yield 0.01
+    return turns
+
+
+def test_the_shut_line_is_green_within_the_mark_and_red_beyond(driver: window.Window) -> Steps:
+    ob = build_halves(driver)
+    begin(driver)
+    assert (yield from wait()) > 1
     colors = yield from read_colors(driver, ob)
     height = np.linspace(-1.0, 1.0, len(colors))
     assert colors[height < 0.1].max() < -50.0 and colors[height > 0.4].min() > 50.0  # a step of half a millimetre
@@ -60,4 +89,23 @@ def test_the_shut_line_is_green_within_the_mark_and_red_beyond(driver: window.Wi
     assert any("Shut line 1, Wing: gap" in shown.describe() for shown in ob.reflection_lines.check.list_shut_lines())
 
 
-window.run(test_the_shut_line_is_green_within_the_mark_and_red_beyond)
+def test_escape_leaves_the_last_check(driver: window.Window) -> Steps:
+    ob, last_checks = build_halves(driver), sys.modules["reflection_lines"].state.last_checks
+    with driver.override():
+        assert bpy.ops.reflines.check('EXEC_DEFAULT', True) == {'FINISHED'}
+    rows = [(row.name, row.after, row.passes) for row in ob.reflection_lines.check.rows]
+    drawn = last_checks.find_check(ob.name)
+    bpy.context.scene.reflection_lines.marks.shut_line = 1.0  # by which every row of the other check would pass
+    begin(driver)
+    driver.key('ESC')
+    yield from wait()
+    yield 0.2
+    assert [(row.name, row.after, row.passes) for row in ob.reflection_lines.check.rows] == rows
+    assert last_checks.find_check(ob.name) is drawn and driver.read_last_report().endswith("the last check stays")
+    begin(driver)
+    yield from wait()
+    assert all(row.passes for row in ob.reflection_lines.check.rows if "flush" in row.name)
+    assert last_checks.find_check(ob.name) is not drawn
+
+
+window.run(test_the_shut_line_is_green_within_the_mark_and_red_beyond, test_escape_leaves_the_last_check)

@@ -1,0 +1,89 @@
+"""A check in the background: neighbours are read in short steps, and native calls measure; Esc cancels."""
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from .. import native
+from ..background_work import BackgroundWork
+from ..model.beside import Neighbors
+from ..model.check_table import TableRow
+from ..model.checked_surface import CheckedSurface
+from ..model.patch import Patch
+from ..model.refusal import Refusal
+from ..model.steps import Steps
+from ..solver import live_optimizer, panel_check, shut_lines
+from ..solver.panel_check import Checked, Marks
+from ..solver.shut_lines import ShutLineMarks
+
+
+@dataclass(frozen=True)
+class CheckRequest:
+    """A request for one check."""
+    name: str  # of the object
+    patch: Patch
+    surface: CheckedSurface
+    own: list[TableRow]  # the lines of the table that tell of the last run
+    marks: Marks
+    shut_line_marks: ShutLineMarks
+
+
+@dataclass(frozen=True)
+class CheckOutcome:
+    """The findings of a check of borders and of shut lines, or why there are none."""
+    found: Checked | None = None
+    shut: Checked | None = None
+    refusal: str = ""
+
+
+class CheckJob:
+    """The work on a request, and how far it is."""
+
+    def __init__(self, request: CheckRequest, reading: Steps[Neighbors]) -> None:
+        self.request, self.stage = request, "what lies beside, step 1 of 3"
+        self._reading: Steps[Neighbors] | None = reading
+        self._work = BackgroundWork(self.run)
+
+    def is_reading(self) -> bool:
+        """Returns whether Blender's data is still being read, which must not change meanwhile."""
+        return self._reading is not None
+
+    def advance(self) -> CheckOutcome | None:
+        """Reads in one short step, or looks whether the native calls have ended; returns the outcome once."""
+        if self._reading is None:
+            outcome = self._work.take()
+            return outcome if self._work.is_alive() else CheckOutcome(refusal="The check stopped: nothing was found")
+        try:
+            next(self._reading)
+        except StopIteration as end:
+            self._reading = None
+            self._work.submit(end.value)
+        return None
+
+    async def run(self, neighbors: Neighbors) -> CheckOutcome:
+        try:
+            return await measure(self.request, neighbors, self.begin_stage)
+        except (Refusal, native.Cancelled) as error:
+            return CheckOutcome(refusal=str(error))
+
+    def begin_stage(self, stage: str) -> None:
+        self.stage = stage
+
+    def describe(self) -> str:
+        """Describes what is being done, for the status bar."""
+        return f"Checking: {self.stage}   Esc: cancel"
+
+    def stop(self) -> None:
+        """Ends the work without an outcome; a native call that runs ends by itself."""
+        if self._reading is not None:
+            self._reading.close()
+        self._work.stop()
+
+
+async def measure(request: CheckRequest, neighbors: Neighbors,
+                  begin_stage: Callable[[str], None] = lambda stage: None) -> CheckOutcome:
+    """Measures borders, then shut lines; raises Refusal."""
+    with live_optimizer.convert_native_errors(request.patch):
+        begin_stage("borders, step 2 of 3")
+        found = await panel_check.check_surface(request.surface, request.marks)
+        begin_stage("shut lines, step 3 of 3")
+        shut = await shut_lines.check_shut_lines(request.surface, request.name, neighbors, request.shut_line_marks)
+    return CheckOutcome(found, shut)
