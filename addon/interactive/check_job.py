@@ -1,4 +1,5 @@
 """A check in the background: neighbours are read in short steps, and native calls measure; Esc cancels."""
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -13,6 +14,8 @@ from ..model.steps import Steps
 from ..solver import live_optimizer, panel_check, shut_lines
 from ..solver.panel_check import Checked, Marks
 from ..solver.shut_lines import ShutLineMarks
+
+READING_TIME = 0.02  # seconds at a time, up to the end of a step
 
 
 @dataclass(frozen=True)
@@ -47,12 +50,14 @@ class CheckJob:
         return self._reading is not None
 
     def advance(self) -> CheckOutcome | None:
-        """Reads in one short step, or looks whether the native calls have ended; returns the outcome once."""
+        """Reads for a short time, or looks whether the native calls have ended; returns the outcome once."""
         if self._reading is None:
             outcome = self._work.take()
             return outcome if self._work.is_alive() else CheckOutcome(refusal="The check stopped: nothing was found")
+        begun = time.monotonic()
         try:
-            next(self._reading)
+            while time.monotonic() - begun < READING_TIME:
+                next(self._reading)
         except StopIteration as end:
             self._reading = None
             self._work.submit(end.value)

@@ -10,13 +10,15 @@ from .. import native
 from ..model import triangulation
 from ..model.beside import Beside, Crossing, Neighbors, join_soups, label_soups
 from ..model.patch import Patch, compute_bounds
-from ..model.steps import Steps
+from ..model.steps import Steps, finish
 from . import modifiers, read_mesh, read_surroundings, region_faces
 
 WIDER = 1.05  # than the two lengths that a press takes in
 NEIGHBOR_MARGIN = 0.25  # of the diagonal: what lies across a gap, and enough of it to tell how it runs on
 STEP = 0.03  # seconds of reading between two looks at the window
 SOLID = {'SOLID', 'TEXTURED'}  # objects drawn as bounds or wires are cutters and aids
+
+NOTHING = np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)  # no vertices, no triangles
 
 Box = tuple[np.ndarray, np.ndarray]  # lowest and highest corner
 Soup = tuple[np.ndarray, np.ndarray]  # vertices in world space and triangles
@@ -31,8 +33,8 @@ def read_beside(ob: bpy.types.Object, patch: Patch, whole: np.ndarray, crossing:
     low, high = compute_bounds(patch.V)
     margin = nothing.gap + nothing.margin
     box = low - margin, high + margin
-    own = cut_near(ob.data, whole, ~patch.faces, box, turned=np.linalg.det(patch.matrix[:3, :3]) < 0.0)
-    others = [soup for _, _, soup in read_others(ob, box, crossing)]
+    own = finish(cut_near(ob.data, whole, ~patch.faces, box, turned=np.linalg.det(patch.matrix[:3, :3]) < 0.0))
+    others = [finish(cutting) for _, _, cutting in read_others(ob, box, crossing)]
     return nothing.add_soups([own, *others])
 
 
@@ -52,20 +54,31 @@ def read_neighbors(ob: bpy.types.Object, V: np.ndarray) -> Steps[Neighbors]:
     margin = NEIGHBOR_MARGIN * float(np.linalg.norm(high - low))
     box, soups, first = (low - margin, high + margin), {}, 0
     while first >= 0:
-        end, begin, first = time.monotonic() + STEP, first, -1
-        for number, name, soup in read_others(ob, box, Crossing(everywhere=True), begin):
-            soups[name] = join_soups([soups[name], soup]) if name in soups else soup  # instances have one name
-            if time.monotonic() > end:
-                first = number + 1  # what Blender lists is its own only until the step ends
-                break
+        # Blender's list of objects is valid until the step ends only; the further steps hold arrays.
+        begun, first = begin_reading(ob, box, first)
         yield
+        for name, cutting in begun:
+            soup = yield from cutting
+            soups[name] = join_soups([soups[name], soup]) if name in soups else soup  # instances have one name
     return label_soups(soups)
 
 
+def begin_reading(ob: bpy.types.Object, box: Box, first: int) -> tuple[list[tuple[str, Steps[Soup]]], int]:
+    """Begins to read what other objects have within a box, from that with the number `first` on, until that has taken
+    long. Returns their names and further steps, and the number to go on with, -1 at the end.
+    """
+    end, begun = time.monotonic() + STEP, []
+    for number, name, cutting in read_others(ob, box, Crossing(everywhere=True), first):
+        begun.append((name, cutting))
+        if time.monotonic() > end:
+            return begun, number + 1
+    return begun, -1
+
+
 def read_others(ob: bpy.types.Object, box: Box, crossing: Crossing,
-                first: int = 0) -> Iterator[tuple[int, str, Soup]]:
-    """Reads what other visible objects, and instances, have within a box, with their numbers, from `first` on, and
-    names.
+                first: int = 0) -> Iterator[tuple[int, str, Steps[Soup]]]:
+    """Reads what other visible objects, and instances, have within a box, from the number `first` on: their numbers,
+    names, and further steps, which take arrays alone.
     """
     instances = bpy.context.evaluated_depsgraph_get().object_instances
     for number, instance in enumerate(islice(instances, first, None), first):
@@ -90,7 +103,7 @@ def is_near(other: bpy.types.Object, matrix: np.ndarray, box: Box) -> bool:
     return bool((low <= box[1]).all() and (high >= box[0]).all())
 
 
-def read_near(other: bpy.types.Object, matrix: np.ndarray, box: Box, crossing: Crossing) -> Soup:
+def read_near(other: bpy.types.Object, matrix: np.ndarray, box: Box, crossing: Crossing) -> Steps[Soup]:
     """Reads the faces of an evaluated object, or of one in Edit Mode, that have a vertex in a box; of one that is
     solved, too, those beside its region.
     """
@@ -104,9 +117,10 @@ def read_near(other: bpy.types.Object, matrix: np.ndarray, box: Box, crossing: C
     return cut_object(other, other.data, matrix, box, crossing)
 
 
-def cut_object(other: bpy.types.Object, mesh: bpy.types.Mesh, matrix: np.ndarray, box: Box, crossing: Crossing) -> Soup:
-    """Cuts what of an object's mesh is near a box, and not part of what is solved; a subdivided face is as selected as
-    the one that it was cut from.
+def cut_object(other: bpy.types.Object, mesh: bpy.types.Mesh, matrix: np.ndarray, box: Box,
+               crossing: Crossing) -> Steps[Soup]:
+    """Cuts what of an object's mesh is near a box, and not part of what is solved, of which the first step is done; a
+    subdivided face is as selected as the one that it was cut from.
     """
     local = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", local)
@@ -114,25 +128,48 @@ def cut_object(other: bpy.types.Object, mesh: bpy.types.Mesh, matrix: np.ndarray
     V = local.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     joint = other.mode == 'EDIT' and other.name in crossing.joint
     faces = ~region_faces.read_selected_faces(mesh) if joint else np.ones(len(mesh.polygons), dtype=bool)
-    return cut_near(mesh, V, faces, box, turned=np.linalg.det(matrix[:3, :3]) < 0.0)
+    cutting = cut_near(mesh, V, faces, box, turned=np.linalg.det(matrix[:3, :3]) < 0.0)
+    next(cutting)
+    return cutting
 
 
-def cut_near(mesh: bpy.types.Mesh, V: np.ndarray, faces: np.ndarray, box: Box, *, turned: bool) -> Soup:
+def cut_near(mesh: bpy.types.Mesh, V: np.ndarray, faces: np.ndarray, box: Box, *, turned: bool) -> Steps[Soup]:
     """Cuts those of the faces (#faces, bool) into triangles that are visible and have a vertex in a box, with the
-    vertices V (#vertices x 3) in world space; `turned` tells of a mirroring transform, which turns triangles over.
+    vertices V (#vertices x 3) in world space; `turned` tells of a mirroring transform, which turns triangles over. The
+    mesh is read in the first of at least two steps; that does all for n-gons, whose triangles Blender cuts.
     """
-    nothing = np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
-    if len(mesh.polygons) == 0:
-        return nothing
+    inside = find_inside(V, box)
+    if len(mesh.polygons) == 0 or not inside.any():
+        yield
+        return NOTHING
     corners, sizes = read_mesh.read_corners(mesh)
+    visible = region_faces.read_visible_faces(mesh)
+    by_blender = sizes.max() > 4
+    if not by_blender:
+        yield
+    near = find_near(corners, sizes, V, inside, faces & visible)
+    soup = NOTHING
+    if near.any():
+        if not by_blender:
+            yield
+        around, sizes = corners[np.repeat(near, sizes)], sizes[near]
+        F = (read_surroundings.cut_faces(mesh, near, around, sizes, V) if by_blender
+             else triangulation.triangulate_short_faces(around, sizes, V))
+        index, F = triangulation.renumber_vertices(F, len(V))
+        soup = V[index], F[:, ::-1] if turned else F
+    if by_blender:
+        yield
+    return soup
+
+
+def find_inside(V: np.ndarray, box: Box) -> np.ndarray:
+    """Finds the vertices (#V, bool) in a box."""
     with np.errstate(invalid="ignore"):
-        inside = (np.abs(V - 0.5 * (box[0] + box[1])) <= 0.5 * (box[1] - box[0])).all(axis=1)
+        return (np.abs(V - 0.5 * (box[0] + box[1])) <= 0.5 * (box[1] - box[0])).all(axis=1)
+
+
+def find_near(corners: np.ndarray, sizes: np.ndarray, V: np.ndarray, inside: np.ndarray,
+              faces: np.ndarray) -> np.ndarray:
+    """Finds those of the faces (#faces, bool) that have a vertex inside, and can be read."""
     near = faces & np.logical_or.reduceat(inside[corners], np.cumsum(sizes) - sizes)
-    if not near.any():
-        return nothing
-    near &= region_faces.read_visible_faces(mesh) & read_surroundings.find_readable(corners, sizes, V)
-    if not near.any():
-        return nothing
-    F = read_surroundings.cut_faces(mesh, near, corners[np.repeat(near, sizes)], sizes[near], V)
-    index, F = triangulation.renumber_vertices(F, len(V))
-    return V[index], F[:, ::-1] if turned else F
+    return near if np.isfinite(V).all() else near & read_surroundings.find_readable(corners, sizes, V)
