@@ -15,6 +15,7 @@ NEAR = 0.1    # of an edge's length: as far as Check Panel looks for another she
 SMOOTH = 0.8660  # cosine of 30 degrees, by which faces bend at most that are meant to go on smoothly
 MARGIN = 1.05  # factor of the distance to merge, against its rounding
 SHORTEST = 0.5  # of the shortest edge of the region: merging further would join the region's own vertices
+ROUNDING = 1e-6  # of coordinates, against that of the search in single precision
 MOST_LOOPS = 3_000_000  # corners of another object's faces beyond which it is not looked at
 
 
@@ -113,30 +114,49 @@ def match_edges(border: OpenEdges, others: OpenEdges,
     """Matches edges that lie on each other, with their faces on both sides; `same` (#border) says which of the others
     each edge of the border is. Returns the pairs, each once, and the largest distance of their ends.
     """
-    tree, middles = KDTree(len(others.faces)), others.ends.mean(axis=1)
-    for number, middle in enumerate(middles.tolist()):
-        tree.insert(middle, number)
+    near = NEAR * np.linalg.norm(border.ends[:, 1] - border.ends[:, 0], axis=1)
+    first, second = find_close(border.ends.mean(axis=1), others.ends.mean(axis=1), near)
+    one, other = border.choose(first), others.choose(second)
+    apart = np.minimum(measure_ends(one.ends, other.ends), measure_ends(one.ends, other.ends[:, ::-1]))
+    found = (apart <= near[first]) & ((one.find_ways() * other.find_ways()).sum(axis=1) <= -SMOOTH)
+    if same is not None:
+        own = same[first]
+        found &= second != own
+        first, second = np.minimum(own, second), np.maximum(own, second)
+    pairs = set(zip(first[found].tolist(), second[found].tolist(), strict=True))
+    return pairs, float(apart[found].max(initial=0.0))
+
+
+def find_close(points: np.ndarray, others: np.ndarray, near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Finds the pairs of a point and another one (#points x 3, #others x 3) that are no further apart than `near`
+    (#points).
+    """
+    margin = near.max() + ROUNDING * np.abs(points).max()
+    numbers = np.flatnonzero(((others >= points.min(axis=0) - margin) & (others <= points.max(axis=0) + margin))
+                             .all(axis=1))
+    tree = KDTree(len(numbers))
+    for number, point in zip(numbers.tolist(), others[numbers].tolist(), strict=True):
+        tree.insert(point, number)
     tree.balance()
-    pairs, furthest, ways, other_ways = set(), 0.0, border.find_ways(), others.find_ways()
-    for k, (first, second) in enumerate(border.ends):
-        near, own = NEAR * np.linalg.norm(second - first), -1 if same is None else int(same[k])
-        for _, number, _ in tree.find_range((0.5 * (first + second)).tolist(), near):
-            apart = min(measure_ends(border.ends[k], others.ends[number]),
-                        measure_ends(border.ends[k], others.ends[number, ::-1]))
-            if number != own and apart <= near and ways[k] @ other_ways[number] <= -SMOOTH:
-                pairs.add((k, number) if own < 0 else (min(own, number), max(own, number)))
-                furthest = max(furthest, apart)
-    return pairs, furthest
+    found = [(k, number) for k, (point, distance) in enumerate(zip(points.tolist(), near.tolist(), strict=True))
+             for _, number, _ in tree.find_range(point, distance)] if len(numbers) else []
+    return tuple(np.array(found, dtype=np.int64).reshape(-1, 2).T)
 
 
-def measure_ends(some: np.ndarray, others: np.ndarray) -> float:
-    """Measures the larger distance of the ends of two edges (2 x 3 each)."""
-    return float(np.linalg.norm(some - others, axis=1).max())
+def measure_ends(some: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Measures the larger distances of the ends of pairs of edges (#pairs x 2 x 3 each)."""
+    return np.linalg.norm(some - others, axis=2).max(axis=1)
 
 
 def choose_distance(patch: Patch, distance: float) -> float:
     """Returns the distance that merges vertices which are up to `distance` apart, 0 where it would merge more."""
-    corners = patch.local[patch.F]
-    shortest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).min())
+    a, b, c = (patch.local.take(patch.F[:, k], axis=0) for k in range(3))
+    shortest = float(np.sqrt(min(compute_squares(*ends).min() for ends in ((a, b), (b, c), (c, a)))))
     merged = max(MARGIN * distance, 1e-3 * shortest)
     return merged if merged < SHORTEST * shortest else 0.0
+
+
+def compute_squares(some: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Computes the squared distances of pairs of points (#pairs x 3 each)."""
+    x, y, z = (some - others).T
+    return x * x + y * y + z * z
