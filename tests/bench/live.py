@@ -1,4 +1,6 @@
-"""Rows of what an artist waits for, measured inside Blender: mesh transfer, presses, drags, Escape, stripes."""
+"""Rows of what an artist waits for, measured inside Blender: mesh transfer, presses, neighbours, drags, Escape,
+stripes.
+"""
 import json
 import os
 import statistics
@@ -94,14 +96,22 @@ def press_rows(times: Times) -> list[Row]:
     return rows
 
 
+def neighbour_rows(times: Times) -> list[Row]:
+    beside, unjoined, check = (statistics.median(times[name]) for name in ("beside", "unjoined", "check"))
+    return [Row("neighbours_ms", beside + unjoined, "ms",
+                f"a press reads what lies beside {beside:.0f} ms, finds edges that lie on others {unjoined:.0f} ms; "
+                f"Check reads {check:.0f} ms; medians of {len(times['beside'])}")]
+
+
 def rows() -> list[Row]:
     background = measured("live_transfer", [lanes.BLENDER, "-b", "--factory-startup"])
     press = measured("live_press", [lanes.BLENDER, "-b", "--factory-startup"])
+    neighbours = measured("live_neighbours", [lanes.BLENDER, "-b", "--factory-startup"])
     window = measured("live_drag", lanes.window_command())
     load = os.getloadavg()[0]
     print(f"live rows at {time.strftime('%H:%M')}: load {load:.1f} on {os.cpu_count()} cores", flush=True)
-    return [*transfer_rows(background), *press_rows(press), *drag_rows(window, "10k"), *drag_rows(window, "100k"),
-            *feel_rows(window)]
+    return [*transfer_rows(background), *press_rows(press), *neighbour_rows(neighbours),
+            *drag_rows(window, "10k"), *drag_rows(window, "100k"), *feel_rows(window)]
 
 
 if __name__ == "__main__":

@@ -41,6 +41,7 @@ REACH = {
     "press_over_native_100k": (1.3, True), "drag_hysteresis": (1e-6, True), "drag_kick": (1.5, True),
     "stripes_ms_400k": (100.0, True), "escape_ms_100k": (100.0, True), "drag_still_ms_100k": (100.0, True),
     "cgal_fair_over_ours_10k": (8.0, False), "biharmonic_over_ours_100k": (0.5, False),
+    "neighbours_ms": (300.0, True),
     "cage_warm_step_ms": (33.0, True), "bounded_over_free_10k": (5.0, True), "bounded_over_free_100k": (5.0, True),
     "bounded_warm_over_free_10k": (2.0, True), "bounded_warm_over_free_100k": (2.0, True),
     "drag_limited_over_free_10k": (2.0, True), "drag_limited_over_free_100k": (2.0, True),
