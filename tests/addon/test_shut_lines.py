@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import scenes
+from reflection_lines.model.steps import finish
+from reflection_lines.read import read_beside
 from reflection_lines.state import last_checks
 from test_across_gap import MATRICES, bent, half, start
 
@@ -99,3 +101,17 @@ def test_a_cage_is_measured_on_its_surface(scale: float) -> None:
     start(left)
     row = check(left)["smallest gap of shut line 1"]
     assert row.after == pytest.approx(GAP * abs(scale), rel=0.02) and row.beside == "Right"
+
+
+def test_neighbors_are_the_same_read_at_once_or_object_by_object(monkeypatch: pytest.MonkeyPatch) -> None:
+    ob = start_halves()
+    for number in range(3):
+        half(f"Other {number}", 0.5 * GAP, 1.0, raised, 5 + number)
+    scenes.object_mode()
+    V = scenes.world(ob)
+    whole = finish(read_beside.read_neighbors(ob, V))
+    monkeypatch.setattr(read_beside, "STEP", -1.0)
+    steps = list(read_beside.read_neighbors(ob, V))
+    parts = finish(read_beside.read_neighbors(ob, V))
+    assert len(steps) >= 4 and parts.names == whole.names == ["Right", "Other 0", "Other 1", "Other 2"]
+    assert all(np.array_equal(getattr(parts, name), getattr(whole, name)) for name in ("V", "F", "label"))

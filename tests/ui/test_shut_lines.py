@@ -108,4 +108,18 @@ def test_escape_leaves_the_last_check(driver: window.Window) -> Steps:
     assert last_checks.find_check(ob.name) is not drawn
 
 
-window.run(test_the_shut_line_is_green_within_the_mark_and_red_beyond, test_escape_leaves_the_last_check)
+def test_a_panel_that_moves_meanwhile_keeps_its_last_check(driver: window.Window) -> Steps:
+    ob, last_checks = build_halves(driver), sys.modules["reflection_lines"].state.last_checks
+    with driver.override():
+        assert bpy.ops.reflines.check('EXEC_DEFAULT', True) == {'FINISHED'}
+    drawn = last_checks.find_check(ob.name)
+    begin(driver)
+    ob.location.z += 0.001
+    bpy.context.view_layer.update()
+    yield from wait()
+    assert last_checks.find_check(ob.name) is drawn
+    assert driver.read_last_report().endswith("Door was changed while it was checked: check it again")
+
+
+window.run(test_the_shut_line_is_green_within_the_mark_and_red_beyond, test_escape_leaves_the_last_check,
+           test_a_panel_that_moves_meanwhile_keeps_its_last_check)
