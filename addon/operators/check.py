@@ -33,9 +33,7 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = scene_objects.read_active_object(context)
-        cls.poll_message_set("Make a panel's mesh active, in Edit Mode or Object Mode")
-        return ob is not None and ob.type == 'MESH' and ob.mode in {'EDIT', 'OBJECT'}
+        return scene_objects.has_panel(cls, context)
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -12,6 +12,7 @@ from ..model.film import Film
 from ..model.refusal import report_refusals
 from ..model.steps import Steps
 from ..read import scene_objects
+from ..view import view_and_light
 from ..write.png import encode_png
 
 ROOM = 1.06  # of the picture to the panel's extent
@@ -37,7 +38,7 @@ ends it early"""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return file_work.has_panel(cls, context)
+        return view_and_light.has_seen_panel(cls, context)
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:

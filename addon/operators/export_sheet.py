@@ -16,6 +16,7 @@ from ..model.refusal import report_refusals
 from ..model.steps import Steps
 from ..read import scene_objects
 from ..read.text_outlines import read_outlines
+from ..view import view_and_light
 from ..write.png import encode_png
 
 ROOM = 1.12  # of the picture to the panel's extent
@@ -36,7 +37,7 @@ worst spots from near, each in the light that shows it. Esc cancels"""
         if ob is None or ob.type != 'MESH' or not ob.reflection_lines.inspection.summary:
             cls.poll_message_set("Make a panel active that was inspected")
             return False
-        return file_work.has_panel(cls, context)
+        return view_and_light.has_seen_panel(cls, context)
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:

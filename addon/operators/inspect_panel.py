@@ -33,13 +33,7 @@ of the set. Nothing is changed; Esc cancels"""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        ob = scene_objects.read_active_object(context)
-        if ob is None or ob.type != 'MESH' or ob.mode not in {'EDIT', 'OBJECT'}:
-            cls.poll_message_set("Make a panel's mesh active, in Edit Mode or Object Mode")
-            return False
-        obstacle = view_and_light.find_obstacle(context.scene)
-        cls.poll_message_set(obstacle)
-        return not obstacle
+        return view_and_light.has_seen_panel(cls, context)
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:

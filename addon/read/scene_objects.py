@@ -28,6 +28,13 @@ def read_active_object(context: bpy.types.Context) -> bpy.types.Object | None:
     return getattr(context, "active_object", None) or context.view_layer.objects.active
 
 
+def has_panel(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Returns whether the active object is a mesh to look at; sets the message that says why not."""
+    ob = read_active_object(context)
+    operator.poll_message_set("Make a panel's mesh active, in Edit Mode or Object Mode")
+    return ob is not None and ob.type == 'MESH' and ob.mode in {'EDIT', 'OBJECT'}
+
+
 def find_active_object(context: bpy.types.Context) -> bpy.types.Object | None:
     """Returns the active object; for a warp lattice in Object Mode the mesh that it warps.
 

@@ -6,6 +6,7 @@ from mathutils import Matrix, Vector
 from .. import native
 from ..model.refusal import Refusal
 from ..model.view import View
+from ..read import scene_objects
 
 
 def is_perspective(camera: bpy.types.Object) -> bool:
@@ -84,6 +85,15 @@ def find_picture_direction(camera: bpy.types.Object, angle: float) -> np.ndarray
 def find_obstacle(scene: bpy.types.Scene) -> str:
     """Returns why no tool can run now, as a sentence; empty where tools can run."""
     return native.STATE.problem or scene.reflection_lines.missing()
+
+
+def has_seen_panel(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Returns whether there is a panel, and what its lines need; sets the message that says why not."""
+    if not scene_objects.has_panel(operator, context):
+        return False
+    obstacle = find_obstacle(context.scene)
+    operator.poll_message_set(obstacle)
+    return not obstacle
 
 
 def refuse_obstacle(scene: bpy.types.Scene) -> None:
