@@ -6,6 +6,7 @@ CODES = {"free": 0, "fixed": 1, "clamped": 2, "curvature": 3, "flow": 4, "follow
 NAMES = {"free": "Free", "fixed": "Position (G0)", "clamped": "Tangent (G1)", "curvature": "Curvature (G2)",
          "flow": "Flow (G3)", "follow": "Neighbours"}  # by which the artist knows them
 UNSET = -1  # of a vertex without a condition of its own
+WRONG = -2  # of one whose stored value stands for none
 
 
 def name_border(border: str) -> str:

@@ -50,3 +50,11 @@ def renumber_vertices(chosen: np.ndarray, count: int) -> tuple[np.ndarray, np.nd
     used[chosen] = True
     compact = np.cumsum(used, dtype=np.int32) - 1
     return np.flatnonzero(used), compact[chosen]
+
+
+def find_face_of_triangles(sizes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Finds the face of each triangle of the chosen faces (#faces, bool), in the order of both triangulations; `sizes`
+    (#faces) are the numbers of corners of all.
+    """
+    own = np.flatnonzero(faces)
+    return np.repeat(own, sizes[own] - 2)

@@ -2,7 +2,7 @@
 import bpy
 
 from ..model.refusal import report_refusals
-from ..read import read_patch, region_faces, scene_objects
+from ..read import gather, region_faces, scene_objects
 from ..solver import live_optimizer
 from ..ui.tool_properties import SPLINES
 from ..view import facing
@@ -33,7 +33,7 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
         context.view_layer.update()
         settings = context.scene.reflection_lines
         ob = scene_objects.find_subjects(context)[0]
-        patch = read_patch.gather_mesh_patch(ob)
+        patch = gather.gather_patch(ob)
         seen = facing.read_patch_view(context.scene, patch)
         frame = live_optimizer.compute_image_frame(patch, seen)
         region_faces.keep_region(ob, patch)

@@ -12,7 +12,7 @@ from ..model.refusal import Refusal, report_refusals
 from ..model.steps import Steps, finish
 from ..model.view import View
 from ..native_call import run_now
-from ..read import mesh_checks, read_beside, read_checked, read_mesh, read_patch, scene_objects
+from ..read import gather, mesh_checks, read_beside, read_checked, read_mesh, scene_objects
 from ..read.mesh_checks import Purpose
 from ..solver import live_optimizer, panel_check
 from ..solver.panel_check import Checked
@@ -132,7 +132,7 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
             report = ob.reflection_lines.report
             return patch, positions, check_table.describe_solve(report.lines_off(), growth * report.largest_move,
                                                                 growth * report.automatic_limit or None)
-        patch = read_patch.gather_mesh_patch(ob, or_all=True, purpose=Purpose.READ)
+        patch = gather.gather_patch(ob, or_all=True, purpose=Purpose.READ)
         return patch, patch.V, []
 
 

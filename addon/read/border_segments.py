@@ -29,16 +29,12 @@ class BorderEdges:
     codes: np.ndarray  # #V
 
 
-def read_border(ob: bpy.types.Object, index: np.ndarray) -> np.ndarray:
-    """Reads the codes of a patch's vertices, whose numbers in the mesh are `index` (#V): #V, border.UNSET where one
-    has none of its own. Refuses values that are neither codes nor between two.
+def read_border(ob: bpy.types.Object) -> np.ndarray:
+    """Reads the codes of the vertices: #vertices, border.UNSET where one has none of its own, border.WRONG where its
+    value is neither that of a code nor between two.
     """
-    values = (read_edit_values if ob.mode == 'EDIT' else read_object_values)(ob.data)[index].astype(np.int64)
-    wrong = int(((values < 0) | (values > VALUES[-1])).sum())
-    if wrong:
-        raise Refusal(f"{ob.name}: {wrong} vertices have a border that is none of Free, Position, Tangent, Curvature, "
-                      "Flow and Neighbours: select them and press one of these under Border of the Selected")
-    return decode_values(values)
+    values = (read_edit_values if ob.mode == 'EDIT' else read_object_values)(ob.data).astype(np.int64)
+    return np.where((values < 0) | (values > VALUES[-1]), border.WRONG, decode_values(values))
 
 
 def decode_values(values: np.ndarray) -> np.ndarray:

@@ -6,23 +6,26 @@ import numpy as np
 
 from ..model.beside import Crossing
 from ..model.patch import Patch
-from . import modifiers, read_beside, read_cage, read_patch, shape_keys
+from ..model.region_patch import cut_patch
+from . import modifiers, read_beside, read_cage, read_snapshot, shape_keys
 from .mesh_checks import Purpose
 
 
-def gather_patch(ob: bpy.types.Object, solve_for: str, result: str, local: np.ndarray | None = None, *,
-             or_all: bool = False, purpose: Purpose = Purpose.WRITE, margin: float = 0.0,
+def gather_patch(ob: bpy.types.Object, solve_for: str = 'MESH', result: str = 'MESH', local: np.ndarray | None = None,
+                 *, or_all: bool = False, purpose: Purpose = Purpose.WRITE, margin: float = 0.0,
                  crossing: Crossing | None = None) -> Patch:
-    """Gathers the patch of an object, for the mesh or its cage.
+    """Reads the mesh of an object once, and gathers its patch, for the mesh or its cage.
 
-    `solve_for` and `result` are values of the properties of these names; the rest is as in
-    read_patch.gather_mesh_patch.
+    `solve_for` and `result` are values of the properties of these names; `local`, `or_all` and `purpose` are as in
+    read_snapshot, `margin` as in cut_patch, for a mesh. `crossing` says what the border follows, where it does.
     """
     key = shape_keys.NAME if result == 'SHAPE_KEY' else ""
-    if solve_for == 'CAGE' and modifiers.is_cage(ob):
-        patch = read_cage.gather_cage_patch(ob, local, key, or_all=or_all, purpose=purpose)
-        if crossing is None or not crossing.concerns(patch.border):
-            return patch
-        return replace(patch, beside=read_beside.measure_beside(patch))
-    return read_patch.gather_mesh_patch(ob, local, key, or_all=or_all, purpose=purpose, margin=margin,
-                                        crossing=crossing)
+    snapshot = read_snapshot.read_snapshot(ob, key, local, or_all=or_all, purpose=purpose)
+    is_cage = solve_for == 'CAGE' and modifiers.is_cage(ob)
+    patch = cut_patch(snapshot, 0.0 if is_cage else margin)
+    if is_cage:
+        patch = read_cage.build_cage_patch(ob, snapshot, patch)
+    if crossing is None or not crossing.concerns(patch.border):
+        return patch
+    return replace(patch, beside=read_beside.measure_beside(patch) if is_cage else
+                   read_beside.read_beside(ob, snapshot, patch, crossing))

@@ -9,9 +9,11 @@ import numpy as np
 from .. import native
 from ..model import triangulation
 from ..model.beside import Beside, Crossing, Neighbors, join_soups, label_soups
+from ..model.mesh_snapshot import MeshSnapshot
 from ..model.patch import Patch, compute_bounds
 from ..model.steps import Steps, finish
-from . import modifiers, read_mesh, read_surroundings, region_faces
+from ..model.surroundings import find_readable
+from . import modifiers, read_mesh, region_faces
 
 WIDER = 1.05  # than the two lengths that a press takes in
 NEIGHBOR_MARGIN = 0.25  # of the diagonal: what lies across a gap, and enough of it to tell how it runs on
@@ -24,18 +26,23 @@ Box = tuple[np.ndarray, np.ndarray]  # lowest and highest corner
 Soup = tuple[np.ndarray, np.ndarray]  # vertices in world space and triangles
 
 
-def read_beside(ob: bpy.types.Object, patch: Patch, whole: np.ndarray, crossing: Crossing) -> Beside:
-    """Reads what lies beside the region of a mesh, whose vertices are `whole` in world space (#vertices x 3): its own
-    visible faces, and those of other objects as their modifiers leave them. In Edit Mode the mesh must have been
-    updated from it. Nothing of it is changed.
+def read_beside(ob: bpy.types.Object, snapshot: MeshSnapshot, patch: Patch, crossing: Crossing) -> Beside:
+    """Reads what lies beside the region of a mesh: its own visible faces, and those of other objects as their modifiers
+    leave them. Nothing of it is changed.
     """
     nothing = measure_beside(patch)
     low, high = compute_bounds(patch.V)
     margin = nothing.gap + nothing.margin
     box = low - margin, high + margin
-    own = finish(cut_near(ob.data, whole, ~patch.faces, box, turned=np.linalg.det(patch.matrix[:3, :3]) < 0.0))
     others = [finish(cutting) for _, _, cutting in read_others(ob, box, crossing)]
-    return nothing.add_soups([own, *others])
+    return nothing.add_soups([cut_own(snapshot, box), *others])
+
+
+def cut_own(snapshot: MeshSnapshot, box: Box) -> Soup:
+    """Cuts what of the mesh lies beside its region and has a vertex in a box."""
+    V, mesh = snapshot.world, snapshot.mesh
+    near = find_near(mesh.corners, mesh.sizes, V, find_inside(V, box), snapshot.visible & ~snapshot.region)
+    return build_soup(snapshot.cut_faces(near, V), V, turned=snapshot.is_turned) if near.any() else NOTHING
 
 
 def measure_beside(patch: Patch) -> Beside:
@@ -153,13 +160,18 @@ def cut_near(mesh: bpy.types.Mesh, V: np.ndarray, faces: np.ndarray, box: Box, *
         if not by_blender:
             yield
         around, sizes = corners[np.repeat(near, sizes)], sizes[near]
-        F = (read_surroundings.cut_faces(mesh, near, around, sizes, V) if by_blender
+        F = (read_mesh.read_region_triangles(mesh, near) if sizes.max() > 4
              else triangulation.triangulate_short_faces(around, sizes, V))
-        index, F = triangulation.renumber_vertices(F, len(V))
-        soup = V[index], F[:, ::-1] if turned else F
+        soup = build_soup(F, V, turned=turned)
     if by_blender:
         yield
     return soup
+
+
+def build_soup(F: np.ndarray, V: np.ndarray, *, turned: bool) -> Soup:
+    """Takes the triangles with those of the vertices V that they use, the right way out."""
+    index, F = triangulation.renumber_vertices(F, len(V))
+    return V[index], F[:, ::-1] if turned else F
 
 
 def find_inside(V: np.ndarray, box: Box) -> np.ndarray:
@@ -172,4 +184,4 @@ def find_near(corners: np.ndarray, sizes: np.ndarray, V: np.ndarray, inside: np.
               faces: np.ndarray) -> np.ndarray:
     """Finds those of the faces (#faces, bool) that have a vertex inside, and can be read."""
     near = faces & np.logical_or.reduceat(inside[corners], np.cumsum(sizes) - sizes)
-    return near if np.isfinite(V).all() else near & read_surroundings.find_readable(corners, sizes, V)
+    return near if np.isfinite(V).all() else near & find_readable(corners, sizes, V)

@@ -21,12 +21,6 @@ def read_integers(collection: bpy.types.bpy_prop_collection, name: str, each: in
     return values.view(np.int32)
 
 
-def read_region_corners(mesh: bpy.types.Mesh, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Reads the corners and sizes of the chosen faces only, as `read_corners` does of all."""
-    vertices, sizes = read_corners(mesh)
-    return vertices[np.repeat(faces, sizes)], sizes[faces]
-
-
 def read_coordinates(ob: bpy.types.Object, key: str = "") -> np.ndarray:
     """Reads the coordinates of the shape found by `find_shape_points`: #vertices x 3, object space."""
     shape = find_shape_points(ob, key)
@@ -67,12 +61,6 @@ def read_region_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray
     """Reads Blender's triangulation of the chosen faces: #triangles x 3."""
     vertices, polygons = read_triangles(mesh)
     return vertices[faces[polygons]]
-
-
-def find_face_of_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
-    """Finds the face of each triangle of the chosen faces (#faces, bool), in the order of both triangulations."""
-    own = np.flatnonzero(faces)
-    return np.repeat(own, read_corners(mesh)[1][own] - 2)
 
 
 SAMPLE = 64  # positions compared to detect a changed mesh

@@ -9,7 +9,7 @@ import numpy as np
 from ..model.cage import Cage
 from ..model.refusal import Refusal
 from ..model.solution import LastSolve
-from . import modifiers, read_cage, read_mesh, region_faces, shape_keys
+from . import modifiers, read_cage, read_mesh, read_snapshot, region_faces, shape_keys
 
 
 def read_viewport_cage(ob: bpy.types.Object, before: LastSolve | None = None) -> tuple[Cage, np.ndarray] | None:
@@ -41,7 +41,8 @@ def read_viewport_cage(ob: bpy.types.Object, before: LastSolve | None = None) ->
         else:
             local[patch.index] = patch.local
     axis = -1 if mirror is None else next(k for k in range(3) if mirror.use_axis[k])
-    whole = read_cage.read_cage(ob.data, visible, np.eye(4), modifier, mirror, axis, local)
+    whole = read_cage.read_cage(ob.data, read_snapshot.read_connectivity(ob.data), visible, np.eye(4), modifier,
+                                mirror, axis, local)
     return whole, np.tile(selected, 1 if mirror is None else 2)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ..model.refusal import Refusal
-from ..read import read_patch
+from ..read import region_faces
 from . import view_and_light
 
 MARGIN = 1.1    # size of the picture relative to the framed points
@@ -19,7 +19,28 @@ def choose_frame(context: bpy.types.Context, ob: bpy.types.Object, direction: tu
     if any(direction):
         return view_and_light.build_frame(Vector(direction))
     return (view_and_light.read_viewport_frame(context)
-            or view_and_light.build_frame(Vector(read_patch.compute_mean_normal(ob))))
+            or view_and_light.build_frame(Vector(compute_mean_normal(ob))))
+
+
+def compute_mean_normal(ob: bpy.types.Object) -> np.ndarray:
+    """Returns the mean normal, in world space, of the selected faces, else of the stored region, else of all faces; +Z
+    for a closed body, and where it is no direction.
+    """
+    if ob.mode == 'EDIT':
+        ob.update_from_editmode()
+    mesh = ob.data
+    faces = region_faces.read_selected_faces(mesh) if ob.mode == 'EDIT' else region_faces.read_stored_region(mesh)
+    areas, directions = np.empty(len(mesh.polygons)), np.empty(3 * len(mesh.polygons))
+    mesh.polygons.foreach_get("area", areas)
+    mesh.polygons.foreach_get("normal", directions)
+    chosen = faces if faces.any() else np.ones(len(faces), dtype=bool)
+    total = areas[chosen] @ directions.reshape(-1, 3)[chosen]
+    matrix = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
+    known = len(areas) and np.isfinite(total).all() and np.isfinite(matrix).all()
+    if not known or np.linalg.norm(total) < 1e-3 * areas[chosen].sum() or np.linalg.matrix_rank(matrix) < 3:
+        return np.array([0.0, 0.0, 1.0])
+    normal = np.linalg.solve(matrix.T, total)
+    return normal / np.linalg.norm(normal)
 
 
 def read_framed_points(ob: bpy.types.Object) -> np.ndarray:

@@ -14,6 +14,7 @@ from ..model import border
 from ..model.creases import AUTOMATIC
 from ..model.patch import Patch
 from ..model.surroundings import NOTHING_AROUND
+from ..model.triangulation import find_face_of_triangles
 from ..read import read_mesh
 
 Record = dict[str, np.ndarray | str]
@@ -47,8 +48,9 @@ def decode_solve(ob: bpy.types.Object, text: str) -> tuple[Patch, np.ndarray, np
     index, F, matrix, key = (stored[name] for name in ("index", "F", "matrix", "key"))
     faces, local = stored["faces"] != 0, stored["local"].astype(np.float64)
     V = local @ matrix[:3, :3].T + matrix[:3, 3]
-    patch = Patch(ob.name_full, faces, index, local, V, F, read_mesh.find_face_of_triangles(ob.data, faces), matrix,
-                  key, None, AUTOMATIC, np.full(len(index), border.UNSET), NOTHING_AROUND, None)
+    face_of_triangle = find_face_of_triangles(read_mesh.read_corners(ob.data)[1], faces)
+    patch = Patch(ob.name_full, faces, index, local, V, F, face_of_triangle, matrix, key, None, AUTOMATIC,
+                  np.full(len(index), border.UNSET), NOTHING_AROUND, None)
     move = read_mesh.read_coordinates(ob, key)[index] - local
     return patch, V + move @ matrix[:3, :3].T, stored["residual"].astype(np.float64)
 
@@ -89,7 +91,7 @@ def fits_mesh(stored: Record, mesh: bpy.types.Mesh) -> bool:
         return False
     if (len(stored["faces"]), len(local), len(stored["residual"])) != (len(mesh.polygons), n, triangles):
         return False
-    if triangles != len(read_mesh.find_face_of_triangles(mesh, stored["faces"] != 0)):
+    if triangles != (read_mesh.read_corners(mesh)[1][stored["faces"] != 0] - 2).sum():
         return False
     return bool(index[0] >= 0 and (np.diff(index) > 0).all() and index[-1] < len(mesh.vertices)
                 and F.min() >= 0 and F.max() < n

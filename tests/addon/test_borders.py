@@ -219,7 +219,7 @@ def test_a_cut_has_the_border_of_both_ends_or_none(cuts: int) -> None:
     bpy.ops.mesh.subdivide(number_cuts=cuts)
     scenes.object_mode()
     cut = [vertex for vertex in mesh.vertices if 0.0 < vertex.co.y < 1.0]
-    codes = border_segments.read_border(ob, np.array([vertex.index for vertex in cut]))
+    codes = border_segments.read_border(ob)[[vertex.index for vertex in cut]]
     wanted = [pairs[round(vertex.co.x)] for vertex in cut]
     assert len(cut) == cuts * len(pairs)
     assert [*codes] == [CODES.get(one, UNSET) if one == other else UNSET for one, other in wanted]

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from reflection_lines.blender import compat
-from reflection_lines.read import read_cage, viewport_cage
+from reflection_lines.read import read_cage, read_snapshot, viewport_cage
 from reflection_lines.overlay import solve_maps
 from reflection_lines.state import solve_history
 
@@ -144,7 +144,8 @@ def test_a_crease_is_as_sharp_as_blender_makes_it(crease: float) -> None:
     add_subdivision(ob)
     crease_row(ob, crease)
     faces = np.ones(len(ob.data.polygons), dtype=bool)
-    cage = read_cage.read_cage(ob.data, faces, np.eye(4), ob.modifiers[0], None, -1, scenes.positions(ob))
+    mesh = read_snapshot.read_connectivity(ob.data)
+    cage = read_cage.read_cage(ob.data, mesh, faces, np.eye(4), ob.modifiers[0], None, -1, scenes.positions(ob))
     assert len(cage.creases) == CELLS
     assert np.abs(cage.V[cage.creases][:, :, 1]).max() < 1e-6
     assert cage.sharpness == pytest.approx(np.full(CELLS, 10.0 * crease**2))

@@ -2,7 +2,7 @@
 import bmesh
 import bpy
 import numpy as np
-from reflection_lines.read import read_mesh, read_patch
+from reflection_lines.read import gather, read_mesh
 from reflection_lines.write import write_mesh
 
 import scenes
@@ -28,7 +28,7 @@ def test_triangles_are_blenders() -> None:
     ob = mixed_panel()
     scenes.look_from_above()
     scenes.edit_inner(ob, cells=20, margin=0)
-    patch = read_patch.gather_mesh_patch(ob)
+    patch = gather.gather_patch(ob)
     own = read_mesh.read_region_triangles(ob.data, patch.faces)
     assert {len(polygon.vertices) for polygon in ob.data.polygons} == {3, 4}
     cuts = [tuple(triangle) for triangle in own]
@@ -40,7 +40,7 @@ def test_triangles_are_blenders() -> None:
 def test_normals_after_few_moves_are_those_of_all() -> None:
     ob = scenes.panel(cells=60)
     scenes.edit_inner(ob, cells=60, margin=27)
-    patch = read_patch.gather_mesh_patch(ob)
+    patch = gather.gather_patch(ob)
     moved = patch.V + np.random.default_rng(1).uniform(0.0, 0.02, len(patch.V))[:, None] * [0.0, 0.0, 1.0]
     assert len(moved) < write_mesh.FEW * 61 * 61
     write_mesh.write_solution(ob, patch, moved)

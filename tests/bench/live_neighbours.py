@@ -48,7 +48,7 @@ def measure() -> dict[str, list[float]]:
         build_panel(name, x, y)
     scenes.activate(ob)
     bpy.context.view_layer.update()
-    patch = read.read_patch.gather_mesh_patch(ob, or_all=True, purpose=read.mesh_checks.Purpose.READ)
+    patch = read.gather.gather_patch(ob, or_all=True, purpose=read.mesh_checks.Purpose.READ)
     crossing = model.beside.Crossing(everywhere=True)
     return {name: [milliseconds(work) for _ in range(REPETITIONS)] for name, work in {
         "beside": lambda: read.read_beside.read_beside(ob, patch, patch.V, crossing),

@@ -54,7 +54,7 @@ def measure_press(cells: int) -> dict[str, list[float]]:
     native = sys.modules["reflection_lines.native"]
     ob = make_bumpy_panel(cells)
     start = [tuple(vertex.co) for vertex in bmesh.from_edit_mesh(ob.data).verts]
-    patch = sys.modules["reflection_lines.read.read_patch"].gather_mesh_patch(ob)
+    patch = sys.modules["reflection_lines.read.gather"].gather_patch(ob)
     view = sys.modules["reflection_lines.view.view_and_light"].read_scene_view(bpy.context.scene, patch.center)
     press, alone = [], []
     for _ in range(REPETITIONS):

@@ -52,7 +52,7 @@ def fresh_panel(cells: int) -> bpy.types.Object:
 def transfer(cells: int) -> Times:
     """Every vertex of the region is moved, which is the most that can be written."""
     ob = fresh_panel(cells)
-    gather, write = addon("read.read_patch").gather_mesh_patch, addon("write.write_mesh").write_solution
+    gather, write = addon("read.gather").gather_patch, addon("write.write_mesh").write_solution
     patch = gather(ob)
     moves = [patch.V + [0.0, 0.0, 1e-4 * k] for k in range(1, REPETITIONS + 1)]
     return {"gather": [milliseconds(lambda: gather(ob)) for _ in range(REPETITIONS)],
@@ -72,7 +72,7 @@ def solves(cells: int) -> Times:
     """One from the bare mesh, and those of a drag of the strength, 15 pixels a step, without a limit that is reached
     and within a share of the largest move.
     """
-    patch = addon("read.read_patch").gather_mesh_patch(fresh_panel(cells))
+    patch = addon("read.gather").gather_patch(fresh_panel(cells))
     cache = addon("state.optimizer_cache")
     view = addon("view.view_and_light").read_scene_view(bpy.context.scene, patch.center)
     first = request(patch, 1.0)
@@ -96,7 +96,7 @@ def solves(cells: int) -> Times:
 
 def dabs(cells: int) -> Times:
     """Dabs of Fair Brush along a stroke: place, window, solve; without writing the mesh."""
-    patch = addon("read.read_patch").gather_mesh_patch(fresh_panel(cells))
+    patch = addon("read.gather").gather_patch(fresh_panel(cells))
     brush, view = addon("solver.brush"), addon("view.facing").read_patch_view(bpy.context.scene, patch)
     brushed = brush.BrushedPatch(patch, view, "clamped")
     settings = brush.Brush(DAB_RADIUS, strength=0.5, length=0.3, limit=1.0, families=2)

@@ -196,7 +196,7 @@ def press_panel(path: Path) -> Steps:
     """Applies all tools to one panel and writes its shapes."""
     ob = open_panel(path, "flawed")
     F, region = read_triangles(ob)
-    patch = sys.modules["reflection_lines.read.read_patch"].gather_mesh_patch(ob)
+    patch = sys.modules["reflection_lines.read.gather"].gather_patch(ob)
     view = sys.modules["reflection_lines.view.facing"].read_patch_view(bpy.context.scene, patch)
     found = {"F": F, "region": region, "view": view.view_direction, "light": view.line_direction,
              "count": np.array(bpy.context.scene.reflection_lines.stripes.count),
