@@ -1,6 +1,6 @@
 """A check in the background: neighbours are read in short steps, and native calls measure; Esc cancels."""
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from .. import native
@@ -24,7 +24,7 @@ class CheckRequest:
     name: str  # of the object
     patch: Patch
     surface: CheckedSurface
-    own: list[TableRow]  # the lines of the table that tell of the last run
+    own: Sequence[TableRow]
     marks: Marks
     shut_line_marks: ShutLineMarks
 
@@ -34,6 +34,7 @@ class CheckOutcome:
     """The findings of a check of borders and of shut lines, or why there are none."""
     found: Checked | None = None
     shut: Checked | None = None
+    own: Sequence[TableRow] = ()  # the lines of the table that tell of the last run
     refusal: str = ""
 
 
@@ -91,4 +92,4 @@ async def measure(request: CheckRequest, neighbors: Neighbors,
         found = await panel_check.check_surface(request.surface, request.marks)
         begin_stage("shut lines, step 3 of 3")
         shut = await shut_lines.check_shut_lines(request.surface, request.name, neighbors, request.shut_line_marks)
-    return CheckOutcome(found, shut)
+    return CheckOutcome(found, shut, request.own)

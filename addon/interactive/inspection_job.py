@@ -42,6 +42,19 @@ class InspectionJob:
         except native.Cancelled as cancelled:
             return InspectionOutcome(refusal=str(cancelled))
 
+    def advance(self) -> InspectionOutcome | None:
+        """Looks whether the native calls have ended; returns the outcome once."""
+        outcome = self.work.take()
+        if outcome is None and not self.work.is_alive():
+            return InspectionOutcome(refusal="The inspection stopped: nothing was found")
+        return outcome
+
+    def is_reading(self) -> bool:
+        return False
+
+    def stop(self) -> None:
+        self.work.stop()
+
     def describe(self) -> str:
         """Describes how far the work is, for the status bar."""
         return f"Inspecting: {self.progress.stage}, {self.progress.fraction:.0%}   Esc: cancel"

@@ -7,8 +7,6 @@ from typing import Protocol
 
 import bpy
 
-from ..model.steps import Steps
-
 
 class RunningOperator(Protocol):
     """The interface of an operator that runs."""
@@ -17,34 +15,7 @@ class RunningOperator(Protocol):
     def take_back(self, context: bpy.types.Context) -> None: ...
 
 
-class FileWork(Protocol):
-    """The interface of work on a file, which one operator begins and another goes on with."""
-
-    def write(self, context: bpy.types.Context) -> Steps[None]:
-        """Reads the panel as it is in the first step, and writes; raises Refusal and OSError."""
-
-    def describe_progress(self) -> str:
-        """Describes how far the work is, for the status bar."""
-
-    def describe_written(self) -> str:
-        """Describes what was written, after the end or Esc."""
-
-
 _running: list[RunningOperator] = []
-_begun: list[tuple[FileWork, Steps[None]]] = []
-
-
-def hand_over(work: FileWork, steps: Steps[None]) -> None:
-    """Hands begun work over to the operator that is called next."""
-    _begun.append((work, steps))
-
-
-def has_begun_work() -> bool:
-    return bool(_begun)
-
-
-def take_begun_work() -> tuple[FileWork, Steps[None]]:
-    return _begun.pop()
 
 
 def begin(operator: RunningOperator, context: bpy.types.Context, interval: float = 0.0) -> set[str]:

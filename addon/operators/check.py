@@ -3,6 +3,7 @@ import bpy
 import numpy as np
 
 from ..interactive import check_job, running_operators
+from ..interactive.beside_blender import PanelWork
 from ..interactive.check_job import CheckJob, CheckOutcome, CheckRequest
 from ..model import check_table
 from ..model.check_table import TableRow
@@ -21,15 +22,14 @@ from ..state import last_checks, solve_history
 from ..state.last_checks import DrawnCheck
 from ..view import view_and_light
 
-TICK_INTERVAL = 0.02  # seconds between two steps
 
-
-class REFLINES_OT_check(bpy.types.Operator):
+class REFLINES_OT_check(PanelWork[CheckOutcome], bpy.types.Operator):
     """Measure borders, creases, gap and flush of shut lines and the deviation: what is better or worse than before the
 last run, or beyond its mark; without a run the selected faces alone. Esc cancels"""
     bl_idname = "reflines.check"
     bl_label = "Check Panel"
     bl_options = {'REGISTER', 'UNDO'}
+    verb = "check"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -37,15 +37,16 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
-        request, reading = self.begin_check(context)
-        self.store(scene_objects.read_active_object(context), request,
-                   run_now(check_job.measure(request, finish(reading))))
+        ob = scene_objects.read_active_object(context)
+        request, reading = self.read_request(context, ob)
+        self.store(ob, run_now(check_job.measure(request, finish(reading))))
         return {'FINISHED'}
 
-    def begin_check(self, context: bpy.types.Context) -> tuple[CheckRequest, Steps[Neighbors]]:
+    def read_request(self, context: bpy.types.Context,
+                     ob: bpy.types.Object) -> tuple[CheckRequest, Steps[Neighbors]]:
         """Reads the panel, and returns the request and the reading of what lies beside; refuses what cannot be checked.
         """
-        ob, settings = scene_objects.read_active_object(context), context.scene.reflection_lines
+        settings = context.scene.reflection_lines
         patch, positions, own = self.find_subject(ob)
         with live_optimizer.convert_native_errors(patch):
             surface = read_checked.read_checked_surface(ob, patch, positions)
@@ -55,71 +56,20 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
                                         settings.marks.shut_line)
         return CheckRequest(ob.name, patch, surface, own, marks, shut_line_marks), read_beside.read_neighbors(ob, V)
 
-    def store(self, ob: bpy.types.Object, request: CheckRequest, outcome: CheckOutcome) -> None:
+    def build_job(self, context: bpy.types.Context, ob: bpy.types.Object) -> CheckJob:
+        return CheckJob(*self.read_request(context, ob))
+
+    def describe_end(self) -> str:
+        return "Check Panel was cancelled: the last check stays"
+
+    def store(self, ob: bpy.types.Object, outcome: CheckOutcome) -> None:
         """Stores the table and what is drawn."""
-        found, shut, own = outcome.found, outcome.shut, request.own
+        found, shut, own = outcome.found, outcome.shut, outcome.own
         stored = ob.reflection_lines.check
         stored.fill([*found.rows, *own, *shut.rows], len(found.passes), int((~found.passes).sum()),
                     compared=bool(own))
         last_checks.remember_check(ob.name_full, build_drawn(ob, found.join(shut), compared=bool(own)))
         self.report({'INFO'}, f"{ob.name}: {stored.headline()}")
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Checks beside Blender, which goes on meanwhile."""
-        if context.area is None or context.area.type != 'VIEW_3D':
-            return self.execute(context)
-        ob = scene_objects.read_active_object(context)
-        try:
-            request, reading = self.begin_check(context)
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
-        self.shape, self.matrix = read_mesh.read_shown_coordinates(ob), ob.matrix_world.copy()
-        self.job = CheckJob(request, reading)
-        return running_operators.begin(self, context, TICK_INTERVAL)
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if event.type == 'ESC' and event.value == 'PRESS':
-            self.take_back(context)
-            self.report({'INFO'}, "Check Panel was cancelled: the last check stays")
-            return {'CANCELLED'}
-        if event.type != 'TIMER':
-            return {'RUNNING_MODAL'} if self.job.is_reading() else {'PASS_THROUGH'}
-        outcome = self.job.advance()
-        if outcome is None:
-            context.workspace.status_text_set(self.job.describe())
-            return {'RUNNING_MODAL'}
-        self.end(context)
-        return self.take_outcome(outcome)
-
-    def take_outcome(self, outcome: CheckOutcome) -> set[str]:
-        name, refusal = self.job.request.name, outcome.refusal
-        ob = bpy.data.objects.get(name)
-        if not refusal and not self.is_same(ob):
-            refusal = f"{name} was changed while it was checked: check it again"
-        if refusal:
-            self.report({'ERROR'}, refusal)
-            return {'CANCELLED'}
-        self.store(ob, self.job.request, outcome)
-        for area in bpy.context.window.screen.areas:
-            area.tag_redraw()
-        return {'FINISHED'}
-
-    def is_same(self, ob: bpy.types.Object | None) -> bool:
-        """Returns whether an object has the shape and place that were checked."""
-        return ob is not None and ob.matrix_world == self.matrix and last_checks.has_shape(ob, self.shape)
-
-    def take_back(self, context: bpy.types.Context) -> None:
-        """Ends the work without a result."""
-        self.job.stop()
-        self.end(context)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Ends the work when Blender exits or opens another file."""
-        self.take_back(context)
-
-    def end(self, context: bpy.types.Context) -> None:
-        running_operators.end(self, context)
 
     def find_subject(self, ob: bpy.types.Object) -> tuple[Patch, np.ndarray, list[TableRow]]:
         """Returns the patch, its positions now, and the lines of the table that tell of the last run."""

@@ -7,7 +7,8 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..interactive import file_work, read_picture
+from ..interactive import read_picture, running_operators
+from ..interactive.beside_blender import FileExport
 from ..model.film import Film
 from ..model.refusal import report_refusals
 from ..model.steps import Steps
@@ -22,7 +23,7 @@ KINDS = (
 )
 
 
-class REFLINES_OT_export_film(ExportHelper, bpy.types.Operator):
+class REFLINES_OT_export_film(FileExport, ExportHelper, bpy.types.Operator):
     """Write a film of the panel with its stripes as one PNG a frame: the light turns, or the view walks around. Esc
 ends it early"""
     bl_idname = "reflines.export_film"
@@ -44,7 +45,7 @@ ends it early"""
     def execute(self, context: bpy.types.Context) -> set[str]:
         size = read_render_size(context.scene.render)
         work = FilmWork(Path(bpy.path.abspath(self.filepath)), (self.kind, self.swing, self.frames, *size))
-        return file_work.write_file(self, context, work)
+        return self.write_file(context, work)
 
 
 def read_render_size(render: bpy.types.RenderSettings) -> tuple[int, int]:
@@ -83,4 +84,4 @@ class FilmWork:
                 "No frame was written")
 
 
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_export_film])
+register, unregister = running_operators.make_registration(REFLINES_OT_export_film)

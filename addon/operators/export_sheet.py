@@ -8,7 +8,8 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..blender import units
-from ..interactive import file_work, read_picture
+from ..interactive import read_picture, running_operators
+from ..interactive.beside_blender import FileExport
 from ..model.canvas import Canvas
 from ..model.panel_picture import Looked, Pictured
 from ..model.sheet import HEIGHT, PICTURE, WIDTH, Sheet, count_steps, draw_sheet
@@ -22,7 +23,7 @@ from ..write.png import encode_png
 ROOM = 1.12  # of the picture to the panel's extent
 
 
-class REFLINES_OT_export_sheet(ExportHelper, bpy.types.Operator):
+class REFLINES_OT_export_sheet(FileExport, ExportHelper, bpy.types.Operator):
     """Write the last inspection as one page for others: the panel with its stripes and numbered spots, a table, and the
 worst spots from near, each in the light that shows it. Esc cancels"""
     bl_idname = "reflines.export_sheet"
@@ -41,7 +42,7 @@ worst spots from near, each in the light that shows it. Esc cancels"""
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
-        return file_work.write_file(self, context, SheetWork(Path(bpy.path.abspath(self.filepath))))
+        return self.write_file(context, SheetWork(Path(bpy.path.abspath(self.filepath))))
 
 
 class SheetWork:
@@ -87,4 +88,4 @@ def frame(shown: Pictured, looked: Looked) -> Looked:
     return Looked(looked.right, looked.up, looked.eye, middle, float(width), looked.line, looked.count)
 
 
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_export_sheet])
+register, unregister = running_operators.make_registration(REFLINES_OT_export_sheet)

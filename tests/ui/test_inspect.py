@@ -77,7 +77,7 @@ def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, No
     yield 0.1
     with driver.override():
         result = bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(folder / "film_.png"), frames=6)
-    assert result == {'FINISHED'}
+    assert result == {'RUNNING_MODAL'}
 
 
 def test_a_film_is_written_beside_blender(driver: window.Window) -> Steps:
@@ -111,7 +111,7 @@ def begin_sheet(driver: window.Window, file: Path) -> Generator[float, None, Non
     driver.move(300, 300)
     yield 0.1
     with driver.override():
-        assert bpy.ops.reflines.export_sheet('EXEC_DEFAULT', filepath=str(file)) == {'FINISHED'}
+        assert bpy.ops.reflines.export_sheet('EXEC_DEFAULT', filepath=str(file)) == {'RUNNING_MODAL'}
 
 
 def test_a_sheet_is_written_beside_blender_and_escape_cancels_it(driver: window.Window) -> Steps:

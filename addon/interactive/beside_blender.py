@@ -1,0 +1,165 @@
+"""The modal part of operators whose work is done in short steps beside Blender. Esc ends it."""
+from typing import Generic, Protocol, TypeVar
+
+import bpy
+
+from ..model.refusal import Refusal, report_refusals
+from ..model.steps import Steps, finish
+from ..read import read_mesh, scene_objects
+from ..state import last_checks
+from . import running_operators
+
+TICK_INTERVAL = 0.02  # seconds between two steps
+
+Outcome = TypeVar("Outcome")
+
+
+class Job(Protocol[Outcome]):
+    """The interface of work that is done in steps."""
+
+    def advance(self) -> Outcome | None:
+        """Does a step; returns the outcome once. Raises Refusal and OSError."""
+
+    def is_reading(self) -> bool:
+        """Returns whether Blender's data is still being read, which must not change meanwhile."""
+
+    def describe(self) -> str:
+        """Describes what is being done, for the status bar."""
+
+    def stop(self) -> None:
+        """Ends the work without an outcome."""
+
+
+class BesideBlender(Generic[Outcome]):
+    """The modal part of an operator with a job."""
+    job: Job[Outcome]
+
+    def take_outcome(self, outcome: Outcome) -> set[str]:
+        raise NotImplementedError
+
+    def describe_end(self) -> str:
+        """Says what Esc has left."""
+        raise NotImplementedError
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == 'ESC' and event.value == 'PRESS':
+            self.take_back(context)
+            self.report({'INFO'}, self.describe_end())
+            return {'CANCELLED'}
+        if event.type != 'TIMER':
+            return {'RUNNING_MODAL'} if self.job.is_reading() else {'PASS_THROUGH'}
+        try:
+            outcome = self.job.advance()
+        except (Refusal, OSError) as error:
+            self.take_back(context)
+            self.report({'ERROR'}, str(error))
+            return {'CANCELLED'}
+        if outcome is None:
+            context.workspace.status_text_set(self.job.describe())
+            return {'RUNNING_MODAL'}
+        running_operators.end(self, context)
+        return self.take_outcome(outcome)
+
+    def take_back(self, context: bpy.types.Context) -> None:
+        """Ends the work without a result."""
+        self.job.stop()
+        running_operators.end(self, context)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Ends the work when Blender exits or opens another file."""
+        self.take_back(context)
+
+
+class PanelWork(BesideBlender[Outcome]):
+    """An operator that looks at the active panel: what it finds is refused where the panel was changed meanwhile. An
+    outcome has a `refusal`, empty where there is a result.
+    """
+    verb: str  # what is done with the panel: "check"
+
+    def build_job(self, context: bpy.types.Context, ob: bpy.types.Object) -> Job[Outcome]:
+        """Reads the panel, and begins; refuses what cannot be looked at."""
+        raise NotImplementedError
+
+    def store(self, ob: bpy.types.Object, outcome: Outcome) -> None:
+        raise NotImplementedError
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Works beside Blender, which goes on meanwhile."""
+        is_in_view = context.area is not None and context.area.type == 'VIEW_3D'
+        return self.begin_job(context) if is_in_view else self.execute(context)
+
+    @report_refusals
+    def begin_job(self, context: bpy.types.Context) -> set[str]:
+        ob = scene_objects.read_active_object(context)
+        self.job = self.build_job(context, ob)
+        self.panel, self.shape, self.matrix = ob.name, read_mesh.read_shown_coordinates(ob), ob.matrix_world.copy()
+        return running_operators.begin(self, context, TICK_INTERVAL)
+
+    @report_refusals
+    def take_outcome(self, outcome: Outcome) -> set[str]:
+        ob = bpy.data.objects.get(self.panel)
+        if outcome.refusal:
+            raise Refusal(outcome.refusal)
+        if ob is None or ob.matrix_world != self.matrix or not last_checks.has_shape(ob, self.shape):
+            raise Refusal(f"{self.panel} was changed while it was {self.verb}ed: {self.verb} it again")
+        self.store(ob, outcome)
+        for area in bpy.context.window.screen.areas:
+            area.tag_redraw()
+        return {'FINISHED'}
+
+
+class FileWork(Protocol):
+    """The interface of work on a file."""
+
+    def write(self, context: bpy.types.Context) -> Steps[None]:
+        """Reads the panel as it is in the first step, and writes; raises Refusal and OSError."""
+
+    def describe_progress(self) -> str:
+        """Describes how far the work is, for the status bar."""
+
+    def describe_written(self) -> str:
+        """Describes what was written, after the end or Esc."""
+
+
+class FileJob:
+    """The steps of work on a file whose first one, which reads, is done."""
+
+    def __init__(self, work: FileWork, steps: Steps[None]) -> None:
+        self.work, self.steps = work, steps
+
+    def advance(self) -> FileWork | None:
+        try:
+            return next(self.steps)
+        except StopIteration:
+            return self.work
+
+    def is_reading(self) -> bool:
+        return False
+
+    def describe(self) -> str:
+        return self.work.describe_progress()
+
+    def stop(self) -> None:
+        """Ends the work; files that are written stay."""
+        self.steps.close()
+
+
+class FileExport(BesideBlender[FileWork]):
+    """An operator that writes files once their name is chosen; at once where there is no window."""
+
+    def write_file(self, context: bpy.types.Context, work: FileWork) -> set[str]:
+        """Begins to write; raises Refusal and OSError."""
+        steps = work.write(context)
+        self.job = FileJob(work, steps)
+        if bpy.app.background:
+            finish(steps)
+            return self.take_outcome(work)
+        next(steps)
+        return running_operators.begin(self, context, TICK_INTERVAL)
+
+    def take_outcome(self, outcome: FileWork) -> set[str]:
+        self.report({'INFO'}, outcome.describe_written())
+        return {'FINISHED'}
+
+    def describe_end(self) -> str:
+        return self.job.work.describe_written()
