@@ -29,7 +29,7 @@ def main() -> None:
     add_on = checkout.enable_add_on()
     bpy.ops.wm.open_mainfile(filepath=str(HERE / "car.blend"), load_ui=False)
     ob, context = bpy.context.view_layer.objects.active, bpy.context
-    bpy.ops.reflines.walk_around()
+    bpy.ops.reflines.light_set(action='WALK')
     rows = [draw_row(add_on, context, ob, "Before")]
     bpy.ops.reflines.smooth(lights='SET')
     print(f"light set: {ob.reflection_lines.report.headline()}")

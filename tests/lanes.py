@@ -162,7 +162,7 @@ def window_command(width: int = 1280, height: int = 900, display: int = 99) -> l
 TOGETHER = (
     ("drag", "drag_cages", "drag_meshes", "drag_tools", "draw_nearest", "drawn_lines", "handle_gizmos"),
     ("compare", "check", "stripe_modes", "stripes_edit", "look_through", "toolbar"),
-    ("borders", "buttons", "light", "menus", "panels", "pick"),
+    ("borders", "buttons", "light", "menus", "panels"),
     ("bake_handles", "follow_selected_edges", "inspect", "redo", "sidebar"),
 )
 

@@ -7,7 +7,6 @@ import numpy as np
 
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
-from ..model.refusal import Refusal
 from ..read.read_falloff import read_falloff
 from ..solver.live_optimizer import BuildTarget
 from ..targets import direction
@@ -29,8 +28,7 @@ direction, or lie closer together"""
 
     def has_use(self, context: bpy.types.Context, name: str) -> bool:
         """Returns whether a setting acts beside the others as they are."""
-        unused = {"angle": self.direction not in {'PRESENT', 'ANGLE'}, "start": self.direction != 'POINTS',
-                  "end": self.direction != 'POINTS', "density_end": self.axis == 'NONE',
+        unused = {"angle": self.direction not in {'PRESENT', 'ANGLE'}, "density_end": self.axis == 'NONE',
                   "strength": self.direction == 'PRESENT', "radius": self.centre == 'EVERYWHERE',
                   "shape": self.centre == 'EVERYWHERE'}
         return super().has_use(context, name) and not unused.get(name, False)
@@ -60,12 +58,7 @@ direction, or lie closer together"""
             return None
         if self.direction == 'ANGLE':
             return view_and_light.find_picture_direction(scene.reflection_lines.camera, self.angle)
-        if self.direction == 'MEAN':
-            return np.zeros(3)
-        between = np.array(self.end) - np.array(self.start)
-        if not between.any():
-            raise Refusal("The two points of the line direction are the same: pick two points")
-        return between
+        return np.zeros(3)
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_direction])

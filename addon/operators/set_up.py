@@ -14,9 +14,11 @@ PARTS = (
     ('ALL', "All", "The view camera looks as this view does; what is missing is added, and the stripes are shown"),
     ('CAMERA', "Another Camera", "Another view camera that looks as this view does"),
     ('LIGHT', "Light Direction", "An arrow along the horizontal of the view camera's picture"),
+    ('PANEL', "View of This Panel", "The view camera and the light that the active panel was last worked on with"),
 )
 TIPS = {'CAMERA': "Add another view camera, which looks at the panel as the 3D view does now; the first one stays",
-        'LIGHT': "Add an arrow that shows the direction of the line lights, at first along the horizontal of the view"}
+        'LIGHT': "Add an arrow that shows the direction of the line lights, at first along the horizontal of the view",
+        'PANEL': "Take the view camera and the light that the active panel was last worked on with"}
 
 
 class REFLINES_OT_set_up(bpy.types.Operator):
@@ -46,6 +48,9 @@ light direction where there are none, and show the stripes"""
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reflection_lines
+        if self.part == 'PANEL':
+            take_kept_view(settings, last_panels.find_panel(context))
+            return {'FINISHED'}
         if self.part != 'LIGHT':
             self.aim_camera(context, settings.picture_camera() if self.part == 'ALL' else None)
         if self.part == 'LIGHT' or (self.part == 'ALL' and not settings.present(settings.light)):
@@ -67,6 +72,16 @@ light direction where there are none, and show the stripes"""
         view_camera.aim_camera(context, camera, frame, points)
         context.scene.reflection_lines.camera = camera
         ob.reflection_lines.keep_view(context.scene)
+
+
+def take_kept_view(settings: bpy.types.PropertyGroup, ob: bpy.types.Object) -> None:
+    """Makes the camera and the light that a panel was last worked on with those of the scene."""
+    kept = ob.reflection_lines
+    if not kept.has_other_view(settings.id_data):
+        raise Refusal(f"{ob.name} was worked on with no other view camera or light")
+    for name in ("camera", "light"):
+        if settings.present(getattr(kept, name)):
+            setattr(settings, name, getattr(kept, name))
 
 
 def refuse_held_camera(context: bpy.types.Context, camera: bpy.types.Object, wanted: Matrix) -> None:

@@ -28,12 +28,12 @@ class VIEW3D_PT_reflines_light_set(ReflinesPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, chosen = self.layout, context.scene.reflection_lines.light_set
-        layout.operator("reflines.walk_around", icon='ORIENTATION_GIMBAL')
+        layout.operator("reflines.light_set", text="Walk Around", icon='ORIENTATION_GIMBAL').action = 'WALK'
         row = layout.row()
         row.template_list("REFLINES_UL_light_set", "", chosen, "entries", chosen, "active", rows=ROWS)
         buttons = row.column(align=True)
-        buttons.operator("reflines.add_set_light", text="", icon='ADD')
-        buttons.operator("reflines.remove_set_light", text="", icon='REMOVE')
+        buttons.operator("reflines.light_set", text="", icon='ADD').action = 'ADD'
+        buttons.operator("reflines.light_set", text="", icon='REMOVE').action = 'REMOVE'
         entry = chosen.find_active()
         if entry is None:
             draw_paragraph(layout, context, "Without a light the press takes crossed lights", 'INFO')
@@ -41,9 +41,6 @@ class VIEW3D_PT_reflines_light_set(ReflinesPanel, bpy.types.Panel):
         column = layout.column()
         column.use_property_split, column.use_property_decorate = True, False
         column.prop(entry, "weight")
-        if not entry.keeps_directions:
-            column.prop(entry, "camera")
-            column.prop(entry, "light")
         if len(chosen.entries) > MANY:
             taken = f"{MEGABYTES * len(chosen.entries):.0f} MB for 10,000 faces"
             draw_paragraph(layout, context, f"{len(chosen.entries)} lights take {taken}, and longer each", 'INFO')

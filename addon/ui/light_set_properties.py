@@ -23,8 +23,8 @@ class ReflinesSetLight(bpy.types.PropertyGroup):
             return "" if any(self.eye) and any(self.line) else "It has no direction: remove it"
         present = self.id_data.reflection_lines.present
         if not present(self.camera) or self.camera.type != 'CAMERA':
-            return "Its camera is gone: pick one, or remove it"
-        return "" if present(self.light) else "Its light is gone: pick one, or remove it"
+            return "Its camera is gone: remove it"
+        return "" if present(self.light) else "Its light is gone: remove it"
 
     def is_used(self) -> bool:
         return not self.muted and self.weight > 0.0 and not self.find_problem()

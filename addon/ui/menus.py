@@ -35,7 +35,6 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.prop(stripes, "show")
         layout.prop(stripes, "before")
         layout.prop_menu_enum(stripes, "mode")
-        layout.operator("reflines.install_matcap", icon='MATSPHERE')
         layout.operator("reflines.resolve", icon='FILE_REFRESH')
         layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
         layout.operator("reflines.store_result", icon='SPREADSHEET')

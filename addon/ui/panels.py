@@ -52,7 +52,7 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
         column.operator("reflines.sweep_view", icon='ORIENTATION_GIMBAL')
         ob = context.view_layer.objects.active
         if ob is not None and ob.reflection_lines.has_other_view(context.scene):
-            column.operator("reflines.use_panel_view", icon='LOOP_BACK')
+            column.operator("reflines.set_up", text="View of This Panel", icon='LOOP_BACK').part = 'PANEL'
         if settings.is_perspective():
             draw_paragraph(column, context, "Perspective camera: its direction to the panel's centre is used", 'INFO')
         self.draw_unfollowed(column, context, settings.camera)
@@ -248,8 +248,6 @@ class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
         layout.prop(own, "direction")
         if own.direction in {'PRESENT', 'ANGLE'}:
             layout.prop(own, "angle")
-        elif own.direction == 'POINTS':
-            layout.operator("reflines.pick_direction", icon='EYEDROPPER')
         layout.prop(own, "density", text="Density" if own.axis == 'NONE' else "At the Start")
         layout.prop(own, "axis")
         if own.axis != 'NONE':

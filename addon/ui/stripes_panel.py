@@ -63,8 +63,6 @@ class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         for name in self.list_settings(settings.stripes.mode):
             layout.prop(settings.stripes, name)
-        if settings.stripes.mode == 'REFLECTION':
-            layout.operator("reflines.install_matcap", icon='MATSPHERE')
 
     def list_settings(self, mode: str) -> tuple[str, ...]:
         bands = ("count", "width", "softness", "color", "gap_color") if mode in BANDS else ()

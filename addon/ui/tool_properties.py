@@ -30,7 +30,6 @@ DIRECTIONS = (
     ('PRESENT', "As They Run", "The lines keep their course, turned by the angle; by 0 nothing changes", 'NONE', 3),
     ('MEAN', "Straight", "Straight lines in the mean direction of those that are there", 'NONE', 0),
     ('ANGLE', "At an Angle", "Straight lines at an angle in the view camera's picture", 'NONE', 1),
-    ('POINTS', "Two Points", "Straight lines from one picked point to another", 'NONE', 2),
 )
 AXES = (
     ('NONE', "Constant", "The same density everywhere"),
@@ -147,8 +146,6 @@ class DirectionSettings:
     angle: FloatProperty(name="Angle", subtype='ANGLE', **SAVED,
                          description="Counter-clockwise in the camera's picture: how far lines that keep their course "
                          "are turned, and of straight ones from the horizontal")
-    start: FloatVectorProperty(name="From", subtype='XYZ', unit='LENGTH', **SAVED, description="In world space")
-    end: FloatVectorProperty(name="To", subtype='XYZ', unit='LENGTH', **SAVED, description="In world space")
     density: FloatProperty(name="Density", default=1.0, min=0.0, soft_max=10.0, precision=3, **SAVED,
                            description="How close together the lines are: a factor of what they are, of straight ones "
                            "of their mean")

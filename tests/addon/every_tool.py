@@ -26,9 +26,10 @@ CHANGING = {
 # Of the scene rather than of the object.
 OTHERS = {
     "add_warp_lattice": {}, "live_warp": {}, "live_warp kept": {"action": 'APPLY'},
-    "live_warp taken back": {"action": 'DISCARD'}, "set_up": {}, "use_panel_view": {},
+    "live_warp taken back": {"action": 'DISCARD'}, "set_up": {}, "set_up as before": {"part": 'PANEL'},
     "set_up of a light": {"part": 'LIGHT'}, "set_up of another camera": {"part": 'CAMERA'},
-    "delete_handles": {}, "walk_around": {}, "add_set_light": {}, "remove_set_light": {},
+    "delete_handles": {}, "light_set": {}, "light_set with another": {"action": 'ADD'},
+    "light_set with one less": {"action": 'REMOVE'},
 }
 
 

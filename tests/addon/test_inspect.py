@@ -90,7 +90,7 @@ def test_the_set_is_inspected_in_its_own_lights() -> None:
     ob = make_panel()
     with pytest.raises(RuntimeError, match="The set has no light that can be used"):
         bpy.ops.reflines.inspect('EXEC_DEFAULT', True, lights='SET')
-    bpy.ops.reflines.walk_around()
+    bpy.ops.reflines.light_set(action='WALK')
     entries = bpy.context.scene.reflection_lines.light_set.entries
     of_all = inspect(ob)
     degrees = of_all.spots[0].degrees

@@ -45,12 +45,12 @@ def press(**given: object) -> None:
 
 
 def walk() -> bpy.types.bpy_prop_collection:
-    assert bpy.ops.reflines.walk_around('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.ops.reflines.light_set('EXEC_DEFAULT', True, action='WALK') == {'FINISHED'}
     return settings().light_set.entries
 
 
 def add_light() -> bpy.types.PropertyGroup:
-    assert bpy.ops.reflines.add_set_light('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.ops.reflines.light_set('EXEC_DEFAULT', True, action='ADD') == {'FINISHED'}
     return settings().light_set.find_active()
 
 
@@ -320,7 +320,7 @@ def test_a_press_in_crossed_lights_is_judged_by_the_set() -> None:
     assert read_worst_light(ob).startswith("Its left")
     look_for_worse(ob, read_worst_light(ob))
     while len(settings().light_set.entries):
-        bpy.ops.reflines.remove_set_light('EXEC_DEFAULT', True)
+        bpy.ops.reflines.light_set('EXEC_DEFAULT', True, action='REMOVE')
     assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
     assert "one place worse in the" in ob.reflection_lines.report.headline()
 
@@ -346,5 +346,6 @@ def test_the_choice_is_that_of_the_sidebar_and_the_set_is_emptied() -> None:
     assert bpy.ops.reflines.smooth('EXEC_DEFAULT', True) == {'FINISHED'}
     assert bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.2) == {'FINISHED'}  # as with crossed lights
     for _ in range(10):
-        assert bpy.ops.reflines.remove_set_light('EXEC_DEFAULT', True) == {'FINISHED'}
-    assert not bpy.ops.reflines.remove_set_light.poll()
+        assert bpy.ops.reflines.light_set('EXEC_DEFAULT', True, action='REMOVE') == {'FINISHED'}
+    with pytest.raises(RuntimeError, match="The set has no light"):
+        bpy.ops.reflines.light_set('EXEC_DEFAULT', True, action='REMOVE')

@@ -50,7 +50,7 @@ def warped() -> np.ndarray:
 @pytest.mark.parametrize("lights", ['CROSSED', 'SET'])
 def test_apply_makes_what_warp_makes(panel, lights) -> None:
     bpy.context.scene.reflection_lines.lights = lights
-    bpy.ops.reflines.walk_around()
+    bpy.ops.reflines.light_set(action='WALK')
     start()
     pull()
     end("apply")

@@ -32,7 +32,7 @@ def export(file: Path) -> np.ndarray:
 @pytest.mark.parametrize("lights", ['WALK', 'SET'])
 def test_spots_are_ringed_where_they_are(lights: str, tmp_path: Path) -> None:
     ob = make_panel()
-    bpy.ops.reflines.walk_around()
+    bpy.ops.reflines.light_set(action='WALK')
     found = inspect(ob, lights=lights)
     before = scenes.fingerprint(ob), len(bpy.data.objects), len(bpy.data.curves)
     pixels = export(tmp_path / "sheet.png")

@@ -48,8 +48,6 @@ CURVE = {"centre": 'CURSOR', "shape": 'CURVE'}
 CHANGES = {
     "smooth": lambda: scenes.smooth(directional=True),
     "angle": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='ANGLE', angle=0.1, **CLAMPED),
-    "points": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='POINTS', end=(5.0, 1.0, 0.0),
-                                                 **CLAMPED),
     "density": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, density=1.1, axis='ACROSS', density_end=0.9,
                                                   **CLAMPED),
     "straight": lambda: bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction='MEAN', density=1.1, axis='ALONG',
@@ -200,11 +198,6 @@ def test_a_changed_mesh_is_no_result(panel) -> None:
     bpy.ops.transform.translate(value=(0.0, 0.0, 0.1))
     with pytest.raises(RuntimeError, match="not as the last solve left it"):
         bpy.ops.reflines.store_result()
-
-
-def test_two_equal_points_are_refused(panel) -> None:
-    with pytest.raises(RuntimeError, match="two points of the line direction are the same"):
-        bpy.ops.reflines.direction(direction='POINTS')
 
 
 def test_a_missing_image_is_refused(panel) -> None:

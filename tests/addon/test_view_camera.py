@@ -144,6 +144,15 @@ def test_in_edit_mode_the_selection_is_framed() -> None:
     assert not is_framed(scenes.world(ob))
 
 
+def has_other_view(ob: bpy.types.Object) -> bool:
+    """Whether the operator takes another view or light for the active panel, of which the sidebar tells."""
+    told = ob.reflection_lines.has_other_view(bpy.context.scene)
+    if not told:
+        with pytest.raises(RuntimeError, match="worked on with no other view camera or light"):
+            bpy.ops.reflines.set_up(part='PANEL')
+    return told
+
+
 def test_a_panel_keeps_its_view() -> None:
     one = scenes.panel("One")
     scenes.look_from_above()
@@ -151,18 +160,18 @@ def test_a_panel_keeps_its_view() -> None:
     scenes.smooth()
     scenes.object_mode()
     first = settings().camera, settings().light
-    assert not bpy.ops.reflines.use_panel_view.poll()
+    assert not has_other_view(one)
     one.select_set(False)
     other = scenes.panel("Two")
     bpy.ops.reflines.set_up(part='CAMERA', direction=(0.3, 0.0, 1.0))
     assert settings().camera != first[0]
-    assert not bpy.ops.reflines.use_panel_view.poll()
+    assert not has_other_view(other)
     scenes.activate(one)
-    assert bpy.ops.reflines.use_panel_view() == {'FINISHED'}
+    assert bpy.ops.reflines.set_up(part='PANEL') == {'FINISHED'}
     assert (settings().camera, settings().light) == first
     scenes.activate(other)
     bpy.data.objects.remove(other.reflection_lines.camera)
-    assert not bpy.ops.reflines.use_panel_view.poll()
+    assert not has_other_view(other)
 
 
 def test_a_camera_of_another_scene_is_named_as_such() -> None:

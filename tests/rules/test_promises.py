@@ -9,8 +9,7 @@ FOREIGN = {"socket", "ssl", "http", "urllib", "ftplib", "smtplib", "requests", "
            "multiprocessing", "ctypes", "pickle", "shelve", "marshal", "dill", "runpy", "code"}
 RUNS_TEXT = {"eval", "exec", "compile", "__import__"}
 # Who may write files: name of the module -> how.
-WRITERS = {"addon/library_copy.py", "addon/write/matcap.py", "addon/operators/install_matcap.py",
-           "addon/operators/export_table.py", "addon/operators/export_sheet.py",
+WRITERS = {"addon/library_copy.py", "addon/operators/export_table.py", "addon/operators/export_sheet.py",
            "addon/operators/export_film.py"}
 WRITES = {"write_bytes", "write_text", "mkstemp", "makedirs", "save_render", "savez", "tofile", "copyfile"}
 
@@ -46,7 +45,7 @@ def test_no_text_is_run_and_no_object_is_unpickled() -> None:
                 and (node.value.id, node.attr) == ("np", "load")]
 
 
-def test_only_the_copy_the_matcap_and_the_table_are_written() -> None:
+def test_only_the_copy_and_exports_are_written() -> None:
     wrong = {file: calls(tree) & WRITES for file, tree in addon().items()
              if file not in WRITERS and calls(tree) & WRITES}
     assert not wrong

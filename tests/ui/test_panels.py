@@ -79,8 +79,8 @@ def test_panels_with_a_set_of_lights(driver: window.Window) -> Steps:
     settings.lights = 'SET'
     yield from all_panels_draw(driver)
     with driver.override():
-        assert bpy.ops.reflines.walk_around('EXEC_DEFAULT', True) == {'FINISHED'}
-        assert bpy.ops.reflines.add_set_light('EXEC_DEFAULT', True) == {'FINISHED'}
+        assert bpy.ops.reflines.light_set('EXEC_DEFAULT', True, action='WALK') == {'FINISHED'}
+        assert bpy.ops.reflines.light_set('EXEC_DEFAULT', True, action='ADD') == {'FINISHED'}
     settings.light_set.find_active().camera = None
     assert settings.light_set.find_active().find_problem()
     yield from all_panels_draw(driver)

@@ -97,25 +97,5 @@ def test_fair_brush_paints_where_the_mouse_is_in_each_view(driver: window.Window
     yield from toggle(driver)
 
 
-def test_two_points_are_picked_in_one_view(driver: window.Window) -> Steps:
-    panel(driver)
-    settings = bpy.context.scene.reflection_lines.direction
-    yield from four_views(driver)
-    for number, region in enumerate(regions(driver)):
-        settings.direction = 'MEAN'
-        with override(driver, region):
-            bpy.ops.reflines.pick_direction('INVOKE_DEFAULT')
-        yield 0.1
-        for at, place in ((region, POINT), (regions(driver)[number - 1], (0.0, 0.0)), (region, (-0.4, 0.3))):
-            assert settings.direction == 'MEAN'
-            yield from point_at(driver, at, *place)
-            driver.key('LEFTMOUSE')
-            yield 0.2
-        assert settings.direction == 'POINTS'
-        for picked, place in ((settings.start, POINT), (settings.end, (-0.4, 0.3))):
-            assert np.abs(np.array(picked)[:2] - place).max() < 0.05, (number, tuple(picked))
-    yield from toggle(driver)
-
-
 window.run(test_a_line_is_pulled_where_the_mouse_is_in_each_view,
-           test_fair_brush_paints_where_the_mouse_is_in_each_view, test_two_points_are_picked_in_one_view)
+           test_fair_brush_paints_where_the_mouse_is_in_each_view)

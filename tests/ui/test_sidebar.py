@@ -165,7 +165,7 @@ def record_panels(driver: window.Window, drawn: dict[str, list[str]]) -> Generat
 
 def choose_largest(settings: bpy.types.PropertyGroup) -> None:
     """The settings with which the panels show the most."""
-    settings.direction.direction, settings.direction.axis = 'POINTS', 'ALONG'
+    settings.direction.direction, settings.direction.axis = 'ANGLE', 'ALONG'
     settings.direction.centre = 'REGION'
 
 
