@@ -1,4 +1,4 @@
-"""The targets of handles for one object, with what that holds of its lines: pinned faces and a fall-off map."""
+"""The targets of handles for one object, with what that holds of its lines: a fall-off map."""
 from functools import partial
 
 import bpy
@@ -8,19 +8,19 @@ from ..model import line_handle
 from ..model.line_handle import Handles
 from ..model.patch import Patch
 from ..model.view import View
-from ..read import group_weights, pinned_faces
+from ..read import group_weights
 from ..solver.panel_problem import PanelProblem, pose_problem
-from ..solver.read_solved import choose_triangles, spread_weights
+from ..solver.read_solved import spread_weights
 from ..targets.line_handles import HandleBuild, HandleTargets, SpreadFalloff
 from ..view import facing
 
 
 class LineBuild:
-    """Builds targets of handles again and again, while pins and fall-off of the object stay."""
+    """Builds targets of handles again and again, while the fall-off of the object stays."""
 
     def __init__(self, scene: bpy.types.Scene) -> None:
         self.builder = HandleTargets(2.0 * np.pi / scene.reflection_lines.stripes.count)
-        self.pinned: np.ndarray | None = None  # #faces, bool
+        self.is_begun = False
         self.problem: PanelProblem | None = None  # the last one
 
     def pose(self, patch: Patch, seen: View) -> PanelProblem:
@@ -33,11 +33,9 @@ class LineBuild:
         problem = self.pose(patch, facing.read_patch_view(scene, patch))
         images, handles = (handles if sign is None else line_handle.mirror_handles(handles, sign)
                            for sign in (problem.sign, problem.image_sign))
-        if self.pinned is None:
-            self.pinned = pinned_faces.read_pinned_faces(ob)
-            self.builder.spread_falloff = read_spread_falloff(ob, problem)
-        choose_pinned = partial(choose_triangles, problem, chosen=self.pinned)
-        return HandleBuild(self.builder, handles, images, patch.matrix, choose_pinned)
+        if not self.is_begun:
+            self.builder.spread_falloff, self.is_begun = read_spread_falloff(ob, problem), True
+        return HandleBuild(self.builder, handles, images, patch.matrix)
 
 
 def read_spread_falloff(ob: bpy.types.Object, problem: PanelProblem) -> SpreadFalloff | None:

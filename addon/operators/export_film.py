@@ -4,7 +4,7 @@ from math import radians
 from pathlib import Path
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import EnumProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..interactive import read_picture, running_operators
@@ -17,6 +17,7 @@ from ..view import view_and_light
 from ..write.png import encode_png
 
 ROOM = 1.06  # of the picture to the panel's extent
+SWING = radians(40.0)  # of the turntable, to each side
 KINDS = (
     ('LIGHT', "Sweep Light", "The light turns around the view, once"),
     ('VIEW', "Turntable", "The view walks around the panel to both sides, and back to where it began; the light stays"),
@@ -34,8 +35,6 @@ ends it early"""
     kind: EnumProperty(name="Film", items=KINDS, default='LIGHT', description="What moves")
     frames: IntProperty(name="Frames", default=72, min=2, max=10000, description="Pictures from the beginning to where "
                         "it begins again")
-    swing: FloatProperty(name="Swing", subtype='ANGLE', default=radians(40.0), min=0.0, max=radians(80.0),
-                         description="Of the turntable, to each side")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -44,7 +43,7 @@ ends it early"""
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         size = read_render_size(context.scene.render)
-        work = FilmWork(Path(bpy.path.abspath(self.filepath)), (self.kind, self.swing, self.frames, *size))
+        work = FilmWork(Path(bpy.path.abspath(self.filepath)), (self.kind, SWING, self.frames, *size))
         return self.write_file(context, work)
 
 

@@ -27,7 +27,7 @@ of the set. Nothing is changed; Esc cancels"""
     bl_options = {'REGISTER', 'UNDO'}
     verb = "inspect"
 
-    lights: EnumProperty(name="Lights", items=LIGHTS, default='WALK', options={'SKIP_SAVE'},
+    lights: EnumProperty(name="Lights", items=LIGHTS, default='WALK', options={'HIDDEN', 'SKIP_SAVE'},
                          description="In which lights and from where the panel is looked at")
 
     @classmethod

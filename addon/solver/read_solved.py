@@ -77,13 +77,6 @@ def measure_cage_move(problem: PanelProblem, optimizer: "native.ShapeOptimizer")
     return float(np.linalg.norm(optimizer.cage_positions - problem.V, axis=1).max()) if problem.is_cage else 0.0
 
 
-def choose_triangles(problem: PanelProblem, optimizer: "native.ShapeOptimizer", chosen: np.ndarray) -> np.ndarray:
-    """Returns the numbers of the optimizer's triangles that lie in chosen faces (#mesh faces, bool)."""
-    if problem.is_cage:  # the images of the mesh's faces come after them, in their order
-        return np.flatnonzero(chosen[optimizer.parent % problem.patch.cage.own_faces])
-    return np.flatnonzero(chosen[problem.patch.face_of_triangle])
-
-
 async def spread_weights(problem: PanelProblem, optimizer: "native.ShapeOptimizer", weights: np.ndarray) -> np.ndarray:
     """Returns weights of the patch's vertices (#V) for all vertices of the optimizer's triangles: on a cage subdivided
     as its positions are, and of two mirror images the smaller one for both.

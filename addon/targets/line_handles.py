@@ -19,7 +19,6 @@ FOLLOW_TOLERANCE = 1e-7
 MISSED = 0.02  # fraction of the lines' spacing beside a handle from which that is reported
 
 
-ChooseTriangles = Callable[["native.ShapeOptimizer"], np.ndarray]
 SpreadFalloff = Callable[["native.ShapeOptimizer"], Awaitable[np.ndarray]]
 
 
@@ -37,30 +36,30 @@ class HandleTargets:
         self.reached: list[native.HandleReach] = []  # of those that were last measured
         self.missed: tuple[str, ...] = ()     # sentences about those that were not reached when last measured
 
-    async def build(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray,
-                    choose_pinned: ChooseTriangles) -> "native.Target | JointTargets":
+    async def build(self, optimizer: "native.ShapeOptimizer", handles: Handles,
+                    matrix: np.ndarray) -> "native.Target | JointTargets":
         """Builds the targets for an optimizer, which has the heights of the start whenever this is called. `matrix` (4
-        x 4) takes the handles to world space; `choose_pinned` returns the numbers of triangles whose lines stay.
+        x 4) takes the handles to world space.
         """
-        wanted = await self.begin(optimizer, handles, matrix, choose_pinned)
+        wanted = await self.begin(optimizer, handles, matrix)
         if not wanted:
             return native.reflines.Target(optimizer.field())
         targets = await call(self.lines.build, wanted)
         return JointTargets(targets, partial(self.measure, handles=wanted), FOLLOW_TOLERANCE)
 
     async def follow(self, optimizer: "native.ShapeOptimizer", other: "native.ShapeOptimizer", *, handles: Handles,
-                     matrix: np.ndarray, choose_pinned: ChooseTriangles, keep_crossed: bool) -> bool:
+                     matrix: np.ndarray, keep_crossed: bool) -> bool:
         """Moves the other optimizer of the region to where the lines meet the handles, and measures them. Returns False
         where that takes a solve.
         """
-        wanted = await self.begin(optimizer, handles, matrix, choose_pinned)
+        wanted = await self.begin(optimizer, handles, matrix)
         if not wanted or not await call(self.follower.follow, wanted, other, keep_others=keep_crossed):
             return False
         await self.measure(other, wanted)
         return True
 
-    async def begin(self, optimizer: "native.ShapeOptimizer", handles: Handles, matrix: np.ndarray,
-                    choose_pinned: ChooseTriangles) -> "list[native.Handle]":
+    async def begin(self, optimizer: "native.ShapeOptimizer", handles: Handles,
+                    matrix: np.ndarray) -> "list[native.Handle]":
         """Returns the handles that count, as the native module's; none where no line is pulled."""
         if self.optimizer is not optimizer:
             falloff = None if self.spread_falloff is None else await self.spread_falloff(optimizer)
@@ -72,8 +71,6 @@ class HandleTargets:
         if all(each.is_pin for each in used):
             return []
         wanted = [self.convert(each, str(number + 1), matrix) for number, each in enumerate(used)]
-        pinned = choose_pinned(optimizer)
-        wanted += [native.reflines.Handle(triangles=pinned, name="Pin Lines")] if len(pinned) else []
         self.conflicts = tuple(await call(self.lines.find_conflicts, wanted))
         return wanted
 
@@ -106,18 +103,15 @@ class HandleBuild:
     handles: Handles
     images: Handles  # with their mirror images, where the region is followed with its own
     matrix: np.ndarray
-    choose_pinned: ChooseTriangles
 
     async def __call__(self, optimizer: "native.ShapeOptimizer") -> "native.Target | JointTargets":
-        return await self.builder.build(optimizer, self.handles, self.matrix, self.choose_pinned)
+        return await self.builder.build(optimizer, self.handles, self.matrix)
 
     async def follow(self, optimizer: "native.ShapeOptimizer", other: "native.ShapeOptimizer", *,
                      keep_crossed: bool) -> bool:
-        """Follows the handles; False where that takes a solve, as for pinned faces that have an image."""
-        if len(self.images) != len(self.handles) and len(self.choose_pinned(optimizer)):
-            return False
+        """Follows the handles; False where that takes a solve."""
         return await self.builder.follow(optimizer, other, handles=self.images, matrix=self.matrix,
-                                   choose_pinned=self.choose_pinned, keep_crossed=keep_crossed)
+                                         keep_crossed=keep_crossed)
 
 
 def project(plane: np.ndarray, points: np.ndarray) -> np.ndarray:

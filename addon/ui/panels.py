@@ -213,9 +213,6 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
         ob = context.view_layer.objects.active
         if ob is not None and ob.type == 'MESH':
             layout.prop_search(ob.reflection_lines, "follow_group", ob, "vertex_groups")
-        pins = layout.row(align=True)
-        pins.operator("reflines.pin_lines", icon='PINNED')
-        pins.operator("reflines.pin_lines", text="", icon='UNPINNED').unpin = True
 
 
 class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):

@@ -69,7 +69,7 @@ class ReflinesStripes(bpy.types.PropertyGroup):
                        description="Line lights in a full turn around the light direction")
     width: FloatProperty(name="Width", default=0.5, min=0.0, max=1.0, subtype='FACTOR',
                          description="Fraction of the distance between two line lights that is light")
-    softness: FloatProperty(name="Soft Edge", default=0.1, min=0.0, max=1.0, subtype='FACTOR',
+    softness: FloatProperty(name="Soft Edge", default=0.1, min=0.0, max=1.0, subtype='FACTOR', options={'HIDDEN'},
                             description="Blur of the edges of the stripes, as a fraction of their width")
     color: color_property("Light", (0.9, 0.93, 1.0, 1.0))
     gap_color: color_property("Gap", (0.01, 0.012, 0.016, 1.0))

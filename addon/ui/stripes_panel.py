@@ -65,7 +65,7 @@ class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
             layout.prop(settings.stripes, name)
 
     def list_settings(self, mode: str) -> tuple[str, ...]:
-        bands = ("count", "width", "softness", "color", "gap_color") if mode in BANDS else ()
+        bands = ("count", "width", "color", "gap_color") if mode in BANDS else ()
         own = ("image_rotation",) if mode == 'IMAGE' else ()
         return (*bands, *own, "opacity")
 

@@ -20,7 +20,7 @@ CHANGING = {
     "pattern by place": {"fit": 'VALUE', "blur": 0.0}, "pull_line": {"handles": PULL}, "fit": {}, "check": {},
     "inspect": {}, "inspect in the set": {"lights": 'SET'}, "show_spot": {}, "show_spot worse": {"worse": True},
     "show_spot of none": {"index": 10**6},
-    "set_border": {"border": 'fixed'}, "pin_lines": {}, "resolve": {}, "bake_handles": {},
+    "set_border": {"border": 'fixed'}, "resolve": {}, "bake_handles": {},
     "smooth into a key": {"result": 'SHAPE_KEY'}, "smooth for the set": {"lights": 'SET'},
 }
 # Of the scene rather than of the object.

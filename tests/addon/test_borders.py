@@ -11,7 +11,7 @@ import pytest
 
 import scenes
 from reflection_lines.model.border import CODES, UNSET
-from reflection_lines.read import border_segments, pinned_faces
+from reflection_lines.read import border_segments
 
 ROW = 17  # vertices of a row of the panel
 
@@ -163,15 +163,6 @@ def test_borders_of_all_edited_meshes_are_set() -> None:
     assert bpy.ops.reflines.set_border(border='clamped') == {'FINISHED'}
     assert np.count_nonzero(stored(first)) == first.data.total_vert_sel > 100
     assert "reflines_border" not in bmesh.from_edit_mesh(second.data).verts.layers.int
-
-
-def test_lines_of_all_edited_meshes_are_pinned() -> None:
-    first, second = two_edited()
-    assert bpy.ops.reflines.pin_lines() == {'FINISHED'}
-    assert np.count_nonzero(pinned_faces.read_pinned_faces(first)) == 12 * 12
-    scenes.select_faces(second, lambda face: face < 5)
-    assert bpy.ops.reflines.pin_lines() == {'FINISHED'}
-    assert np.count_nonzero(pinned_faces.read_pinned_faces(second)) == 5
 
 
 def test_a_refused_border_is_set_on_no_mesh() -> None:

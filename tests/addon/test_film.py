@@ -45,7 +45,7 @@ def test_the_light_turns_and_the_panel_stays(tmp_path: Path) -> None:
 def test_the_view_walks_around_the_panel(tmp_path: Path) -> None:
     """Seen from above it turns like a wheel: to one side, and to the other."""
     make_panel()
-    frames = export(tmp_path, kind='VIEW', frames=4, swing=0.6)
+    frames = export(tmp_path, kind='VIEW', frames=4)
     assert np.array_equal(frames[0], frames[2])
     assert np.abs(frames[1] - frames[3]).mean() > 0.05 < np.abs(frames[0] - frames[1]).mean()
 

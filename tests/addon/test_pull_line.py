@@ -139,23 +139,6 @@ def read_theta(ob: bpy.types.Object) -> np.ndarray:
     return optimizer.theta().reshape(-1, 2).mean(axis=1)
 
 
-def test_lines_on_pinned_faces_stay(panel) -> None:
-    """Those between the handle and the rim, pinned and let go again; neighbours of the pull go on."""
-    near = np.array([row * 32 + column for row in range(20, 23) for column in range(12, 22)])
-    before, changes = read_theta(panel), []
-    pins = sys.modules["reflection_lines.read.pinned_faces"]
-    for pinned in (False, True, False):
-        scenes.select_faces(panel, lambda face: face in near)
-        assert bpy.ops.reflines.pin_lines(unpin=not pinned) == {'FINISHED'}
-        assert np.flatnonzero(pins.read_pinned_faces(panel)).tolist() == (near.tolist() if pinned else [])
-        scenes.select_faces(panel, scenes.inner(32))
-        shape = scenes.positions(panel)
-        assert pull(UP) == {'FINISHED'}
-        changes.append(np.abs(read_theta(panel) - before)[near].max())
-        restore(panel, shape)
-    assert changes[1] < 0.1 * changes[0] and changes[2] == changes[0], changes
-
-
 def give_weights(ob: bpy.types.Object, weights: np.ndarray) -> None:
     """Gives an object in Edit Mode the vertex group Follow, and handles their fall-off by it."""
     scenes.object_mode()

@@ -114,11 +114,9 @@ def drag_tool(walker: Walker) -> Steps:
 
 
 def pull_lines(walker: Walker) -> Steps:
-    """A session of Pull Line, on pinned faces or none: lines are pulled, pinned, sized, muted, deleted and taken back;
+    """A session of Pull Line: lines are pulled, pinned, sized, muted, deleted and taken back;
     then it is applied, left, which changes no bit, or goes on below the next steps."""
     dice = walker.dice
-    if dice.random() < 0.4:
-        print("   ", walker.call("reflines.pin_lines", 'EXEC_DEFAULT', True, unpin=dice.random() < 0.3), flush=True)
     before, alone = walker.positions(), not dragging.is_running()
     walker.driver.move(dice.randrange(200, 600), 300)
     yield 0.05
