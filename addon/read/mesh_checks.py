@@ -87,7 +87,7 @@ def refuse_broken_coordinates(name: str, vertices: np.ndarray, local: np.ndarray
                       f"the first is {broken[0]}: delete or move them")
 
 
-def refuse_taken_attribute(ob: bpy.types.Object, name: str, kind: str = 'FLOAT') -> None:
+def refuse_taken_attribute(ob: bpy.types.Object, name: str, kind: str) -> None:
     """Refuses a name whose attribute holds something else than one number of this type for each vertex."""
     found = ob.data.attributes.get(name)
     if found is not None and (found.domain, found.data_type) != ('POINT', kind):

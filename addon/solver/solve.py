@@ -5,7 +5,7 @@ from .. import native
 from ..model.gain import Worse
 from ..model.light_set import LightSet
 from ..model.patch import Patch
-from ..model.solution import LastSolve, Solution, SolveReport, SolveSettings
+from ..model.solution import Solution, SolveReport, SolveSettings
 from ..native_call import call
 from . import live_optimizer, remarks
 from .limited_solve import choose_limit, choose_ranges
@@ -21,19 +21,6 @@ def choose_length(patch: Patch, length: float) -> float:
     """Returns the length below which detail counts as a deviation: the given one, or for 0 that of the automatic press.
     """
     return length or native.reflines.AUTOMATIC_LENGTH * patch.diagonal
-
-
-def compute_vertex_values(solution: LastSolve) -> dict[str, np.ndarray]:
-    """Computes per-vertex values (#V each) of a solve: "deviation", the distance moved, and "residual", the mean of the
-    adjacent triangles', where it is known.
-    """
-    patch, corners = solution.patch, solution.patch.F.ravel()
-    moved = np.linalg.norm(solution.positions - patch.V, axis=1)
-    if len(solution.residual) != len(patch.F):
-        return {"deviation": moved}
-    count = np.maximum(np.bincount(corners, minlength=len(patch.V)), 1)
-    return {"deviation": moved,
-            "residual": np.bincount(corners, np.repeat(solution.residual, 3), minlength=len(patch.V)) / count}
 
 
 async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: SolveSettings,

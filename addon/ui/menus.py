@@ -37,7 +37,6 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.prop_menu_enum(stripes, "mode")
         layout.operator("reflines.resolve", icon='FILE_REFRESH')
         layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
-        layout.operator("reflines.store_result", icon='SPREADSHEET')
         layout.operator("reflines.check", icon='CHECKMARK')
         layout.operator("reflines.inspect", icon='VIEWZOOM')
         layout.operator("reflines.show_spot", icon='FRAME_NEXT')

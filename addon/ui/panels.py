@@ -401,7 +401,6 @@ class VIEW3D_PT_reflines_numbers(ResultPart, bpy.types.Panel):
         column.label(text=f"at length {report.measured_length()}")
         if report.termination not in ENDED:
             draw_paragraph(column, context, "The solver stopped before the best shape", 'INFO')
-        column.operator("reflines.store_result", icon='GROUP_VERTEX')
 
 
 register, unregister = bpy.utils.register_classes_factory([

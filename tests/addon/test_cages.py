@@ -327,7 +327,7 @@ def test_simple_subdivision_is_refused_in_words() -> None:
         scenes.smooth()
 
 
-def test_what_could_not_be_reached_is_known_for_the_cages_faces_and_stored() -> None:
+def test_what_could_not_be_reached_is_known_for_the_cages_faces() -> None:
     ob = subdivided()
     scenes.smooth(length=0.8)
     solution = solve_history.find_last_solve(ob.name)
@@ -339,9 +339,6 @@ def test_what_could_not_be_reached_is_known_for_the_cages_faces_and_stored() -> 
     V, F, _, share = solve_maps.build_residual_map(solution)
     assert len(V) == 3 * len(F) == 3 * len(solution.patch.F)
     assert share.max() == 1.0
-    bpy.ops.reflines.store_result('EXEC_DEFAULT', True)
-    scenes.object_mode()
-    assert "reflines_residual" in ob.data.attributes
 
 
 def test_sharp_creases_are_said_to_be_kept_and_not_held() -> None:

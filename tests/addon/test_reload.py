@@ -29,15 +29,9 @@ def panel(request) -> bpy.types.Object:
 
 
 def stored(ob: bpy.types.Object) -> dict[str, np.ndarray]:
-    assert bpy.ops.reflines.store_result() == {'FINISHED'}
-    if ob.mode == 'EDIT':
-        scenes.object_mode()
-    values = {}
-    for name in ("reflines_deviation", "reflines_residual"):
-        values[name] = np.empty(len(ob.data.vertices), np.float32)
-        ob.data.attributes[name].data.foreach_get("value", values[name])
-        ob.data.attributes.remove(ob.data.attributes[name])
-    return values
+    """What the maps show of the last solve."""
+    last = solve_history.find_last_solve(ob.name_full)
+    return {"deviation": np.linalg.norm(last.positions - last.patch.V, axis=1), "residual": last.residual}
 
 
 @pytest.mark.parametrize("mode", ['OBJECT', 'EDIT'])
@@ -109,5 +103,4 @@ def test_a_mesh_changed_since_has_no_last_solve(panel, tmp_path) -> None:
     points[140].co.z += 0.1
     again = reloaded(tmp_path)
     assert again.reflection_lines.last == ""
-    with pytest.raises(RuntimeError, match="Make a panel active that is as a tool left it"):
-        bpy.ops.reflines.store_result()
+    assert solve_history.find_last_solve(again.name_full) is None

@@ -162,44 +162,6 @@ def test_the_curve_is_saved_with_the_file(panel, tmp_path) -> None:
     assert tuple(points[0].location) == (0.0, 0.25)
 
 
-@pytest.mark.parametrize("in_edit_mode", [True, False])
-def test_the_result_is_stored_on_request(panel, in_edit_mode) -> None:
-    before = scenes.positions(panel)
-    scenes.smooth()
-    moved = np.abs(scenes.positions(panel) - before)[:, 2]
-    if not in_edit_mode:
-        scenes.object_mode()
-    assert bpy.ops.reflines.store_result() == {'FINISHED'}
-    if in_edit_mode:
-        scenes.object_mode()
-    stored = {name: np.array([item.value for item in panel.data.attributes[f"reflines_{name}"].data])
-              for name in ("deviation", "residual")}
-    assert np.abs(stored["deviation"] - moved).max() < 2e-7
-    assert (stored["residual"][moved > 0.0] > 0.0).all()
-
-
-@pytest.mark.parametrize("in_edit_mode", [True, False])
-@pytest.mark.parametrize(("kind", "domain"), [('FLOAT', 'FACE'), ('INT', 'POINT')])
-def test_an_attribute_of_another_kind_is_not_written_over(panel, in_edit_mode, kind, domain) -> None:
-    scenes.smooth()
-    scenes.object_mode()
-    panel.data.attributes.new("reflines_residual", kind, domain)
-    if in_edit_mode:
-        scenes.edit_inner(panel)
-    before = scenes.fingerprint(panel)
-    with pytest.raises(RuntimeError, match="Panel has another attribute reflines_residual .*: rename or remove it"):
-        bpy.ops.reflines.store_result()
-    assert scenes.fingerprint(panel) == before
-    assert "reflines_deviation" not in panel.data.attributes
-
-
-def test_a_changed_mesh_is_no_result(panel) -> None:
-    scenes.smooth()
-    bpy.ops.transform.translate(value=(0.0, 0.0, 0.1))
-    with pytest.raises(RuntimeError, match="not as the last solve left it"):
-        bpy.ops.reflines.store_result()
-
-
 def test_a_missing_image_is_refused(panel) -> None:
     with pytest.raises(RuntimeError, match="There is no image"):
         bpy.ops.reflines.pattern()
