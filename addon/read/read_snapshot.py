@@ -22,11 +22,13 @@ def read_snapshot(ob: bpy.types.Object, key: str, local: np.ndarray | None, *, o
     mesh = read_connectivity(ob.data)
     around = mesh.corners[np.repeat(region, mesh.sizes)]
     mesh_checks.refuse_broken_coordinates(ob.name, around, local)
+    inside = np.zeros(len(local), dtype=bool)
+    inside[around] = True
     return MeshSnapshot(
         ob.name, key, np.array(ob.matrix_world, dtype=np.float64), local, mesh,
         read_cut_triangles(ob.data, mesh, region, local), region_faces.read_visible_faces(ob.data), region,
         read_marked_edges(ob.data, mesh), ob.reflection_lines.creases.lower(), border_segments.read_border(ob),
-        read_limit_range(ob), read_mirror.read_mirror(ob, local[np.unique(around)]))
+        read_limit_range(ob), read_mirror.read_mirror(ob, local[inside]))
 
 
 def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:
