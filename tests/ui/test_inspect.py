@@ -67,8 +67,16 @@ def test_escape_cancels(driver: window.Window) -> Steps:
     assert not ob.reflection_lines.inspection.summary
 
 
+def find_file_browser() -> tuple[bpy.types.Window, bpy.types.Area] | None:
+    found = [(each, area) for each in bpy.context.window_manager.windows for area in each.screen.areas
+             if area.type == 'FILE_BROWSER' and area.spaces.active.params is not None]
+    return found[0] if found else None
+
+
 def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, None]:
-    """Writes a film of a panel as Export Film does once its file is chosen; returns while that is at work."""
+    """Writes a film of a panel by Export Film, whose file is chosen in Blender's browser; returns while that is at
+    work.
+    """
     with driver.override():
         scenes.panel(height=dented, cells=CELLS)
         scenes.look_from_above()
@@ -76,8 +84,16 @@ def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, No
     driver.move(300, 300)
     yield 0.1
     with driver.override():
-        result = bpy.ops.reflines.export_film('EXEC_DEFAULT', filepath=str(folder / "film_.png"), frames=6)
-    assert result == {'RUNNING_MODAL'}
+        assert bpy.ops.reflines.export_film('INVOKE_DEFAULT', filepath=str(folder / "film_.png"), frames=6) == {
+            'RUNNING_MODAL'}
+    while (browser := find_file_browser()) is None:
+        yield 0.05
+    browser[1].spaces.active.params.directory = str(folder).encode()
+    browser[1].spaces.active.params.filename = "film_.png"
+    with bpy.context.temp_override(window=browser[0], area=browser[1], region=browser[1].regions[-1]):
+        assert bpy.ops.file.execute('INVOKE_DEFAULT') == {'FINISHED'}
+    while find_file_browser() is not None:
+        yield 0.01
 
 
 def test_a_film_is_written_beside_blender(driver: window.Window) -> Steps:
