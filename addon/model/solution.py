@@ -76,6 +76,7 @@ class Solution:
     worse: Worse | None = None    # what became worse, in the lights of the press or of the scene's set
     fit: str = ""  # how far a cage that was fitted is from the other mesh
     longer_waves: bool = False  # that may be flaws, too, were left by it
+    flush: tuple[float, float] = (0.0, 0.0)  # by how much it was and is uneven towards panels of the press, world units
     verdict: np.ndarray | None = None  # #F, by it: 1 where flaws were healed, -1 where the surface was kept as design
 
     def to_last_solve(self) -> "LastSolve":

@@ -112,7 +112,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
     def choose_settings(self) -> AutomaticSmooth:
         lights = "single" if self.lights == 'SINGLE' else "crossed"
         return AutomaticSmooth(lights, self.strength, self.symmetric, self.limit or None, self.flaw_size,
-                               self.fair_border)
+                               self.fair_border, self.even_flush)
 
     def read_lights(self) -> LightSet | None:
         """Reads the set of lights; None where another choice is made, or none of them can be used."""
@@ -120,7 +120,19 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
             return None
         return self.read_set(bpy.context)
 
-    def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
+    def describe_solution(self, solution: Solution) -> tuple[str, ...]:
+        return (*self.describe_flush(solution), *self.describe_set())
+
+    def describe_flush(self, solution: Solution) -> tuple[str, ...]:
+        """Returns how uneven the flush towards panels of the same press was and is, where it is to be even."""
+        if not self.even_flush or not self.is_automatic():
+            return ()
+        if not solution.flush[0]:
+            return ("Even Flush: no shut line lies between panels that move",)
+        before, after = (units.format_length(each, bpy.context.scene, 2) for each in solution.flush)
+        return (f"Flush uneven by {before} \u2192 {after}",)
+
+    def describe_set(self) -> tuple[str, ...]:
         """Returns what is wrong with the set of lights, where it is asked for."""
         if self.lights != 'SET':
             return ()

@@ -30,6 +30,7 @@ class AutomaticSmooth:
     limit: float | None = None  # largest move along the view, world units; None: automatic
     flaw_size: float = 1.0      # of the automatic length
     fair_border: bool = False   # the border moves, too; see native/include/reflines/smooth_panel.h
+    even_flush: bool = False    # of shut lines between panels that move, likewise
     light_set: LightSet | None = None  # takes the place of `lights`
     judges: LightSet | None = None     # lights that take no part, but tell what became worse in them
 
@@ -39,6 +40,10 @@ class AutomaticSmooth:
         judges = self.find_judges(patch)
         return {"lights": self.lights, "light_set": light_set, "symmetric": self.symmetric,
                 "judges": None if judges is None else judges.build_argument(patch), "flaw_size": self.flaw_size}
+
+    def choose_joining(self, patch: Patch) -> dict[str, "str | bool | float | native.LightSet | None"]:
+        """Returns likewise the arguments of what may be joined with others or have parts."""
+        return {**self.choose_flaws(patch), "even_flush": self.even_flush}
 
     def find_judges(self, patch: Patch) -> LightSet | None:
         """Returns the lights that judge a patch: those that show lines."""
@@ -69,7 +74,8 @@ async def build_press(patch: Patch, seen: View, border: str, settings: Automatic
     """Builds the native smoother of a patch, which does its work in the first press; raises the native module's errors.
     """
     problem = pose_problem(patch, seen)
-    smoother = await build_smoother(problem, border, settings.choose_flaws(patch), fair=settings.fair_border)
+    flaws = settings.choose_flaws(patch) if problem.is_cage else settings.choose_joining(patch)
+    smoother = await build_smoother(problem, border, flaws, fair=settings.fair_border)
     return KeptPress(problem, border, settings, smoother)
 
 
@@ -122,6 +128,7 @@ def build_solution(problem: PanelProblem, positions: np.ndarray, report: "native
                     kept=(*remarks.describe_marked_creases(patch), *word_notes(notes)),
                     healed=Healed(report.healed.area, report.healed.worst_before, report.healed.worst_after),
                     worse=find_worse(problem, settings, report), longer_waves=report.longer_waves,
+                    flush=(report.flush_before, report.flush_after),
                     verdict=press.verdict)
 
 

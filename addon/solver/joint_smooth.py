@@ -48,7 +48,7 @@ async def build_joint(patches: Sequence[Patch], views: Sequence[View], border: s
                       settings: AutomaticSmooth) -> KeptJoint:
     """Builds the native smoother of patches; raises the native module's errors."""
     problems = tuple(map(pose_problem, patches, views))
-    panels = [build_joint_panel(problem, border, settings.choose_flaws(problem.patch)) for problem in problems]
+    panels = [build_joint_panel(problem, border, settings.choose_joining(problem.patch)) for problem in problems]
     smoother = await call(native.reflines.JointSmoother.create, panels)
     return KeptJoint(problems, border, settings, smoother)
 

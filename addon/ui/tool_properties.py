@@ -126,6 +126,10 @@ class SmoothSettings:
     fair_border: BoolProperty(name="Fair Border", **SAVED,
                               description="With the automatic length, move the border of the region, too, to where the "
                               "faces beside it tell that it should run: a border that is held keeps its flaws")
+    even_flush: BoolProperty(name="Even Flush", **SAVED,
+                             description="With the border Neighbours, make the step between panels pressed together "
+                             "run straight along each shut line, and be constant around a flap. The gap keeps its "
+                             "width, as seen from the view")
     limit: limit_property()
 
     def draw_smooth(self, layout: bpy.types.UILayout, draw_value: Callable) -> None:
@@ -139,6 +143,7 @@ class SmoothSettings:
         automatic.prop(self, "flaw_size")
         draw_switch(automatic, self, "symmetric")
         draw_switch(automatic, self, "fair_border")
+        draw_switch(automatic, self, "even_flush")
 
 
 class DirectionSettings:

@@ -252,6 +252,8 @@ class SmoothPanelReport:
     verdict: np.ndarray        # #F: 1 where flaws were healed, -1 where the surface counts as design and was kept, 0 where there was
                                # nothing to heal; between them by degree
     region: Region             # of the panel as it came
+    flush_before: float        # by how much the flush is off its even course at most; 0 without `even_flush`
+    flush_after: float
     applied: bool              # False: some light would have become worse, and nothing was moved
     notes: list[Note]          # the most important first
 
@@ -271,13 +273,15 @@ class PanelSmoother:
                  border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                  around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
                  fair_border: np.ndarray | None = None, parts_gap: float | None = None, lights: Literal["crossed", "single"] = "crossed",
-                 light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> None: ...
+                 light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True,
+                 even_flush: bool = False) -> None: ...
     @staticmethod
     def create(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
                around: tuple[np.ndarray, np.ndarray] | None = None, face_of_triangle: np.ndarray | None = None,
                fair_border: np.ndarray | None = None, parts_gap: float | None = None, lights: Literal["crossed", "single"] = "crossed",
-               light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother:
+               light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0, symmetric: bool = True,
+               even_flush: bool = False) -> PanelSmoother:
         """Builds one as the constructor does; `start` runs it in the background."""
     @staticmethod
     def create_for_cage(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
@@ -333,7 +337,7 @@ class JointPanel:
                  lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, judges: LightSet | None = None,
                  length: float | None = None, flaw_size: float = 1.0,
                  symmetric: bool = True, beside: tuple[np.ndarray, np.ndarray] | None = None, gap: float | None = None,
-                 reach: float | None = None) -> None: ...
+                 reach: float | None = None, even_flush: bool = False) -> None: ...
     @staticmethod
     def for_cage(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
                  view_direction: Sequence[float], line_direction: Sequence[float],
@@ -353,7 +357,10 @@ class JointSmoother:
     """Presses of Smooth on several panels that face each other over gaps: lines are smoothed across as inside, and both sides of a
     gap move alike, so that it keeps its width and its step. The order of the panels does not matter. A panel that faces no other
     is pressed as smooth_panel does. Where a panel would have a worse place than before, all are pressed with a border that is
-    clamped towards the others, and the reports' messages say so."""
+    clamped towards the others, and the reports' messages say so.
+
+    Where both sides have `even_flush`, the flush (the step between the rims) is made even first, by half on each side: straight
+    along a shut line from one end to the other, and constant around one that is closed."""
     def __init__(self, panels: Sequence[JointPanel]) -> None: ...
     @staticmethod
     def create(panels: Sequence[JointPanel]) -> JointSmoother:
@@ -381,6 +388,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  limit: float | None = None,                        # largest move along the view; None: length / 20
                  limit_share: np.ndarray | None = None,             # #V x 2 shares of it: lowest -1 to 0, highest 0 to 1
                  symmetric: bool = True,                            # what one half of a symmetric panel has alone is a flaw
+                 even_flush: bool = False,                          # of parts that move with each other, see JointSmoother
                  progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
     """Takes flaws (noise, ripples, dents) out of a panel and leaves its design alone: the whole press of Smooth, with all its
     automatic rules. Returns the positions (#V x 3; vertices that did not move carry the bits they came with) and a report.

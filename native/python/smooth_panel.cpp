@@ -29,7 +29,7 @@ BuildSmoother prepare_smoother(const Positions& V, const Indices& F, const Vecto
                                const std::optional<Indices>& face_of_triangle, const std::optional<Mask>& fair_border,
                                const std::optional<double>& parts_gap, const std::string& lights,
                                const std::optional<LightSet>& set, const std::optional<LightSet>& judges,
-                               const std::optional<double>& length, double flaw_size, bool symmetric) {
+                               const std::optional<double>& length, double flaw_size, bool symmetric, bool even_flush) {
   SmoothPanelOptions options = options_of(lights, set, judges, length, flaw_size, symmetric);
   options.border = border_codes(border, V.rows());
   if (fixed) options.held = *fixed;
@@ -38,6 +38,7 @@ BuildSmoother prepare_smoother(const Positions& V, const Indices& F, const Vecto
   if (face_of_triangle) options.face_of_triangle = index_vector(*face_of_triangle);
   if (fair_border) options.fair_border = *fair_border;
   options.parts_gap = given(parts_gap, "The gap between parts");
+  options.even_flush = even_flush;
   return [=, triangles = triangles_of(F)] {
     return std::make_unique<PanelSmoother>(V, triangles, view_direction, line_direction, options);
   };
@@ -126,6 +127,8 @@ void bind_press_report(py::module_& module) {
       .def_readonly("stray", &Told::stray)
       .def_readonly("verdict", &Told::verdict)
       .def_readonly("region", &Told::region)
+      .def_readonly("flush_before", &Told::flush_before)
+      .def_readonly("flush_after", &Told::flush_after)
       .def_readonly("applied", &Told::applied)
       .def_readonly("notes", &Told::notes);
 }
@@ -150,7 +153,8 @@ void bind_smooth_panel(py::module_& module) {
            py::arg("around") = py::none(), py::arg("face_of_triangle") = py::none(),
            py::arg("fair_border") = py::none(), py::arg("parts_gap") = py::none(), py::arg("lights") = "crossed",
            py::arg("light_set") = py::none(), py::arg("judges") = py::none(), py::arg("length") = py::none(),
-           py::arg("flaw_size") = defaults.flaw_size, py::arg("symmetric") = defaults.symmetric);
+           py::arg("flaw_size") = defaults.flaw_size, py::arg("symmetric") = defaults.symmetric,
+           py::arg("even_flush") = defaults.even_flush);
   };
   const SubdivisionOptions subdivision;
   const auto define_cage = [&](const auto& define) {

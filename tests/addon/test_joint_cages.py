@@ -3,6 +3,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+import pytest
 from reflection_lines.model.beside import Crossing
 from reflection_lines.read import gather
 
@@ -98,18 +99,22 @@ def share_gone(before: np.ndarray, after: np.ndarray, dent: tuple) -> float | No
     return float(np.median(((after - before) @ view)[near]) / (depth / (view @ out))) if near.any() else None
 
 
-def test_bonnet_wing_and_door_of_the_car_are_healed_in_one_press() -> None:
-    """Bonnet and door are meshes, the wing is a cage, and all have a Mirror; two dents lie across their shut lines."""
+@pytest.mark.parametrize("even", [False, True])
+def test_bonnet_wing_and_door_of_the_car_are_healed_in_one_press(even: bool) -> None:
+    """Bonnet and door are meshes, the wing is a cage, and all have a Mirror; two dents lie across their shut lines. The
+    cage smooths its dents, and the step beside it varies: the door's dent goes once that is even.
+    """
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "car.blend"), load_ui=False)
     bpy.ops.object.mode_set(mode='OBJECT')
     panels = car_crossings.dent_shut_lines()
     before = {ob.name: places(ob) for ob in panels}
-    assert scenes.smooth(border='follow') == {'FINISHED'}
+    assert scenes.smooth(border='follow', even_flush=even) == {'FINISHED'}
     for ob in panels:
         shares = [share_gone(before[ob.name], places(ob), dent) for dent in car_crossings.DENTS]
         known = [share for share in shares if share is not None]
         print(ob.name, shares, ob.reflection_lines.report.headline())
-        assert len(known) == (2 if ob.name == "Body" else 1) and all(0.55 < share < 1.05 for share in known)
-        assert ob.reflection_lines.report.worst_after < 0.35 * 7.2
+        assert len(known) == (2 if ob.name == "Body" else 1)
+        assert all((0.7 if even else 0.55) < share < 1.05 for share in known)
+        assert ob.reflection_lines.report.worst_after < (0.5 if even and ob.name == "Doors" else 0.35 * 7.2)
     unselected = slice(car_crossings.WING_VERTICES, None)
     assert np.array_equal(places(bpy.data.objects["Body"])[unselected], before["Body"][unselected])

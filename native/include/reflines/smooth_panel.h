@@ -44,6 +44,10 @@ struct SmoothPanelOptions {
   // The widest gap, in units of V, across which parts of the region that no edge joins are smoothed as one (see
   // JointSmoother); 0: a tenth of the border's edges, so parts that touch. Not for cages.
   double parts_gap = 0.0;
+  // True: where the region faces another panel or part that moves with it, the flush, which is the step between both
+  // rims, is made even first. Of a shut line without corners it becomes straight from one end to the other, and the
+  // same all around one that is closed, as far as moves along the view, within the limit, can. Each side makes half.
+  bool even_flush = false;
   Lights lights = Lights::kCrossed;
   // Or none: it takes the place of the light lines given and of `lights`. Which flaws are found does not depend on it.
   LightSet set;
@@ -111,7 +115,8 @@ struct SmoothPanelReport {
   Vector verdict;  // #F or #faces: 1 where flaws were healed, -1 where the surface counts as design and was kept, 0
                    // where there was nothing to heal; between them by degree
   Region region;   // of the shape at the start
-  bool applied = true;      // false: some light would have become worse, and nothing was moved
+  double flush_before = 0.0, flush_after = 0.0;  // by which it is uneven at most, in units of V; of even_flush alone
+  bool applied = true;                           // false: some light would have become worse, and nothing was moved
   std::vector<Note> notes;  // the most important first: why nothing was moved, or else what the limit holds back
 };
 

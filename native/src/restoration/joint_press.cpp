@@ -47,12 +47,13 @@ Positions JointPress::widen(size_t k, const Positions& used_positions) const {
   return all;
 }
 
-Skin JointPress::others_of(size_t own) const {
+// Returns the others at present, or at shares of their moves.
+Skin JointPress::others_of(size_t own, const std::vector<double>& shares) const {
   Eigen::Index vertices = 0, triangles = 0;
   std::vector<Skin> skins;
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (k == own) continue;
-    skins.push_back(sides_[k]->skin());
+    skins.push_back(sides_[k]->skin(shares.empty() ? 1 : shares[k]));
     vertices += skins.back().V.rows();
     triangles += skins.back().F.rows();
   }
@@ -129,12 +130,65 @@ double JointPress::find_difference(size_t own, int v) const {
   const JointSide& side = *sides_[own];
   const auto [number, place] = find_across(own, v);
   if (side.is_firm()) return 0;
-  if (number < 0 || !is_joint(number)) return -side.move()(v);
+  if (number < 0 || !is_joint(number)) return -side.shift(v);
   const JointSide& other = *sides_[number];
   const auto between = [share = place.share](double a, double b) { return (1 - share) * a + share * b; };
   const double movable = other.is_firm() ? 0 : between(other.joint()(place.first), other.joint()(place.second));
-  const double across = between(other.move()(place.first), other.move()(place.second));
-  return (1 - 0.5 * movable) * (across * other.axis().dot(side.axis()) - side.move()(v));
+  const double across = between(other.shift(place.first), other.shift(place.second));
+  return (1 - 0.5 * movable) * (across * other.axis().dot(side.axis()) - side.shift(v));
+}
+
+// Returns the part of a side in making its flush even: half, where the other side takes the other half. Towards a mesh
+// a cage leaves all to it, which can follow waves that a cage cannot. What does not move with the other side has no
+// part.
+FlushPart JointPress::find_flush_part(size_t own) const {
+  const Eigen::Index count = sides_[own]->joint().size();
+  FlushPart part{IndexVector::Constant(count, -1), Vector::Zero(count)};
+  for (int v = 0; v < count; ++v) {
+    const Across across = sides_[own]->joint()(v) ? find_across(own, v) : Across{};
+    if (across.side < 0 || !evens_flush(across.side)) continue;
+    part.across(v) = across.side;
+    const bool cage = sides_[own]->is_cage(), other = sides_[across.side]->is_cage();
+    part.taken(v) = cage == other ? 0.5 : other ? 1 : 0;
+  }
+  return part;
+}
+
+// Returns what find_uneven_flush of each side does, after shares of the moves or at present; without change where it
+// is not asked for.
+std::vector<UnevenFlush> JointPress::find_uneven_flush(const std::vector<double>& shares) const {
+  std::vector<UnevenFlush> found(sides_.size());
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (!evens_flush(k)) continue;
+    found[k] = sides_[k]->find_uneven_flush(others_of(k, shares), find_flush_part(k), shares.empty() ? 1 : shares[k]);
+  }
+  return found;
+}
+
+// Makes the flush even, before anything else; returns whether it was uneven somewhere.
+bool JointPress::even_flush() {
+  bool uneven = false;
+  for (int pass = 0; pass < kRules.joint.flush_passes; ++pass) {
+    const std::vector<UnevenFlush> found = find_uneven_flush({});
+    for (size_t k = 0; k < sides_.size(); ++k) {
+      if (found[k].change.isZero(0)) continue;
+      sides_[k]->begin_evened(found[k].change);
+      uneven = true;
+    }
+  }
+  return uneven;
+}
+
+// Tells how uneven the flush was, and is after these moves.
+void JointPress::tell_flush(const std::vector<PressAmount>& amounts, std::vector<SmoothPanelResult>& results) const {
+  std::vector<double> shares;
+  for (const PressAmount& amount : amounts) shares.push_back(amount.strength);
+  const std::vector<UnevenFlush> before = find_uneven_flush(std::vector<double>(sides_.size(), 0.0)),
+                                 after = find_uneven_flush(shares);
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    results[k].report.flush_before = before[k].most;
+    results[k].report.flush_after = after[k].most;
+  }
 }
 
 void JointPress::even_rims() {
@@ -185,10 +239,15 @@ void JointPress::find_moves(const std::vector<PressAmount>& amounts) {
   even_rims();
 }
 
-void JointPress::move_jointly(const std::vector<PressAmount>& amounts, Kinks kinks) {
+// Begins the moves; returns whether that makes a flush even or none is to be.
+bool JointPress::begin(const std::vector<PressAmount>& amounts, Flush flush) {
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (is_joint(k)) sides_[k]->begin(amounts[k]);
   }
+  return flush == Flush::kStays || even_flush();
+}
+
+void JointPress::move_jointly(const std::vector<PressAmount>& amounts, Kinks kinks) {
   find_moves(amounts);
   if (kinks == Kinks::kGo) {
     if (begin_turned()) find_moves(amounts);
@@ -215,13 +274,21 @@ std::vector<SmoothPanelResult> JointPress::press_jointly(const std::vector<Press
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (!is_joint(k)) results[k] = sides_[k]->press_alone(amounts[k]);
   }
-  for (const Kinks kinks : {Kinks::kGo, Kinks::kStay}) {
-    move_jointly(amounts, kinks);
-    if (judge(amounts, kinks, results)) return results;
+  for (const Flush flush : {Flush::kEven, Flush::kStays}) {
+    for (const Kinks kinks : {Kinks::kGo, Kinks::kStay}) {
+      if (!begin(amounts, flush)) break;
+      move_jointly(amounts, kinks);
+      if (!judge(amounts, kinks, results)) continue;
+      tell_flush(amounts, results);
+      return results;
+    }
   }
   for (size_t k = 0; k < sides_.size(); ++k) {
-    if (is_joint(k)) results[k] = sides_[k]->press_clamped(amounts[k]);
+    if (!is_joint(k)) continue;
+    sides_[k]->begin(amounts[k]);
+    results[k] = sides_[k]->press_clamped(amounts[k]);
   }
+  tell_flush(amounts, results);
   return results;
 }
 

@@ -18,6 +18,7 @@ class JointPress {
 
  private:
   enum class Kinks { kGo, kStay };  // along gaps
+  enum class Flush { kEven, kStays };
 
   struct Across {
     int side = -1;
@@ -25,10 +26,15 @@ class JointPress {
   };
 
   Positions widen(size_t k, const Positions& used_positions) const;
-  Skin others_of(size_t own) const;
+  Skin others_of(size_t own, const std::vector<double>& shares = {}) const;
   void widen_flaws();
   bool is_joint(size_t k) const { return sides_[k]->is_joint(); }
   bool is_limited() const;
+  bool evens_flush(size_t k) const { return is_joint(k) && panels_[k].panel.options.even_flush; }
+  FlushPart find_flush_part(size_t own) const;
+  std::vector<UnevenFlush> find_uneven_flush(const std::vector<double>& shares) const;
+  bool even_flush();
+  void tell_flush(const std::vector<PressAmount>& amounts, std::vector<SmoothPanelResult>& results) const;
   std::vector<Turn> find_turns(double lengths) const;
   void turn_after();
   bool begin_turned();
@@ -37,6 +43,7 @@ class JointPress {
   void even_rims();
   void settle_cages();
   void find_moves(const std::vector<PressAmount>& amounts);
+  bool begin(const std::vector<PressAmount>& amounts, Flush flush);
   void move_jointly(const std::vector<PressAmount>& amounts, Kinks kinks);
   bool judge(const std::vector<PressAmount>& amounts, Kinks kinks, std::vector<SmoothPanelResult>& results);
   std::vector<SmoothPanelResult> press_jointly(const std::vector<PressAmount>& amounts);

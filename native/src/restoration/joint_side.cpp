@@ -7,9 +7,12 @@
 #include <set>
 #include <utility>
 
+#include "base/smoothstep.h"
 #include "geometry/bounding_box.h"
 #include "geometry/mesh.h"
+#include "geometry/open_border.h"
 #include "restoration/cage_press.h"
+#include "restoration/even_flush.h"
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
 #include "restoration/joined_options.h"
@@ -24,6 +27,7 @@ namespace reflines {
 namespace {
 
 constexpr double kHeldByCage = 1e-9;  // influence of the free vertices of a cage
+constexpr double kLeastFacing = 0.3;  // cosine of 73 degrees between view and normal: what is steeper moves no further
 constexpr double kWhole = std::numeric_limits<double>::infinity();
 
 // Returns the edges of the border as triangles without area: first, second, second.
@@ -174,15 +178,36 @@ void JointSide::begin(const PressAmount& amount) {
   range_ = std::make_unique<ControlRange>(limit, is_cage() ? MoveLimit{} : amount.limit_share, V_.rows());
   if (is_cage()) control_range_ = std::make_unique<ControlRange>(limit, amount.limit_share, panel_.cage->V.rows());
   firm_ = false;
-  move_ = turned_ = Vector::Zero(V_.rows());
+  move_ = turned_ = evened_ = Vector::Zero(V_.rows());
 }
 
-Positions JointSide::present() const {
+Positions JointSide::present(double share) const {
   if (move_.size() == 0) return V_;
-  return V_ + move_ * axis().transpose();
+  return V_ + share * move_ * axis().transpose();
 }
 
-Skin JointSide::skin() const { return {present(), F_}; }
+Skin JointSide::skin(double share) const { return {present(share), F_}; }
+
+UnevenFlush JointSide::find_uneven_flush(const Skin& others, const FlushPart& part, double share) const {
+  const Positions V = present(share);
+  const Positions normal = find_open_border(V, F_, shape_.around).normal;
+  const GapContinuation found = continue_over_gap(V, F_, shape_.around, others.V, others.F, {gap_, 0});
+  const double least = kRules.bump.least_height * alone_->report().length;
+  UnevenFlush result{0, Vector::Zero(V.rows())};
+  const IndexVector across = found.followed.select(part.across.array(), -1);
+  for (const RimRun& run : find_rim_runs(V, rim_, across)) {
+    const Vector uneven = reflines::find_uneven_flush(V, run, found.flush);
+    const double most = uneven.cwiseAbs().maxCoeff();
+    const double seen = smoothstep(least, kRules.bump.whole_height * least, most);
+    result.most = std::max(result.most, most);
+    for (size_t k = 0; k < run.vertices.size(); ++k) {
+      const int v = run.vertices[k];
+      const double facing = std::max(normal.row(v).dot(axis()), kLeastFacing);
+      result.change(v) = part.taken(v) * seen * uneven(static_cast<Eigen::Index>(k)) / facing;
+    }
+  }
+  return result;
+}
 
 JoinedMesh JointSide::join(const Positions& V, const Skin& others) const {
   const Rings rings = continue_region(V, shape_.around, others, widened_ * panel_.gap.reach);
@@ -190,7 +215,7 @@ JoinedMesh JointSide::join(const Positions& V, const Skin& others) const {
 }
 
 Turn JointSide::find_turn(const Skin& others, double lengths) const {
-  const Positions V = present();
+  const Positions V = present(1);
   const JoinedMesh joined = join(V, others);
   Vector share = Vector::Ones(V.rows());
   share = joint_.select(0.5 * share.array(), share.array());
@@ -205,8 +230,15 @@ void JointSide::add(const Vector& change) {
   move_ = range_->cut(move_ + moved);
 }
 
+void JointSide::begin_evened(const Vector& change) {
+  const double reach = kRules.border.turned_before * alone_->report().length / widened_;
+  add(spread_from_rim(region_->optimizer().frame().project(V_), rim_, change, reach,
+                      [&](double distance) { return fade(distance / reach); }));
+  turned_ = evened_ = move_;
+}
+
 void JointSide::begin_turned(const Vector& change) {
-  move_.setZero();
+  move_ = evened_;
   add(change);
   turned_ = move_;
 }
@@ -229,7 +261,7 @@ ShapeOptions JointSide::choose_joined_shape(const JoinedMesh& joined) const {
 }
 
 void JointSide::press(const Skin& others, const PressAmount& amount) {
-  JoinedMesh joined = join(present(), others);
+  JoinedMesh joined = join(present(1), others);
   const bool same = press_ && joined.V.rows() == joined_.V.rows() && joined.V == joined_.V && joined.F == joined_.F;
   if (!same) {
     press_.reset();  // it refers to the surface

@@ -37,6 +37,18 @@ struct Turn {
   double degrees = 0;
 };
 
+// The part that a side has in making its flush even.
+struct FlushPart {
+  IndexVector across;  // #V: the side that a vertex of the rim lies across from, or -1
+  Vector taken;        // #V: share of the uneven flush that this side takes away
+};
+
+// An uneven flush, and what mends it.
+struct UnevenFlush {
+  double most = 0;  // by which it is off its even course
+  Vector change;    // of heights, #V
+};
+
 class JointSide {
  public:
   JointSide(const CagePanel& panel, const PressAmount& amount);
@@ -53,7 +65,12 @@ class JointSide {
   SmoothPanelResult press_clamped(const PressAmount& amount);  // towards the others
 
   void begin(const PressAmount& amount);  // the steps: nothing has moved yet
-  Skin skin() const;                      // at present
+  Skin skin(double share = 1) const;      // at present, or at a share of the move
+
+  // Returns by how much the flush towards the others is uneven after a share of the move, and the change of heights
+  // (#V) that takes this side's part of it away. There is none where it is not seen.
+  UnevenFlush find_uneven_flush(const Skin& others, const FlushPart& part, double share = 1) const;
+  void begin_evened(const Vector& change);  // after begin()
 
   // Returns the change that turns the border's tangents towards the others as all are at present: half of the way to
   // those, and the whole way to what stays. `lengths` is how far from the border it reaches.
@@ -75,9 +92,9 @@ class JointSide {
 
   SmoothPanelResult judge(const PressAmount& amount);  // positions are those of the control vertices
 
-  const Mask& joint() const { return joint_; }           // #V: border vertices that face others and move with them
-  const Vector& move() const { return move_; }           // #V, along axis(), so far
-  bool is_beyond_limit() const { return limited_ > 0; }  // after even()
+  const Mask& joint() const { return joint_; }  // #V: border vertices that face others and move with them
+  double shift(int v) const { return move_(v) - evened_(v); }  // of a vertex so far, beside what evened its flush
+  bool is_beyond_limit() const { return limited_ > 0; }        // after even()
   Vector3 axis() const { return region_->optimizer().frame().z(); }
   Vector3 place(int v) const { return V_.row(v); }  // at the start
   const IndexVector& partner() const { return is_cage() ? panel_.cage->options.partner : shape_.partner; }
@@ -97,7 +114,7 @@ class JointSide {
   JoinedMesh join(const Positions& V, const Skin& others) const;
   ShapeOptions choose_joined_shape(const JoinedMesh& joined) const;
   ShapeOptions clamp_joint() const;
-  Positions present() const;  // #V x 3
+  Positions present(double share) const;  // #V x 3
   void build_region();
   double weigh_gain() const;
   SmoothPanelResult read_cage(SmoothPanelResult surface, const PressAmount& amount) const;
@@ -122,6 +139,7 @@ class JointSide {
   Mask free_;                           // #V
   std::unique_ptr<ControlRange> range_;
   Vector move_, turned_, beside_;  // #V, #V, #vertices beside: moves of the region, of it before press(), and beside it
+  Vector evened_;                  // #V: part of turned_
   int limited_ = 0;                // vertices whose move is beyond the limit
   JoinedMesh joined_;              // at press()
   std::unique_ptr<MeshSurface> surface_;

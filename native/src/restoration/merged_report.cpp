@@ -67,8 +67,9 @@ void add_healed(const HealedFlaws& more, double share, HealedFlaws& healed) {
 
 void add_totals(const SmoothPanelReport& more, SmoothPanelReport& total) {
   total.work += more.work;
-  for (double SmoothPanelReport::*most : {&SmoothPanelReport::length, &SmoothPanelReport::limit,
-                                          &SmoothPanelReport::largest_move, &SmoothPanelReport::largest_control_move})
+  for (double SmoothPanelReport::*most :
+       {&SmoothPanelReport::length, &SmoothPanelReport::limit, &SmoothPanelReport::largest_move,
+        &SmoothPanelReport::largest_control_move, &SmoothPanelReport::flush_before, &SmoothPanelReport::flush_after})
     total.*most = std::max(total.*most, more.*most);
   for (int SmoothPanelReport::*count : {&SmoothPanelReport::limited, &SmoothPanelReport::bumps,
                                         &SmoothPanelReport::mirrored, &SmoothPanelReport::held_faces})
