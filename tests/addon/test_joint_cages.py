@@ -115,6 +115,6 @@ def test_bonnet_wing_and_door_of_the_car_are_healed_in_one_press(even: bool) -> 
         print(ob.name, shares, ob.reflection_lines.report.headline())
         assert len(known) == (2 if ob.name == "Body" else 1)
         assert all((0.7 if even else 0.55) < share < 1.05 for share in known)
-        assert ob.reflection_lines.report.worst_after < (0.5 if even and ob.name == "Doors" else 0.35 * 7.2)
+        assert ob.reflection_lines.report.worst_after < (0.9 if even and ob.name == "Doors" else 0.35 * 7.2)
     unselected = slice(car_crossings.WING_VERTICES, None)
     assert np.array_equal(places(bpy.data.objects["Body"])[unselected], before["Body"][unselected])

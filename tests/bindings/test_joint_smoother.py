@@ -6,6 +6,7 @@ from meshes import KINDS
 from test_follow_border import DIRECTIONS, REACH, Array, bend, cut, cylinder, half, rim, tilt
 
 Mesh = tuple[Array, Array]
+CLAMPED, FOLLOW = 2, 5  # codes of borders
 
 
 def press(*meshes: Mesh, strength: float = 1.0, limit: float | None = None, **options: object) -> list:
@@ -114,6 +115,20 @@ def test_panels_that_face_nothing_are_pressed_alone() -> None:
     far = W + [1.0, 0.0, 0.0]
     for (positions, _), mesh in zip(press((V, F), (far, G)), ((V, F), (far, G)), strict=True):
         assert np.array_equal(positions, reflines.smooth_panel(*mesh, **DIRECTIONS)[0])
+
+
+def test_a_panel_that_faces_others_with_held_vertices_alone_is_pressed_alone() -> None:
+    """Clamped vertices hold those beside them: of two that follow none is free."""
+    (V, F), (W, G) = half(-1, 0.004, "regular", 40), half(1, 0.004, "regular", 29)
+    border = np.full(len(V), CLAMPED)
+    at = np.flatnonzero(rim(V, 0.004))
+    border[at[np.argsort(np.abs(V[at, 1]))[:2]]] = FOLLOW
+    panels = (reflines.JointPanel(change(V, dent(V)), F, **DIRECTIONS, reach=REACH, border=border),
+              reflines.JointPanel(W, G, **DIRECTIONS, reach=REACH))
+    (left, _), (right, _) = reflines.JointSmoother(panels).press(strengths=[1.0] * 2, limits=[None] * 2,
+                                                                 limit_shares=[None] * 2)
+    assert np.array_equal(left, reflines.smooth_panel(change(V, dent(V)), F, **DIRECTIONS)[0])
+    assert right.shape == W.shape
 
 
 def test_what_stays_beside_is_followed_and_the_other_panels_move() -> None:

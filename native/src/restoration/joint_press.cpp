@@ -165,18 +165,22 @@ std::vector<UnevenFlush> JointPress::find_uneven_flush(const std::vector<double>
   return found;
 }
 
-// Makes the flush even, before anything else; returns whether it was uneven somewhere.
-bool JointPress::even_flush() {
-  bool uneven = false;
-  for (int pass = 0; pass < kRules.joint.flush_passes; ++pass) {
-    const std::vector<UnevenFlush> found = find_uneven_flush({});
-    for (size_t k = 0; k < sides_.size(); ++k) {
-      if (found[k].change.isZero(0)) continue;
+// Begins with the flush even; returns whether it was uneven somewhere. It is measured once more after a press, which
+// leaves it as it is: beside a dent that goes on across the gap, the fits that tell it err.
+bool JointPress::even_flush(const std::vector<PressAmount>& amounts) {
+  const auto is_even = [](const UnevenFlush& each) { return each.change.isZero(0); };
+  std::vector<UnevenFlush> found = find_uneven_flush({});
+  if (std::all_of(found.begin(), found.end(), is_even)) return false;
+  find_moves(amounts);
+  found = find_uneven_flush({});
+  for (size_t k = 0; k < sides_.size(); ++k) {
+    if (evens_flush(k)) {
       sides_[k]->begin_evened(found[k].change);
-      uneven = true;
+    } else if (is_joint(k)) {
+      sides_[k]->begin(amounts[k]);
     }
   }
-  return uneven;
+  return !std::all_of(found.begin(), found.end(), is_even);
 }
 
 // Tells how uneven the flush was, and is after these moves.
@@ -244,7 +248,7 @@ bool JointPress::begin(const std::vector<PressAmount>& amounts, Flush flush) {
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (is_joint(k)) sides_[k]->begin(amounts[k]);
   }
-  return flush == Flush::kStays || even_flush();
+  return flush == Flush::kStays || even_flush(amounts);
 }
 
 void JointPress::move_jointly(const std::vector<PressAmount>& amounts, Kinks kinks) {
@@ -271,6 +275,7 @@ bool JointPress::judge(const std::vector<PressAmount>& amounts, Kinks kinks, std
 
 std::vector<SmoothPanelResult> JointPress::press_jointly(const std::vector<PressAmount>& amounts) {
   std::vector<SmoothPanelResult> results(sides_.size());
+  begin(amounts, Flush::kStays);  // a rim that faces others with held vertices alone is none
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (!is_joint(k)) results[k] = sides_[k]->press_alone(amounts[k]);
   }

@@ -33,7 +33,7 @@ class JointPress {
   bool evens_flush(size_t k) const { return is_joint(k) && panels_[k].panel.options.even_flush; }
   FlushPart find_flush_part(size_t own) const;
   std::vector<UnevenFlush> find_uneven_flush(const std::vector<double>& shares) const;
-  bool even_flush();
+  bool even_flush(const std::vector<PressAmount>& amounts);
   void tell_flush(const std::vector<PressAmount>& amounts, std::vector<SmoothPanelResult>& results) const;
   std::vector<Turn> find_turns(double lengths) const;
   void turn_after();

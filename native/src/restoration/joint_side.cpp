@@ -232,6 +232,7 @@ void JointSide::add(const Vector& change) {
 
 void JointSide::begin_evened(const Vector& change) {
   const double reach = kRules.border.turned_before * alone_->report().length / widened_;
+  move_.setZero();
   add(spread_from_rim(region_->optimizer().frame().project(V_), rim_, change, reach,
                       [&](double distance) { return fade(distance / reach); }));
   turned_ = evened_ = move_;

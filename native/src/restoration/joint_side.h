@@ -70,7 +70,7 @@ class JointSide {
   // Returns by how much the flush towards the others is uneven after a share of the move, and the change of heights
   // (#V) that takes this side's part of it away. There is none where it is not seen.
   UnevenFlush find_uneven_flush(const Skin& others, const FlushPart& part, double share = 1) const;
-  void begin_evened(const Vector& change);  // after begin()
+  void begin_evened(const Vector& change);  // from the start, instead of begin()
 
   // Returns the change that turns the border's tangents towards the others as all are at present: half of the way to
   // those, and the whole way to what stays. `lengths` is how far from the border it reaches.

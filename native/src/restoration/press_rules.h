@@ -92,7 +92,6 @@ struct JointRules {
   double across = 2.0;      // widest gaps within which the other side is looked for
   double kink = 0.3;        // degrees left by a press: from there on one side of a gap is turned
   double kink_worse = 0.5;  // of the worst place before: with a place that got worse and is more, kinks are left
-  int flush_passes = 2;     // of making it even: moves along a view at a slant shift the rim, too
   int turns_after = 2;      // after a press: four only move the worst place
   double widened = 1.5;     // lengths: flaws of a panel that a gap cuts are as long as those of the whole
   double touching = 0.1;    // of the border's edges: parts of a region that are no further apart touch
