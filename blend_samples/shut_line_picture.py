@@ -30,7 +30,7 @@ def take(_: window.Window) -> car_pictures.Steps:
     yield from car_pictures.shoot(driver, "before")
     with driver.override():
         bpy.ops.object.mode_set(mode='EDIT')
-        bpy.ops.reflines.smooth(border='follow')
+        bpy.ops.reflines.smooth(border='follow', even_flush=True)
         bpy.ops.object.mode_set(mode='OBJECT')
     for ob in panels:
         print(f"{ob.name}: {ob.reflection_lines.report.headline()}")
