@@ -1,6 +1,7 @@
 """Drives Blender in a real window: a test is a generator that types, moves the mouse and yields the seconds to wait."""
 import os
 import sys
+import time
 import traceback
 from collections.abc import Callable, Generator
 
@@ -76,19 +77,28 @@ def run(*tests: Test) -> None:
     start(all_steps(tests))
 
 
+def rest() -> float:
+    """Leaves the processor to others for a moment; Blender turns in a loop while it waits for simulated events."""
+    time.sleep(0.004)
+    return 0.0
+
+
 def start(steps: Generator[float, None, None]) -> None:
     """From a timer, with the add-on enabled."""
     bpy.context.preferences.view.show_splash = False
     installation.install()
+    bpy.app.timers.register(rest, persistent=True)
     bpy.app.timers.register(lambda: next(steps), first_interval=1.0, persistent=True)
 
 
 def all_steps(tests: tuple[Test, ...]) -> Generator[float, None, None]:
     passed = 0
     for test in tests:
+        start = time.monotonic()
         try:
             yield from test(Window())
             passed += 1
+            print(f"{time.monotonic() - start:6.1f} s {test.__name__}", flush=True)
         except BaseException as error:  # noqa: BLE001  (a Blender that is not ended waits for a user for ever)
             traceback.print_exc()
             print(f"FAILED {test.__name__}: {type(error).__name__}: {error}".partition("\n")[0])
