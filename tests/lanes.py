@@ -29,6 +29,7 @@ BLENDER = "/usr/bin/blender"
 INSTALLED = "REFLINES_ADDON" in os.environ
 COUNTS_LINE = re.compile(r"(\d+) passed, (\d+) failed, (\d+) skipped\s*")
 FAILED_LINE = re.compile(r"((?:\w+: )?)FAILED (.+)")  # tests that run beside others have a mark before it
+FAILED_BEFORE = re.compile(r"== failed: (.+)")  # those of a whole lane, at its end
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,7 @@ class Counts:
         return f"{self.passed} passed, {self.failed} failed, {self.skipped} skipped"
 
 
+AT_ONCE = 3  # lanes: one of windows, which mostly waits, and two of one process each
 SECOND_TRIES = 3  # Blenders with window tests that are run once more; where more of them fail it is no chance
 NO_ARCHIVE = 75  # how .ci/package.py ends where Debian's archive cannot be had
 
@@ -120,7 +122,8 @@ def blender_environment(user: str = "blender_user") -> dict[str, str]:
     return os.environ | {"BLENDER_USER_RESOURCES": str(user), "LIBGL_ALWAYS_SOFTWARE": "1"}
 
 
-def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int, mark: str = "") -> Counts:
+def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int, mark: str = "",
+                  failed: re.Pattern[str] = FAILED_LINE) -> Counts:
     """Runs tests that print the line of counts themselves, as those inside Blender do; shows what they print, each line
     with a mark where others run beside them."""
     process = subprocess.Popen(command, cwd=ROOT, env=env, text=True, errors="replace", stdout=subprocess.PIPE,
@@ -130,7 +133,7 @@ def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int, 
     counts, failures = None, []
     for line in process.stdout:
         print(mark + line, end="", flush=True)
-        found, failure = COUNTS_LINE.fullmatch(line), FAILED_LINE.match(line)
+        found, failure = COUNTS_LINE.fullmatch(line), failed.match(line)
         counts = Counts(*map(int, found.groups())) if found else counts
         failures += [mark + "".join(failure.groups())] if failure else []
     code = process.wait()
@@ -158,12 +161,17 @@ def window_command(width: int = 1280, height: int = 900, display: int = 99) -> l
             "--enable-event-simulate", "--window-geometry", "0", "0", str(width), str(height)]
 
 
-# Window tests that take less time than a Blender takes to start, or not much more, and leave nothing to each other.
+# Window tests that take less time than a Blender takes to start, or not much more, and leave nothing to each other;
+# those that take longest begin.
 TOGETHER = (
+    ("reinstall",),
+    ("hostile",),
     ("drag", "drag_cages", "drag_meshes", "drag_tools", "draw_nearest", "drawn_lines", "handle_gizmos"),
     ("compare", "check", "stripe_modes", "stripes_edit", "look_through", "toolbar"),
     ("borders", "buttons", "light", "menus", "panels"),
     ("bake_handles", "follow_selected_edges", "inspect", "redo", "sidebar"),
+    ("stripes", "stripes_cages", "shut_lines"),
+    ("fair_brush", "long_press", "quad_view", "drag_lost"),
 )
 
 
@@ -177,17 +185,17 @@ def window_counts(index: int, files: Sequence[Path]) -> Counts:
 
 
 def group_window_tests() -> list[list[Path]]:
-    """Returns the files of window tests that run in one Blender; those of several, which take longest, first."""
+    """Returns the files of window tests that run in one Blender; those that take longest first."""
     files = {path.stem.removeprefix("test_"): path for path in sorted((ROOT / "tests/ui").glob("test_*.py"))}
     groups = [[files.pop(name) for name in group] for group in TOGETHER]
     return groups + [[path] for path in files.values()]
 
 
 def ui_lane() -> Counts:
-    """Window tests on virtual screens, with simulated mouse and keys; as many Blenders at once as there are cores, for
-    one with simulated events waits by turning in a loop."""
+    """Window tests on virtual screens, with simulated mouse and keys; one Blender more than there are cores, for
+    most of their time they wait."""
     groups = group_window_tests()
-    with ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:
+    with ThreadPoolExecutor(min(4, 1 + (os.cpu_count() or 1))) as pool:
         found = list(pool.map(window_counts, range(len(groups)), groups))
     return sum(try_again(found, lambda index: window_counts(index, groups[index])), Counts())
 
@@ -290,21 +298,33 @@ def configured() -> bool:
     return (ROOT / "build/release/build.ninja").is_file() or succeeds("cmake", "--preset", "release")
 
 
-def run_lanes(names: Sequence[str]) -> Counts:
-    total = Counts()
-    built = INSTALLED or configured()  # the rules read the compile commands
-    if not INSTALLED and any(LANES[name].built for name in names):
-        built = built and succeeds("cmake", "--build", "--preset", "release")
-    for name in names:
-        print(f"== {name}", flush=True)
-        start = time.monotonic()
-        if LANES[name].built and not built:
-            counts = crashed(f"{name}: the native build failed, so this lane cannot run")
-        else:
-            counts = LANES[name].run()
-        print(f"== {name}: {counts} ({time.monotonic() - start:.0f} s)", flush=True)
-        total += counts
-    return total
+def run_lane(name: str, *, built: bool) -> Counts:
+    print(f"== {name}", flush=True)
+    start = time.monotonic()
+    if LANES[name].built and not built:
+        counts = crashed(f"{name}: the native build failed, so this lane cannot run")
+    else:
+        counts = LANES[name].run()
+    print(f"== {name}: {counts} ({time.monotonic() - start:.0f} s)", flush=True)
+    return counts
+
+
+def run_beside(name: str) -> Counts:
+    """Runs a lane in a process of its own, whose lines are marked with its name."""
+    return run_reporting([PYTHON, __file__, name, "--built"], os.environ, 4500, f"{name}: ", FAILED_BEFORE)
+
+
+def run_lanes(names: Sequence[str], *, built: bool = False) -> Counts:
+    """Runs lanes: those of every day at once, longest first, and then those that are asked for, one after the other."""
+    if not built:
+        built = INSTALLED or configured()  # the rules read the compile commands
+        if not INSTALLED and any(LANES[name].built for name in names):
+            built = built and succeeds("cmake", "--build", "--preset", "release")
+    beside = [name for name in reversed(names) if not LANES[name].asked]
+    beside = beside if built and not INSTALLED and len(beside) > 1 else []
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        total = sum(pool.map(run_beside, beside), Counts())
+    return sum((run_lane(name, built=built) for name in names if name not in beside), total)
 
 
 def main() -> int:
@@ -313,7 +333,9 @@ def main() -> int:
     parser.add_argument("--changed", action="store_true", help="only the lanes that changes touch")
     parser.add_argument("--all", action="store_true", help="with the lanes that otherwise run only by name: matrix, "
                                                               "release, windows, asan, tsan, fuzz")
-    total = run_lanes(chosen_lanes(parser.parse_args()))
+    parser.add_argument("--built", action="store_true", help="the native build is as it should be")
+    arguments = parser.parse_args()
+    total = run_lanes(chosen_lanes(arguments), built=arguments.built)
     print(*(f"== failed: {what}\n" for what in total.failures), sep="", end="")
     print(total)
     return 0 if total.failed == 0 and total.passed + total.skipped > 0 else 1

@@ -28,6 +28,17 @@ def test_printed_failures_are_named_with_the_marks_of_their_lanes() -> None:
     assert counts == lanes.Counts(3, 2, 0, ("lane: first: why", "lane: beside: second: why"))
 
 
+def test_lanes_at_once_are_added_up_with_what_failed_in_each(monkeypatch, capsys) -> None:
+    """Each runs in a process of its own, which says at its end what failed in it."""
+    printed = ("shown before: FAILED first: why\n1 passed, 1 failed, 0 skipped\n== failed: {}: why\n"
+               "3 passed, 1 failed, 0 skipped")
+    monkeypatch.setattr(lanes, "run_beside", lambda name: lanes.run_reporting(
+        [sys.executable, "-c", f"print({printed.format(name)!r})"], os.environ, 60, f"{name}: ", lanes.FAILED_BEFORE))
+    counts = lanes.run_lanes(["native", "bindings"], built=True)
+    assert counts == lanes.Counts(6, 2, 0, ("bindings: bindings: why", "native: native: why"))
+    assert "native: shown before" in capsys.readouterr().out
+
+
 def test_a_crash_is_a_failure_with_a_name() -> None:
     for counts in (reported("no counts", code=3), reported("1 passed, 0 failed, 0 skipped", code=3)):
         assert counts.failed == 1 and len(counts.failures) == 1 and "exit code 3" in counts.failures[0]
