@@ -6,8 +6,10 @@ import re
 import shlex
 import shutil
 import subprocess
-from collections.abc import Callable
+import tempfile
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from itertools import groupby
 from pathlib import Path
 
 import pytest
@@ -51,11 +53,39 @@ def fingerprint(file: Path, version: bytes) -> str:
     return digest.hexdigest()
 
 
-def verdict(tidy: str, file: Path) -> str:
-    """clang-tidy's complaints about one translation unit; empty when it has none."""
-    command = ["nice", tidy, "--quiet", "-p", str(BUILD), str(file)]
-    result = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+def flags_by_file() -> dict[Path, tuple[str, ...]]:
+    """The compiler's flags for each translation unit of the build."""
+    entries = json.loads(read_compile_commands())
+    words = {Path(entry["file"]).relative_to(ROOT): shlex.split(entry["command"]) for entry in entries}
+    return {file: tuple(command[1:command.index("-o")]) for file, command in words.items()}
+
+
+def find_complaints(tidy: str, flags: Sequence[str], files: Sequence[Path]) -> str:
+    """clang-tidy's complaints about files that are included one after the other; empty when it has none."""
+    with tempfile.TemporaryDirectory() as folder:
+        joined = Path(folder, "joined.cpp")
+        joined.write_text("".join(f'#include "{ROOT / file}"\n' for file in files))
+        command = ["nice", tidy, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", str(joined), "--", *flags]
+        result = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     return "" if result.returncode == 0 else result.stdout
+
+
+def verdicts(files: Sequence[Path], complaints_of: Callable[[Sequence[Path]], str]) -> dict[Path, str]:
+    """The complaints about each of some files, which are judged together: a library's headers are then read once. Files
+    that complaints name are judged apart from the others, for their only fault may be a name that another has too."""
+    complaints = complaints_of(files)
+    if not complaints or len(files) == 1:
+        return dict.fromkeys(files, complaints)
+    named = [file for file in files if str(ROOT / file) in complaints]
+    parts = ([file for file in files if file not in named], named)
+    parts = parts if all(parts) else ([file] for file in files)
+    return {file: text for part in parts for file, text in verdicts(part, complaints_of).items()}
+
+
+def batches(files: Sequence[Path], flags: dict[Path, tuple[str, ...]]) -> list[list[Path]]:
+    """Files of one folder, which are built with the same flags, by the dozen."""
+    groups = [list(group) for _, group in groupby(sorted(files), lambda file: (file.parent, flags[file]))]
+    return [group[at:at + 12] for group in groups for at in range(0, len(group), 12)]
 
 
 def read_compile_commands() -> str:
@@ -64,23 +94,36 @@ def read_compile_commands() -> str:
     return (BUILD / "compile_commands.json").read_text()
 
 
-def judge(files: list[Path], version: bytes, find_complaints: Callable[[Path], str]) -> None:
-    """Judges the translation units that changed since they were last found good."""
-    stamps = {JUDGED / fingerprint(file, version): file for file in files}
-    pending = {stamp: file for stamp, file in stamps.items() if not stamp.exists()}
+def judge(files: Sequence[Path], version: bytes, batch: Callable[[list[Path]], list[list[Path]]],
+          complaints_of: Callable[[Sequence[Path]], str]) -> None:
+    """Judges the translation units that changed since they were last found good, as many batches at once as there are
+    cores."""
+    stamps = {file: JUDGED / fingerprint(file, version) for file in files}
+    pending = [file for file, stamp in stamps.items() if not stamp.exists()]
     JUDGED.mkdir(parents=True, exist_ok=True)
+    wrong = []
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        verdicts = dict(zip(pending, pool.map(find_complaints, pending.values()), strict=True))
-    for stamp, complaints in verdicts.items():
-        if not complaints:
-            stamp.touch()
-    assert not any(verdicts.values()), "\n".join(filter(None, verdicts.values()))
+        for found in pool.map(lambda part: verdicts(part, complaints_of), batch(pending)):
+            for file in (file for file, complaints in found.items() if not complaints):
+                stamps[file].touch()
+            wrong += filter(None, found.values())
+    assert not wrong, "\n".join(wrong)
 
 
 def test_names() -> None:
-    tidy, compiled = needed("clang-tidy"), read_compile_commands()
+    tidy, flags = needed("clang-tidy"), flags_by_file()
     version = subprocess.run([tidy, "--version"], check=True, stdout=subprocess.PIPE).stdout
-    judge([file for file in cpp_files(".cpp") if f"{file}\"" in compiled], version, lambda file: verdict(tidy, file))
+    judge([file for file in cpp_files(".cpp") if file in flags], version, lambda files: batches(files, flags),
+          lambda files: find_complaints(tidy, flags[files[0]], files))
+
+
+def test_a_name_that_two_files_have_is_no_fault_and_a_wrong_one_is_found() -> None:
+    first, second, third = (Path(f"native/{name}.cpp") for name in ("first", "second", "third"))
+
+    def complain(files: Sequence[Path]) -> str:
+        meet = f"{ROOT / second}: redefinition" if {first, second} <= set(files) else ""
+        return meet + (f"{ROOT / third}: wrong" if third in files else "")
+    assert verdicts([first, second, third], complain) == {first: "", second: "", third: f"{ROOT / third}: wrong"}
 
 
 def parse(command: list[str], file: Path) -> str:
@@ -101,4 +144,5 @@ def test_benchmarks_and_fuzzers_are_of_the_present_interfaces() -> None:
                *(f"-I{path}" for path in (*paths, ROOT))]
     files = [file for file in cpp_files(".cpp") if file.parts[:2] in (("tests", "bench"), ("tests", "fuzz"))]
     assert len(files) > 10
-    judge(files, "\n".join(command).encode(), lambda file: parse(command, file))
+    judge(files, "\n".join(command).encode(), lambda changed: [[file] for file in changed],
+          lambda part: parse(command, part[0]))
