@@ -10,6 +10,7 @@
 #include "base/parallel_failure.h"
 #include "base/union_find.h"
 #include "geometry/bounding_box.h"
+#include "geometry/next_edges.h"
 #include "inspection/check_input.h"
 #include "inspection/compare_values.h"
 #include "inspection/gap_probe.h"
@@ -23,7 +24,6 @@ namespace {
 
 constexpr double kNear = 0.25;    // diagonals of a part within which its other sides lie
 constexpr double kSparse = 0.05;  // diagonals of the region: lines further apart have no angle that is seen
-constexpr double kCorner = 0.77;  // cosine of 40 degrees, by which a border turns at a corner
 constexpr size_t kFewest = 3;     // edges of a shut line
 
 void check(const BesidePanel& beside, const ShutLineOptions& options) {
@@ -105,17 +105,13 @@ FoundEdges measure_all(const Scene& scene, const Positions& V, double gap, const
 
 // Joins edges that go on from each other without a corner beside the same surface: the lists of their numbers.
 std::vector<std::vector<int>> join_edges(const Positions& V, const Edges& edges, const std::vector<Found>& found) {
-  std::map<int, int> begins;  // the edge that begins at a vertex
-  for (int k = 0; k < edges.rows(); ++k) begins[edges(k, 0)] = k;
+  const std::vector<int> next = find_next_edges(V, edges, [&](int k, int follower) {
+    const Found &one = found[k], &other = found[follower];
+    return one.part == other.part && one.label == other.label && one.place.sheet == other.place.sheet;
+  });
   UnionFind joined(edges.rows());
   for (int k = 0; k < edges.rows(); ++k) {
-    const auto next = begins.find(edges(k, 1));
-    if (next == begins.end()) continue;
-    const Found &one = found[k], &other = found[next->second];
-    if (one.part != other.part || one.label != other.label || one.place.sheet != other.place.sheet) continue;
-    const Vector3 a = V.row(edges(k, 1)) - V.row(edges(k, 0));
-    const Vector3 b = V.row(edges(next->second, 1)) - V.row(edges(next->second, 0));
-    if (a.dot(b) >= kCorner * a.norm() * b.norm()) joined.unite(k, next->second);
+    if (next[k] >= 0) joined.unite(k, next[k]);
   }
   std::map<int, std::vector<int>> of_first;
   for (int k = 0; k < edges.rows(); ++k) of_first[joined.find(k)].push_back(k);

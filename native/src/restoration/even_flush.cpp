@@ -1,27 +1,14 @@
 #include "restoration/even_flush.h"
 
-#include <map>
+#include "geometry/next_edges.h"
 
 namespace reflines {
 namespace {
 
-constexpr double kCorner = 0.77;  // cosine of 40 degrees, as in check_shut_lines
-
 // Returns the edge that goes on from each edge of a rim without a corner, or -1.
 std::vector<int> find_next(const Positions& V, const Triangles& rim, const IndexVector& across) {
-  std::map<int, int> begins;  // the edge of a run that begins at a vertex
-  for (int k = 0; k < rim.rows(); ++k) {
-    if (across(rim(k, 0)) >= 0 && across(rim(k, 0)) == across(rim(k, 1))) begins[rim(k, 0)] = k;
-  }
-  std::vector<int> next(rim.rows(), -1);
-  for (const auto& [vertex, k] : begins) {
-    const auto found = begins.find(rim(k, 1));
-    if (found == begins.end()) continue;
-    const Vector3 a = V.row(rim(k, 1)) - V.row(rim(k, 0));
-    const Vector3 b = V.row(rim(found->second, 1)) - V.row(rim(found->second, 0));
-    if (a.dot(b) >= kCorner * a.norm() * b.norm()) next[k] = found->second;
-  }
-  return next;
+  const auto faces = [&](int k) { return across(rim(k, 0)) >= 0 && across(rim(k, 0)) == across(rim(k, 1)); };
+  return find_next_edges(V, rim.leftCols<2>(), [&](int k, int follower) { return faces(k) && faces(follower); });
 }
 
 // Follows the edges from one on, and marks them as used.
