@@ -18,7 +18,7 @@ Vector find_even_triangles(const Eigen::MatrixXd& before, const Eigen::MatrixXd&
     double rise = 0;
     for (Eigen::Index k = 0; k < before.cols(); ++k)
       rise = std::max(rise, (after(t, k) - before(t, k)) / (before(t, k) + nothing));
-    result(t) = 1.0 - smoothstep(0.0, kRules.verdict.doubled, rise);
+    result(t) = 1.0 - smoothstep(0.0, kRules.verdict.raised, rise);
   }
   return result;
 }

@@ -110,7 +110,7 @@ struct VerdictRules {
   double worse = 1.01;         // times its unevenness at the start: not worse to the eye
   double even = 0.97;          // times its unevenness at the start: from here to `worse` on, places that get worse stay
   double even_radius = 0.5;    // lengths: of such a place
-  double doubled = 1.0;        // rise of its mean square, over that before, with which a place stays: from all to none
+  double raised = 0.3;         // rise of its mean square, over that before, with which a place stays: from all to none
   double longer_waves = 0.32;  // degrees, root mean square: waves that are worth a word
   double place_radius = 0.35;  // lengths: a flaw is one place, the mesh's facets are none
   double seen = 0.2, seen_whole = 0.6;      // degrees that lines deviate: from none to all
