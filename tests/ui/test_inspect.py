@@ -73,6 +73,18 @@ def find_file_browser() -> tuple[bpy.types.Window, bpy.types.Area] | None:
     return found[0] if found else None
 
 
+def wait_for_file_browser() -> Generator[float, None, tuple[bpy.types.Window, bpy.types.Area]]:
+    """Waits until Blender's file browser was drawn. Before that it has no list of files, and Blender crashes where its
+    button is pressed by a script.
+    """
+    drawn: list[bool] = []
+    handler = bpy.types.SpaceFileBrowser.draw_handler_add(lambda: drawn.append(True), (), 'WINDOW', 'POST_PIXEL')
+    while (browser := find_file_browser()) is None or not drawn:
+        yield 0.05
+    bpy.types.SpaceFileBrowser.draw_handler_remove(handler, 'WINDOW')
+    return browser
+
+
 def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, None]:
     """Writes a film of a panel by Export Film, whose file is chosen in Blender's browser; returns while that is at
     work.
@@ -86,8 +98,7 @@ def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, No
     with driver.override():
         assert bpy.ops.reflines.export_film('INVOKE_DEFAULT', filepath=str(folder / "film_.png"), frames=6) == {
             'RUNNING_MODAL'}
-    while (browser := find_file_browser()) is None:
-        yield 0.05
+    browser = yield from wait_for_file_browser()
     browser[1].spaces.active.params.directory = str(folder).encode()
     browser[1].spaces.active.params.filename = "film_.png"
     with bpy.context.temp_override(window=browser[0], area=browser[1], region=browser[1].regions[-1]):
