@@ -138,10 +138,11 @@ def run_reporting(command: Sequence[str], env: Mapping[str, str], timeout: int, 
         failures += [mark + "".join(failure.groups())] if failure else []
     code = process.wait()
     watch.cancel()
+    name = mark.removesuffix(": ") or command[-1]
     if counts is None or code == -signal.SIGKILL:
         why = "no line of counts" if counts is None else f"stopped after {timeout} s"
-        return Counts(failures=tuple(failures)) + crashed(f"{command[-1]}: exit code {code}, {why}")
-    return judged(replace(counts, failures=tuple(failures)), code, command[-1])
+        return Counts(failures=tuple(failures)) + crashed(f"{name}: exit code {code}, {why}")
+    return judged(replace(counts, failures=tuple(failures)), code, name)
 
 
 def script_options(script: str) -> list[str]:
