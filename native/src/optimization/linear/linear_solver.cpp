@@ -81,6 +81,14 @@ class SerialLoops {
   int active_levels_;
 };
 
+// Lets one thread at a time use METIS, which draws from C's `rand` of the whole process, after a fixed seed: two
+// systems ordered at once, as the coarse and the fine one of a solve are, took each other's numbers, and one order in
+// some hundred had other cuts, so that the factors differed in their last bits.
+std::unique_lock<std::mutex> lock_metis() {
+  static std::mutex mutex;
+  return std::unique_lock(mutex);
+}
+
 void require_memory(bool enough, const char* stage, Eigen::Index n) {
   if (enough) return;
   throw SolverFailure("Memory ran out while " + std::string(stage) + " a system of " + std::to_string(n) +
@@ -160,6 +168,7 @@ class LinearSolver::Cholmod final : public Backend {
                                                                      : CHOLMOD_METIS;
     {
       const SerialLoops serial_loops;
+      const auto lock = common_.method[0].ordering == CHOLMOD_METIS ? lock_metis() : std::unique_lock<std::mutex>();
       factor_ = cholmod_analyze_p(&view, const_cast<int*>(order.data()), nullptr, 0, &common_);
     }
     require_memory(factor_ != nullptr, "ordering", matrix.rows());
@@ -337,6 +346,7 @@ class LinearSolver::Umfpack final : public Backend {
     mirror_pattern(matrix);
     const auto n = static_cast<SuiteSparse_long>(matrix.rows());
     const SerialLoops serial_loops;
+    const auto lock = lock_metis();
     const auto status = umfpack_dl_symbolic(n, n, starts_.data(), rows_.data(), nullptr, &symbolic_, control_, info_);
     require_memory(status == UMFPACK_OK, "ordering", matrix.rows());
     right_side_.resize(matrix.rows());
