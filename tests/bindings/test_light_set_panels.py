@@ -19,5 +19,5 @@ def test_places_that_would_become_less_even_in_a_light_of_the_set_stay_and_the_o
     """Of the ten lights around a coarse bonnet with dents nine become more even, and one became 8 % less: the whole
     panel was refused, and 1.56 of what a press for one light leaves was left."""
     told = judge_panel(list_panels()["r8_bonnet"](), alone=(6,))
-    assert told.applied and told.even < 0.5 and told.theta < 0.95
-    assert told.over_alone < 1.2
+    assert told.applied and told.theta < 0.95
+    assert told.over_alone < 1.0

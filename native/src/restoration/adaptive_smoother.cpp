@@ -57,12 +57,14 @@ double measure_longest_edge(const HeightField& field, int t) {
 }  // namespace
 
 AdaptiveSmoother::AdaptiveSmoother(const HeightField& field, double length)
-    : field_(field),
+    : view_heights_(field.z),
+      plane_(field),
+      field_(plane_.project(field)),
       length_(length),
-      variation_(field),
+      variation_(field_),
       system_(variation_),
-      centers_(find_centroids(field.xy, field.F)),
-      steepness_(measure_steepness(field, variation_.stencils())),
+      centers_(find_centroids(field_.xy, field_.F)),
+      steepness_(measure_steepness(field_, variation_.stencils())),
       open_(Vector::Ones(field.triangle_count())) {}
 
 // Returns the weight of the variation of curvature that keeps half of a wave of this length in flawed surface.
@@ -139,45 +141,59 @@ void AdaptiveSmoother::factorize(Progress* progress) {
   system_.factorize(weight_, slope_unit() * kept.cwiseProduct(steepness_), progress);
 }
 
-Vector AdaptiveSmoother::adapt(const Vector& start, Progress* progress) {
+Vector AdaptiveSmoother::adapt(const Vector& z, Progress* progress) {
+  const Vector start = plane_.lower(z, field_.xy);
+  return put_back(view_heights_, take_view_heights(z, start, adapt_over_plane(start, progress)));
+}
+
+Vector AdaptiveSmoother::adapt_over_plane(const Vector& start, Progress* progress) {
   weight_ = EdgeWeights::Zero(field_.triangle_count(), 3);
   open_ = Vector::Zero(field_.triangle_count());
   system_.factorize(presmoothing_weights(), slope_unit() * square(kRules.scale.slope_weight) * steepness_, progress);
   take_step(system_.smooth(start), kRules.scale.shortest * length_, progress);
   // Smoothed so far, and no further, noise does not hide dents, and the walls of a handle's recess are still no dents.
   const BumpRemoval removal = remove_bumps(
-      variation_, start, length_, [&](const Vector& z) { return system_.smooth(z); }, progress);
+      variation_, plane_, start, length_, [&](const Vector& z) { return system_.smooth(z); }, progress);
   bumps_ = removal.count;
   design_ = Vector::Ones(field_.triangle_count());
   for (const double step : kRules.scale.ladder)
     design_ -= take_step(system_.smooth(removal.heights), step * length_, progress) / std::size(kRules.scale.ladder);
-  return system_.smooth(put_back_held(removal.heights));
+  return system_.smooth(put_back(field_.z, removal.heights));
 }
 
 // Returns heights (#V) with those of the vertices that stay as they are: what was taken away there is not gone, and the
 // surface beside it is to run on smoothly.
-Vector AdaptiveSmoother::put_back_held(const Vector& z) const {
-  Vector result = z;
+Vector AdaptiveSmoother::put_back(const Vector& held, Vector z) const {
   for (int v = 0; v < field_.vertex_count(); ++v) {
-    if (field_.role[v] != VertexRole::kFree) result(v) = field_.z(v);
+    if (field_.role[v] != VertexRole::kFree) z(v) = held(v);
   }
-  return result;
+  return z;
+}
+
+// Returns heights along the view (#V), of which the heights over the plane were `before` and are `after`.
+Vector AdaptiveSmoother::take_view_heights(const Vector& z, const Vector& before, const Vector& after) const {
+  return z + plane_.raise(after - before);
 }
 
 Vector AdaptiveSmoother::smooth(const Vector& z) {
   if (further_) factorize(nullptr);
   further_ = false;
-  return system_.smooth(z);
+  return smooth_over_plane(z);
+}
+
+Vector AdaptiveSmoother::smooth_over_plane(const Vector& z) {
+  const Vector lowered = plane_.lower(z, field_.xy);
+  return take_view_heights(z, lowered, system_.smooth(lowered));
 }
 
 Vector AdaptiveSmoother::smooth_further(const Vector& z, Progress* progress) {
   const EdgeWeights weight = weight_;
   const Vector open = open_;
   further_ = true;
-  take_step(z, kRules.scale.longest * length_, progress);
+  take_step(plane_.lower(z, field_.xy), kRules.scale.longest * length_, progress);
   weight_ = weight;
   open_ = open;
-  return system_.smooth(z);
+  return smooth_over_plane(z);
 }
 
 }  // namespace reflines

@@ -10,6 +10,7 @@
 #include "reflines/types.h"
 #include "restoration/curvature_variation.h"
 #include "restoration/fairing_system.h"
+#include "restoration/mean_plane.h"
 
 namespace reflines {
 
@@ -19,17 +20,19 @@ namespace reflines {
 // go on, and waves across a direction are many.
 class AdaptiveSmoother {
  public:
-  // `field` outlives it; `length` is the size of the flaws.
+  // `length` is the size of the flaws.
   AdaptiveSmoother(const HeightField& field, double length);
 
-  // Takes round dents and bumps out of heights z (#V), finds the lengths for the rest, and returns that smoothed.
-  // `progress` may be null; throws Cancelled.
+  // Takes round dents and bumps out of heights z along the view (#V), finds the lengths for the rest, and returns that
+  // smoothed. `progress` may be null; throws Cancelled.
   Vector adapt(const Vector& z, Progress* progress);
 
   // Returns the result of `adapt` smoothed up to twice the lengths, where it has waves as long as that which do not
   // count as design. The next call of `smooth` factors its system again, in a fourteenth of the time of a press: only
   // presses with another amount smooth again, and a second factor would have to be kept for them.
   Vector smooth_further(const Vector& z, Progress* progress);
+
+  const Vector& heights() const { return view_heights_; }  // #V: of the field, along the view
 
   int bumps() const { return bumps_; }  // that the last call took out
 
@@ -49,14 +52,19 @@ class AdaptiveSmoother {
   double stiffness(double smoothing_length) const;
   double slope_unit() const;
   void factorize(Progress* progress);
-  Vector put_back_held(const Vector& z) const;
+  Vector adapt_over_plane(const Vector& start, Progress* progress);
+  Vector smooth_over_plane(const Vector& z);
+  Vector put_back(const Vector& held, Vector z) const;
+  Vector take_view_heights(const Vector& z, const Vector& before, const Vector& after) const;
 
-  const HeightField& field_;
+  Vector view_heights_;  // #V, of the field
+  MeanPlane plane_;
+  HeightField field_;  // over that plane
   double length_;
   CurvatureVariation variation_;
   FairingSystem system_;
   PlanePositions centers_;  // #T x 2
-  Vector steepness_;        // #T: cos^4 of the angle between normal and view
+  Vector steepness_;        // #T: cos^4 of the angle between normal and mean normal
   EdgeWeights weight_;      // of the lengths found so far
   Vector open_;             // #T: how far each counts as flawed surface, 0 to 1
   Vector design_;           // #T

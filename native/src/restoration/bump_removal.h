@@ -17,11 +17,11 @@ struct BumpRemoval {
   int count;
 };
 
-// Takes bumps (see bump_search.h) up to the size of `length` out of heights z (#V), those of held vertices, too: out of
-// all, then where these were, since of dents that overlap the second is seen when the first is gone. They are looked
-// for in the Hessians of what `smooth` makes of heights (#V), so far that the noise of the mesh does not hide them.
-// `progress` may be null; throws Cancelled.
-BumpRemoval remove_bumps(const CurvatureVariation& variation, const Vector& z, double length,
+// Takes bumps (see bump_search.h) up to the size of `length` out of heights z over a plane (#V), those of held
+// vertices, too: out of all, then where these were, since of dents that overlap the second is seen when the first is
+// gone. They are looked for in the Hessians of what `smooth` makes of heights (#V), so far that the noise of the mesh
+// does not hide them. `progress` may be null; throws Cancelled.
+BumpRemoval remove_bumps(const CurvatureVariation& variation, const MeanPlane& plane, const Vector& z, double length,
                          const std::function<Vector(const Vector&)>& smooth, Progress* progress);
 
 }  // namespace reflines

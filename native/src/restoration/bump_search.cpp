@@ -1,6 +1,7 @@
 #include "restoration/bump_search.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -97,16 +98,32 @@ double taper(double x, double y) {
   return std::max(1.0 - (x * x + y * y) / (kRules.bump.disk * kRules.bump.disk), 0.0);
 }
 
-Disk read_disk(const HessianSamples& samples, const std::vector<int>& members, const Vector2& p, double radius) {
+// Returns the mean slope of the samples around p.
+Vector2 read_slope(const HessianSamples& samples, const std::vector<int>& members, const Vector2& p, double radius) {
+  Vector2 sum = Vector2::Zero();
+  double weights = 0;
+  for (const int t : members) {
+    const Vector2 offset = (samples.center.row(t).transpose() - p) / radius;
+    const double weight = samples.area(t) * taper(offset.x(), offset.y());
+    sum += weight * samples.slope.row(t).transpose();
+    weights += weight;
+  }
+  return sum / std::max(weights, 1e-300);
+}
+
+// Reads the samples around the centre of a bump in its tangent plane.
+Disk read_disk(const HessianSamples& samples, const std::vector<int>& members, const Bump& bump) {
   Disk disk(static_cast<Eigen::Index>(members.size()));
+  const Eigen::Matrix3d to_tangent = substitute(bump.map.stretch.inverse());
   for (Eigen::Index k = 0; k < disk.x.size(); ++k) {
     const int t = members[k];
-    disk.x(k) = (samples.center(t, 0) - p.x()) / radius;
-    disk.y(k) = (samples.center(t, 1) - p.y()) / radius;
+    const Vector2 offset = bump.offset(samples.center.row(t)) / bump.radius;
+    disk.x(k) = offset.x();
+    disk.y(k) = offset.y();
     disk.area(k) = samples.area(t) * taper(disk.x(k), disk.y(k));
-    disk.surface.row(k) = samples.hessian.row(t);
+    disk.surface.row(k) = samples.hessian.row(t) * to_tangent;
   }
-  const Eigen::ArrayXd e = (-disk.x.square() - disk.y.square()).exp() / (radius * radius);
+  const Eigen::ArrayXd e = (-disk.x.square() - disk.y.square()).exp() / (bump.radius * bump.radius);
   disk.bump.col(0) = (4 * disk.x.square() - 2) * e;
   disk.bump.col(1) = (std::numbers::sqrt2 * 4) * disk.x * disk.y * e;
   disk.bump.col(2) = (4 * disk.y.square() - 2) * e;
@@ -176,7 +193,8 @@ Bump measure_at(const HessianSamples& samples, const DiskIndex& index, const Vec
   const std::vector<int> members = index.gather(p, kRules.bump.disk * radius);
   Bump result{p, radius, 0.0, 0.0, 0.0};
   if (static_cast<int>(members.size()) < kRules.bump.least_samples) return result;
-  const Disk disk = read_disk(samples, members, p, radius);
+  result.map = samples.plane.map_to_tangent(read_slope(samples, members, p, radius));
+  const Disk disk = read_disk(samples, members, result);
   if (!covers_all_directions(disk)) return result;
   const Fit found = measure_bump(disk);
   result.height = found.height;
@@ -223,8 +241,9 @@ Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSea
   std::vector<Bump> found(kProbes.size());
   for (double step = 0.3; step > 1e-3;) {
     const Bump middle = best;
+    const Eigen::Matrix2d from_tangent = middle.map.stretch.inverse();
     const auto measure = [&](const Vector3& steps) {
-      const Vector2 center = middle.center + step * middle.radius * steps.head<2>();
+      const Vector2 center = middle.center + step * middle.radius * (from_tangent * steps.head<2>());
       const double radius = std::clamp(middle.radius * std::pow(1.0 + step / 2, steps.z()), options.smallest_radius,
                                        options.largest_radius);
       return measure_at(samples, index, center, radius);
@@ -238,7 +257,7 @@ Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSea
       if (bump.explained > best.explained) best = bump;
     }
     found.pop_back();
-    const double moved = std::max((best.center - middle.center).cwiseAbs().maxCoeff() / middle.radius,
+    const double moved = std::max(middle.offset(best.center).cwiseAbs().maxCoeff() / middle.radius,
                                   2.0 * std::abs(std::log(best.radius / middle.radius)));
     step = std::clamp(2.0 * moved, step / 3.0, std::min(2.0 * step, 0.3));
   }
@@ -273,20 +292,20 @@ PlanePositions overlapping(const PlanePositions& places, double radius, const st
 }
 
 bool is_seen(const Bump& bump, const BumpSearchOptions& options) {
-  return std::abs(bump.height) >= options.least_height && bump.radius >= 0.999 * options.smallest_radius &&
+  return bump.depth() >= options.least_height && bump.radius >= 0.999 * options.smallest_radius &&
          bump.radius <= 1.001 * options.largest_radius;
 }
 
 // Returns how surely a bump is a flaw, 0 to 1.
 double weigh(const Bump& bump, const BumpSearchOptions& options) {
-  const double steepness = std::max(1.0, std::abs(bump.height) / (options.steepness * bump.radius));
+  const double steepness = std::max(1.0, bump.depth() / (options.steepness * bump.radius));
   return smoothstep(kRules.bump.unexplained * steepness, kRules.bump.explained * steepness, bump.explained) *
-         smoothstep(options.least_height, kRules.bump.whole_height * options.least_height, std::abs(bump.height));
+         smoothstep(options.least_height, kRules.bump.whole_height * options.least_height, bump.depth());
 }
 
 bool is_apart(const Bump& bump, const std::vector<Bump>& others) {
   return std::none_of(others.begin(), others.end(), [&](const Bump& other) {
-    return (bump.center - other.center).norm() < kRules.bump.overlap * std::max(bump.radius, other.radius);
+    return other.offset(bump.center).norm() < kRules.bump.overlap * std::max(bump.radius, other.radius);
   });
 }
 

@@ -2,33 +2,42 @@
 // and sizes (blob detection in scale space, Lindeberg 1998), with a robust local background (IRLS regression).
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "reflines/progress.h"
 #include "reflines/types.h"
+#include "restoration/mean_plane.h"
 #include "restoration/triangle_fields.h"
 
 namespace reflines {
 
-// height * exp(-|p - center|^2 / radius^2) over the image plane, in units of length.
+// height * exp(-|S (p - center)|^2 / radius^2) over a plane, which S maps to the surface's tangent plane at the centre:
+// a dent that is as wide in all directions of the surface.
 struct Bump {
   Vector2 center;
   double radius, height;
   double explained;  // share of the Hessian's variance around it that the bump explains, beyond a linear background
   double weight;     // 0 to 1: how surely it is a flaw
+  TangentMap map = {};
+
+  double depth() const { return map.lift * std::abs(height); }
+  Vector2 offset(const Vector2& place) const { return map.stretch * (place - center); }
 };
 
-// The Hessians of the heights, a row a triangle.
+// The Hessians of the heights over a plane, a row a triangle.
 struct HessianSamples {
   PlanePositions center;   // #T x 2
   Vector area;             // #T, > 0
   TriangleFields hessian;  // #T x 3: f_xx, sqrt(2) f_xy, f_yy
+  PlaneVectors slope;      // #T x 2
+  const MeanPlane& plane;
 };
 
 struct BumpSearchOptions {
   double smallest_radius = 0.0, largest_radius = 0.0;
   double least_height = 0.0;  // a flatter bump is not seen
-  double steepness = 0.0;     // height over radius, > 0: of steeper bumps more has to be explained
+  double steepness = 0.0;     // depth over radius, > 0: of steeper bumps more has to be explained
 };
 
 // Bumps around which the surface is good: within 2.5 radii a bump and a background that is linear in the Hessian

@@ -8,29 +8,10 @@
 #include "reflection/weighted_median.h"
 #include "restoration/disk_mean.h"
 #include "restoration/press_rules.h"
+#include "restoration/vertex_gradients.h"
 
 namespace reflines {
 namespace {
-
-// Returns the gradient at each vertex (#V x 2), the mean of its triangles' by area.
-PlanePositions vertex_gradients(const PlanePositions& xy, const Triangles& F, const Vector& z) {
-  PlanePositions result = PlanePositions::Zero(xy.rows(), 2);
-  Vector area = Vector::Zero(xy.rows());
-  for (Eigen::Index t = 0; t < F.rows(); ++t) {
-    const Vector2 b = xy.row(F(t, 1)) - xy.row(F(t, 0)), c = xy.row(F(t, 2)) - xy.row(F(t, 0));
-    const double doubled = b.x() * c.y() - b.y() * c.x();
-    const double up = z(F(t, 1)) - z(F(t, 0)), on = z(F(t, 2)) - z(F(t, 0));
-    const Vector2 gradient = Vector2(up * c.y() - on * b.y(), on * b.x() - up * c.x()) * (doubled < 0 ? -1.0 : 1.0);
-    for (int i = 0; i < 3; ++i) {
-      result.row(F(t, i)) += gradient;
-      area(F(t, i)) += std::abs(doubled);
-    }
-  }
-  for (Eigen::Index v = 0; v < area.size(); ++v) {
-    if (area(v) > 0) result.row(v) /= area(v);
-  }
-  return result;
-}
 
 // Marks the vertices that are connected to `seed` by heights of its sign above `level`.
 void grow(const Triangles& F, const Incidence& triangles, const Vector& height, int seed, double level, Mask& marked) {
@@ -56,7 +37,7 @@ Mask find_designed_differences(const PlanePositions& xy, const Triangles& F, con
                                const Vector& roughness, double deepest, double length) {
   const Vector one = Vector::Ones(difference.size());
   Eigen::MatrixXd columns(difference.size(), 3);
-  columns << difference, vertex_gradients(xy, F, difference);
+  columns << difference, find_vertex_gradients(xy, F, difference);
   columns = DiskMean(xy, one, kRules.symmetry.averaged * length).of_columns(columns);
   const Vector height = columns.col(0), size = height.cwiseAbs(), slope = columns.rightCols(2).rowwise().norm();
   const double steepest = std::max(kRules.symmetry.design_slope, kRules.symmetry.typical * weighted_median(slope, one));

@@ -11,14 +11,14 @@ namespace reflines {
 namespace {
 
 // Returns the same for each triangle (#F).
-Vector find_even_triangles(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after) {
+Vector find_even_triangles(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, double raised) {
   const double nothing = kRules.verdict.seen * kRules.verdict.seen;
   Vector result(before.rows());
   for (Eigen::Index t = 0; t < result.size(); ++t) {
     double rise = 0;
     for (Eigen::Index k = 0; k < before.cols(); ++k)
       rise = std::max(rise, (after(t, k) - before(t, k)) / (before(t, k) + nothing));
-    result(t) = 1.0 - smoothstep(0.0, kRules.verdict.raised, rise);
+    result(t) = 1.0 - smoothstep(0.0, raised, rise);
   }
   return result;
 }
@@ -39,12 +39,12 @@ Vector average_around(const ControlledSurface& surface, const Vector& values, co
 }  // namespace
 
 Vector find_even_places(ControlledSurface& surface, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
-                        double length, const IndexVector& partner) {
+                        double length, double raised, const IndexVector& partner) {
   const double radius = kRules.verdict.even_radius * length;
   const Vector area = surface.optimizer().area();
   const PlanePositions xy = surface.optimizer().xy();
   const DiskMean around(find_centroids(xy, surface.triangles()), area, radius);
-  const Vector even = find_even_triangles(around.of_columns(before), around.of_columns(after));
+  const Vector even = find_even_triangles(around.of_columns(before), around.of_columns(after), raised);
   const Vector own = average_around(surface, even, area, xy, radius);
   Vector result = own;
   for (Eigen::Index v = 0; v < partner.size(); ++v) {

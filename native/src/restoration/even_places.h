@@ -11,6 +11,6 @@ namespace reflines {
 // (#F x lights, degrees^2) are the squares; `length` is the size of flaws; `partner` (#V, or empty) tells mirror
 // images, which make the same fraction.
 Vector find_even_places(ControlledSurface& surface, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
-                        double length, const IndexVector& partner);
+                        double length, double raised, const IndexVector& partner);
 
 }  // namespace reflines

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -13,7 +14,9 @@
 #include "geometry/cage_symmetry.h"
 #include "restoration/designed_difference.h"
 #include "restoration/disk_mean.h"
+#include "restoration/grid_cell.h"
 #include "restoration/press_rules.h"
+#include "restoration/vertex_gradients.h"
 
 namespace reflines {
 namespace {
@@ -46,18 +49,28 @@ std::vector<Vector2> list_normals(const PlanePositions& xy, const PlanePositions
   return result;
 }
 
+// A line n . p = offset in the image plane.
+struct Line {
+  Vector2 normal;
+  double offset;
+
+  Vector2 mirror(const Vector2& p) const { return p - 2.0 * (normal.dot(p) - offset) * normal; }
+};
+
 // The vertices in each other's places across a plane.
 struct Images {
+  Line line;
   IndexVector partner;  // #V, itself where there is none
   double weight;        // 0 to 1: how surely the panel is symmetric
   double difference;    // of partners' heights, root mean square
 };
 
-// Finds the images across the line n . p = offset.
-Images pair_across(const PlanePositions& xy, const Vector& z, double diagonal, const Vector2& n, double offset) {
+// Finds the images across a line.
+Images pair_across(const PlanePositions& xy, const Vector& z, double diagonal, const Line& line) {
   Positions flat(xy.rows(), 3);
   flat << xy, Vector::Zero(xy.rows());
-  const MirrorPlane plane{Vector3(offset * n.x(), offset * n.y(), 0), Vector3(n.x(), n.y(), 0)};
+  const Vector2 point = line.offset * line.normal;
+  const MirrorPlane plane{Vector3(point.x(), point.y(), 0), Vector3(line.normal.x(), line.normal.y(), 0)};
   IndexVector partner = mirror_pairs(flat, plane, kRules.symmetry.pair_tolerance * diagonal);
   double found = 0, squared = 0;
   for (Eigen::Index v = 0; v < partner.size(); ++v) {
@@ -70,7 +83,7 @@ Images pair_across(const PlanePositions& xy, const Vector& z, double diagonal, c
     squared += difference * difference;
   }
   const double share = found / static_cast<double>(partner.size());
-  return {std::move(partner), smoothstep(kRules.symmetry.unpaired, kRules.symmetry.paired, share), squared};
+  return {line, std::move(partner), smoothstep(kRules.symmetry.unpaired, kRules.symmetry.paired, share), squared};
 }
 
 // The distance of each height from a quadratic least-squares fit of the vertices within two edges: an operator that
@@ -130,12 +143,6 @@ class Roughness {
   std::vector<std::vector<int>> neighbors_;
 };
 
-// A line n . p = offset in the image plane.
-struct Line {
-  Vector2 normal;
-  double offset;
-};
-
 // Lists the lines that may be of symmetry, each once: across a normal through the middle and through the mean.
 std::vector<Line> list_lines(const PlanePositions& xy, double diagonal, const PlanePositions& axes) {
   std::vector<Line> result;
@@ -159,7 +166,7 @@ std::vector<Images> find_images(const PlanePositions& xy, const Vector& z, doubl
                                 const PlanePositions& axes) {
   std::vector<Images> result;
   for (const Line& line : list_lines(xy, diagonal, axes)) {
-    Images images = pair_across(xy, z, diagonal, line.normal, line.offset);
+    Images images = pair_across(xy, z, diagonal, line);
     const auto is_same = [&](const Images& other) { return other.partner == images.partner; };
     if (images.weight > 0 && std::none_of(result.begin(), result.end(), is_same)) result.push_back(std::move(images));
   }
@@ -168,11 +175,70 @@ std::vector<Images> find_images(const PlanePositions& xy, const Vector& z, doubl
   return result;
 }
 
+// The heights of the mirrored surface at the vertices.
+struct MirroredHeights {
+  IndexVector image;  // #V: the vertex that is nearest to the mirrored place of each, itself where none is near
+  Vector z;           // #V
+};
+
+// Vertices in square cells.
+class VertexGrid {
+ public:
+  VertexGrid(const PlanePositions& xy, double cell) : xy_(xy), cell_(cell) {
+    for (int v = 0; v < xy.rows(); ++v) cells_[find_grid_cell(xy.row(v), cell)].push_back(v);
+  }
+
+  // Returns the vertex nearest to a place, -1 where there is none within a cell's size.
+  int find_nearest(const Vector2& place) const {
+    const auto [i, j] = find_grid_cell(place, cell_);
+    int best = -1;
+    double least = cell_ * cell_;
+    for (int k = 0; k < 9; ++k) {
+      const auto cell = cells_.find({i + k % 3 - 1, j + k / 3 - 1});
+      if (cell == cells_.end()) continue;
+      for (const int v : cell->second) {
+        const double squared = (xy_.row(v).transpose() - place).squaredNorm();
+        if (squared >= least) continue;
+        best = v;
+        least = squared;
+      }
+    }
+    return best;
+  }
+
+ private:
+  const PlanePositions& xy_;
+  double cell_;
+  std::map<std::pair<int, int>, std::vector<int>> cells_;
+};
+
+// Mirrors heights z (#V). A dent along the normal has moved its vertices aside, off the places of their partners: there
+// the mirrored surface is its nearest vertex's tangent plane. Without it the skirt of a dent was taken out, where the
+// partners were near enough, and the edge left around its core was kept as design: of dents in a cylinder that slopes
+// by 11 and 17 degrees there 0.99 and 0.51 stayed.
+MirroredHeights mirror_heights(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal,
+                               const Images& images) {
+  MirroredHeights result{images.partner, z(images.partner)};
+  const VertexGrid grid(xy, kRules.symmetry.deepest * diagonal);
+  const PlanePositions gradient = find_vertex_gradients(xy, F, z);
+  for (int v = 0; v < z.size(); ++v) {
+    const Vector2 place = images.line.mirror(xy.row(v));
+    const double across = (place - xy.row(v).transpose()).norm();
+    if (images.partner(v) != v || across <= kRules.symmetry.pair_tolerance * diagonal) continue;
+    const int near = grid.find_nearest(place);
+    if (near < 0) continue;
+    result.image(v) = near;
+    result.z(v) = z(near) + gradient.row(near).dot(place - xy.row(near).transpose());
+  }
+  return result;
+}
+
 // Returns the heights (#V) to add so that images are equally high, each the more the rougher it is for the difference;
 // marks in `design` (#V) where they differ by design.
 Vector correct_halves(const PlanePositions& xy, const Vector& z, const Triangles& F, const Roughness& roughness,
                       double diagonal, double length, const Images& images, Mask& design) {
-  const Vector difference = z - z(images.partner);
+  const MirroredHeights mirrored = mirror_heights(xy, z, F, diagonal, images);
+  const Vector difference = z - mirrored.z;
   if ((difference.array() == 0).all()) return Vector::Zero(z.size());
   const DiskMean mean(xy, Vector::Ones(z.size()), kRules.symmetry.roughness_radius * length);
   const Vector unbounded = roughness.of(difference).cwiseAbs();
@@ -188,7 +254,7 @@ Vector correct_halves(const PlanePositions& xy, const Vector& z, const Triangles
   // With z = s + a here and s + b there, a - b the difference: E(|rough(z)|^2 - |rough(z')|^2) = |rough(a)|^2 -
   // |rough(b)|^2, so that the share is 1 where only this side has a flaw, 0 where only the other has, half where both
   // do.
-  const Vector excess = mean.of(rough - rough(images.partner).eval());
+  const Vector excess = mean.of(rough - rough(mirrored.image).eval());
   Vector result = Vector::Zero(z.size());
   for (Eigen::Index v = 0; v < z.size(); ++v) {
     const double share = own(v) > 0 ? std::clamp(0.5 + 0.5 * excess(v) / own(v), 0.0, 1.0) : 0.5;

@@ -1,6 +1,7 @@
 #include "restoration/restoration.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/smoothstep.h"
@@ -66,11 +67,14 @@ void Restoration::choose(const PressAmount& amount) {
   range_ = ControlRange(report_.limit, amount.limit_share, surface_.control_positions().rows());
 }
 
+void Restoration::forget_shape() {
+  if (smoother_) work_ += smoother_->take_work();
+  smoother_.reset();
+}
+
 // Finds the heights without flaws: without differences of a symmetric panel's halves, and then smoothed by place.
 void Restoration::find_shape() {
-  if (smoother_) work_ += smoother_->take_work();
-  smoother_.reset();  // it refers to the field
-  field_.reset();     // until all is found: a cancelled search is no shape
+  forget_shape();  // until all is found: a cancelled search is no shape
   unlimited_.resize(0);
   uneven_.reset();
   course_.reset();
@@ -78,11 +82,10 @@ void Restoration::find_shape() {
   longer_waves_.reset();
   flawless_ = {.heights = start_};
   if (options_.symmetric) flawless_ = even_halves(surface_, start_, report_.length, options_.partner.size() > 0);
-  auto field = std::make_unique<HeightField>(make_field(surface_));
-  smoother_ = std::make_unique<AdaptiveSmoother>(*field, report_.length);
-  const Vector relative = field->z + (flawless_.heights - start_);
-  shape_ = start_ + (smoother_->adapt(relative, progress()) - field->z);
-  field_ = std::move(field);
+  auto smoother = std::make_unique<AdaptiveSmoother>(make_field(surface_), report_.length);
+  const Vector& heights = smoother->heights();
+  shape_ = start_ + (smoother->adapt(heights + (flawless_.heights - start_), progress()) - heights);
+  smoother_ = std::move(smoother);
 }
 
 Vector Restoration::find_move(const PressAmount& amount) {
@@ -90,7 +93,7 @@ Vector Restoration::find_move(const PressAmount& amount) {
   if (held_triangles_.any()) {  // what turned by another amount need not turn by this one
     held_triangles_.setConstant(false);
     surface_.rebuild();
-    field_.reset();
+    forget_shape();
   }
   Vector move = make_move();
   for (int retry = 0; retry < kRules.verdict.retries; ++retry) {
@@ -98,7 +101,7 @@ Vector Restoration::find_move(const PressAmount& amount) {
     if (!turned.any()) break;
     held_triangles_ = held_triangles_ || turned;
     surface_.hold(find_corners(surface_.triangles(), turned, start_.size()));
-    field_.reset();
+    forget_shape();
     move = make_move();
   }
   report_.held_faces = surface_.optimizer().count_faces(held_triangles_);
@@ -122,7 +125,7 @@ bool Restoration::turns_faces(const Vector& move) const { return find_turned_by(
 
 SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelReport& found, const Mask& limited,
                                           const Mask& held) {
-  if (!field_) find_shape();
+  if (!smoother_) find_shape();
   report_.solve = found.solve;
   report_.bumps = found.bumps;
   report_.mirrored = found.mirrored;
@@ -133,7 +136,7 @@ SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelR
 
 // Returns the moves of the control vertices (#C) towards the shape without flaws, within the limit.
 Vector Restoration::make_move() {
-  if (!field_) find_shape();
+  if (!smoother_) find_shape();
   if (unlimited_.size() == 0) find_unlimited();
   report_.mirrored = flawless_.mirrored;
   report_.bumps = smoother_->bumps();
@@ -190,7 +193,7 @@ Mask Restoration::find_turned_by(const Vector& move) const {
 
 // Smooths heights of the surface (#V) up to the lengths found for the start.
 Vector Restoration::smooth(const Vector& z) const {
-  const Vector relative = field_->z + (z - start_);
+  const Vector relative = smoother_->heights() + (z - start_);
   return z + (smoother_->smooth(relative) - relative);
 }
 
@@ -209,7 +212,7 @@ const Unevenness& Restoration::measure_start() {
 // Returns whether the shape without flaws has waves longer than these that can be seen.
 bool Restoration::has_longer_waves() {
   if (longer_waves_) return *longer_waves_;
-  const Vector relative = field_->z + (shape_ - start_);
+  const Vector relative = smoother_->heights() + (shape_ - start_);
   const Vector further = shape_ + (smoother_->smooth_further(relative, progress()) - relative);
   const Unevenness waves = measure_unevenness(surface_, shape_, further, report_.length);
   longer_waves_ = *std::max_element(waves.degrees.begin(), waves.degrees.end()) > kRules.verdict.longer_waves;
@@ -239,16 +242,17 @@ Vector Restoration::tell_places(const Vector& healed) const {
   return gone.array() - (1.0 - gone.array()) * kept.array();
 }
 
-// Returns a move (#C) that leaves the places as they are where lines would become less even, the more the less even a
-// light becomes in all. A cage has its gain instead, see weigh_gain.
-Vector Restoration::leave_uneven_places(const Vector& move, const Unevenness& after) {
+// Returns a move (#C) that leaves the places as they are where the mean square of what lines deviate rises by `raised`
+// of it and more, the more the less even a light becomes in all. A cage has its gain instead, see weigh_gain.
+Vector Restoration::leave_uneven_places(const Vector& move, const Unevenness& after, double raised) {
   const Unevenness& before = measure_start();
   double worst = 0;
   for (size_t k = 0; k < before.degrees.size(); ++k)
     worst = std::max(worst, after.degrees[k] / std::max(before.degrees[k], 1e-300));
   const double left = smoothstep(kRules.verdict.even, kRules.verdict.worse, worst);
   if (left == 0 || !surface_.controls_every_vertex()) return move;
-  const Vector even = find_even_places(surface_, before.squares, after.squares, report_.length, options_.partner);
+  const Vector even =
+      find_even_places(surface_, before.squares, after.squares, report_.length, raised, options_.partner);
   return move.array() * (1.0 - left * (1.0 - even.array()));
 }
 
@@ -256,8 +260,12 @@ SmoothPanelResult Restoration::judge(const Vector& wanted, bool whole) {
   Vector move = wanted;
   if (amount_.judged) {
     Unevenness after = measure_move(move);
-    if (!whole) move = leave_uneven_places(wanted, after);
-    if (move != wanted) after = measure_move(move);
+    for (int round = 0; !whole && round < kRules.verdict.rounds; ++round) {
+      Vector left = leave_uneven_places(move, after, kRules.verdict.raised * std::pow(kRules.verdict.sooner, round));
+      if (left == move) break;
+      move = std::move(left);
+      after = measure_move(move);
+    }
     compare_with_start(start_ + surface_.surface_move(move), std::move(after));
   }
   if (turns_faces(move)) return refuse({NoteKind::kFacesWouldTurn});

@@ -56,6 +56,7 @@ class Restoration {
 
  private:
   Progress* progress() const { return amount_.progress.get(); }
+  void forget_shape();
   void find_shape();
   void find_unlimited();
   void solve(const MoveLimit& limit);
@@ -68,7 +69,7 @@ class Restoration {
   Unevenness measure_move(const Vector& move) const;  // of the control vertices (#C)
   const Unevenness& measure_start();
   bool has_longer_waves();
-  Vector leave_uneven_places(const Vector& move, const Unevenness& after);
+  Vector leave_uneven_places(const Vector& move, const Unevenness& after, double raised);
   void compare_with_start(const Vector& end, Unevenness after);
   Vector tell_places(const Vector& healed) const;
   SmoothPanelResult apply(const Vector& move);
@@ -86,10 +87,9 @@ class Restoration {
   Mask held_triangles_;  // #F, see held_triangles()
 
   // These are of the shape without flaws, while the same triangles are held.
-  std::unique_ptr<HeightField> field_;  // null: not found yet
   FlawlessShape flawless_;
   Vector shape_;                                // #V: the heights without flaws
-  std::unique_ptr<AdaptiveSmoother> smoother_;  // refers to field_
+  std::unique_ptr<AdaptiveSmoother> smoother_;  // null: not found yet
   std::vector<Target> targets_;
   Vector unlimited_;                  // #C, the move of the solve without a limit; empty: not solved yet
   Report unlimited_solve_;            // its report

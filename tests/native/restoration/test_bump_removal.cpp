@@ -41,7 +41,7 @@ Found remove_from(const std::vector<Dent>& dents) {
   const HeightField field = samples::height_field(panel, Border::kFree);
   const CurvatureVariation variation(field);
   const BumpRemoval removal = remove_bumps(
-      variation, field.z, kLength, [](const Vector& z) { return z; }, nullptr);
+      variation, MeanPlane(field), field.z, kLength, [](const Vector& z) { return z; }, nullptr);
   const Vector planted = panel.V.col(2) - clean.V.col(2);
   return {removal.count, (planted + removal.heights - field.z).norm(), planted.norm()};
 }

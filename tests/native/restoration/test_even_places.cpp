@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "restoration/even_places.h"
+#include "restoration/press_rules.h"
 #include "tests/native/sample_meshes.h"
 
 namespace reflines {
@@ -26,7 +27,7 @@ struct Panel {
 TEST(EvenPlaces, StayWhereALightBecomesLessEvenAndAreHealedElsewhere) {
   Panel panel;
   constexpr double kLength = 0.1;
-  const Vector share = find_even_places(panel.surface, panel.before, panel.after, kLength, {});
+  const Vector share = find_even_places(panel.surface, panel.before, panel.after, kLength, kRules.verdict.raised, {});
   ASSERT_EQ(share.size(), panel.mesh.V.rows());
   for (int v = 0; v < share.size(); ++v) {
     const double x = panel.mesh.V(v, 0);
@@ -40,7 +41,7 @@ TEST(EvenPlaces, StayWhereALightBecomesLessEvenAndAreHealedElsewhere) {
 // A share falls from 1 to 0 over several triangles: no edge is made.
 TEST(EvenPlaces, HaveSmoothBorders) {
   Panel panel;
-  const Vector share = find_even_places(panel.surface, panel.before, panel.after, 0.2, {});
+  const Vector share = find_even_places(panel.surface, panel.before, panel.after, 0.2, kRules.verdict.raised, {});
   for (int t = 0; t < panel.mesh.F.rows(); ++t) {
     for (int i = 0; i < 3; ++i)
       EXPECT_LT(std::abs(share(panel.mesh.F(t, i)) - share(panel.mesh.F(t, (i + 1) % 3))), 0.4);
@@ -52,7 +53,7 @@ TEST(EvenPlaces, AreTheSameOfMirrorImages) {
   IndexVector partner = IndexVector::Constant(panel.mesh.V.rows(), -1);
   partner(0) = static_cast<int>(partner.size()) - 1;
   partner(partner.size() - 1) = 0;
-  const Vector share = find_even_places(panel.surface, panel.before, panel.after, 0.1, partner);
+  const Vector share = find_even_places(panel.surface, panel.before, panel.after, 0.1, kRules.verdict.raised, partner);
   EXPECT_EQ(share(0), share(share.size() - 1));
   EXPECT_NEAR(share(0), 0.0, 1e-12);
 }
