@@ -93,12 +93,10 @@ def test_the_curvature_across_a_clamped_border_stays_where_the_surface_goes_on()
     assert 10 * abs(bends[-1][-1]) < np.abs(bends[-1]).max()
 
 
-def measure_jump_of_rate(solver: reflines.CageOptimizer, clean: tuple, edge: float) -> float:
+def measure_jump_of_rate(surface: reflines.Subdivision, moved: np.ndarray, V: np.ndarray, edge: float) -> float:
     """The mean jump of the third derivative across the border x = `edge` of the surface, by third differences of the
     limit surface of the moved cage, along the rows of the cage's vertices in its middle."""
-    V, offsets, corners = clean
-    surface = reflines.Subdivision(offsets, corners, vertices=len(V), level=5)
-    place, heights = surface.positions(V * [1, 1, 0]), surface.positions(solver.cage_positions) @ VIEW
+    place, heights = surface.positions(V * [1, 1, 0]), surface.positions(moved) @ VIEW
     jumps = []
     for y in np.unique(V[np.abs(V[:, 1]) < 0.25, 1].round(6)):
         row = np.flatnonzero(np.abs(place[:, 1] - y) < 1e-6)
@@ -109,23 +107,24 @@ def measure_jump_of_rate(solver: reflines.CageOptimizer, clean: tuple, edge: flo
     return float(np.mean(jumps))
 
 
-@pytest.mark.parametrize("level", [2, 3])
-def test_a_flowing_border_keeps_the_rate_of_the_curvature_too(level: int) -> None:
+def test_a_flowing_border_keeps_the_rate_of_the_curvature_too() -> None:
     """A dent lies across the border. With Curvature, which is Tangent to the last bit, the rates inside and outside
     differ by 4.4 per square metre, with Flow by 2.1 and 1.5."""
-    clean = V, offsets, corners = hood(24, 22)
+    V, offsets, corners = hood(24, 22)
     cage = V - 0.004 * np.exp(-((V[:, 0] - 0.32) ** 2 + V[:, 1] ** 2) / 0.12**2)[:, None] * [0, 0, 1]
     inner = (np.abs(V[corners.reshape(-1, 4)][:, :, :2]) < 0.36).all(axis=(1, 2))
-    solvers = {}
-    for border in ("clamped", "curvature", "flow"):
-        solver = solvers[border] = optimizer((cage, offsets, corners), region=inner, border=border, level=level)
-        assert solver.solve(reflines.smooth(solver, length=0.5)).converged
-        assert np.array_equal(solver.cage_free, solvers["clamped"].cage_free)
-    assert np.array_equal(solvers["curvature"].cage_positions, solvers["clamped"].cage_positions)
-    jumps = {border: measure_jump_of_rate(solver, clean, V[V[:, 0] < 0.36, 0].max())
-             for border, solver in solvers.items()}
-    print(jumps)
-    assert jumps["flow"] < 0.6 * jumps["clamped"]
+    surface = reflines.Subdivision(offsets, corners, vertices=len(V), level=5)
+    for level in (2, 3):
+        solvers = {border: optimizer((cage, offsets, corners), region=inner, border=border, level=level)
+                   for border in ("clamped", "curvature", "flow")}
+        for solver in solvers.values():
+            assert solver.solve(reflines.smooth(solver, length=0.5)).converged
+            assert np.array_equal(solver.cage_free, solvers["clamped"].cage_free)
+        assert np.array_equal(solvers["curvature"].cage_positions, solvers["clamped"].cage_positions)
+        jumps = {border: measure_jump_of_rate(surface, solvers[border].cage_positions, V, V[V[:, 0] < 0.36, 0].max())
+                 for border in ("clamped", "flow")}
+        print(level, jumps)
+        assert jumps["flow"] < 0.6 * jumps["clamped"]
 
 
 def test_a_flowing_border_of_the_whole_cage_has_nothing_to_flow_from() -> None:

@@ -121,19 +121,6 @@ TEST(ActiveBoundsTest, ABeamOverAnObstacleIsACubic) {
   }
 }
 
-TEST(ActiveBoundsTest, AFreeMinimumWithinTheBoundsIsFoundToTheBit) {
-  Vector free, bounded;
-  for (Vector* x : {&free, &bounded}) {
-    Rosenbrock problem(20);
-    *x = problem.start();
-    Minimizer minimizer;
-    const Bounds bounds = around(problem.start(), 5.0);
-    const Report report = x == &free ? minimizer.minimize(problem, *x) : minimizer.minimize(problem, bounds, *x);
-    EXPECT_TRUE(report.converged()) << report.message;
-  }
-  EXPECT_TRUE(free == bounded);
-}
-
 TEST(ActiveBoundsTest, UnboundedSolvesAfterwardsAreNotMisled) {
   Chain chain(60, 0.05);
   const Vector minimum = chain.wave(1.0);
@@ -143,17 +130,6 @@ TEST(ActiveBoundsTest, UnboundedSolvesAfterwardsAreNotMisled) {
   ASSERT_TRUE(minimizer.minimize(chain, around(x, 0.1), x).converged());
   ASSERT_TRUE(minimizer.minimize(chain, x, with(Strategy::kAdaptive)).converged());
   EXPECT_LT((x - minimum).norm(), 1e-6);
-}
-
-TEST(ActiveBoundsTest, WhereNothingMayMoveNothingDoes) {
-  Chain chain(20, 0.0);
-  chain.set_minimum(chain.wave(1.0));
-  const Vector start = Vector::Zero(20);
-  Vector x = start;
-  Minimizer minimizer;
-  const Report report = minimizer.minimize(chain, around(start, 0.0), x);
-  EXPECT_EQ(report.termination, Termination::kAlreadyOptimal);
-  EXPECT_TRUE(x == start);
 }
 
 // Of a wave only the highest places touch: the free factor serves for all of them. With the primal-dual active set
@@ -191,19 +167,6 @@ TEST(ActiveBoundsTest, TheSetSettlesInFewFactorizationsWhateverTheNumberOfUnknow
     factorizations[k] = report.factorizations;
   }
   EXPECT_LT(factorizations[1], 2 * factorizations[0] + 10);
-}
-
-TEST(ActiveBoundsTest, CancellingLeavesTheUnknownsAlone) {
-  Chain chain(60, 0.05);
-  chain.set_minimum(chain.wave(1.0));
-  const Vector start = chain.wave(0.3);
-  Vector x = start;
-  Progress progress;
-  progress.cancel();
-  Minimizer minimizer;
-  const Report report = minimizer.minimize(chain, around(start, 0.1), x, {}, &progress);
-  EXPECT_EQ(report.termination, Termination::kCancelled);
-  EXPECT_TRUE(x == start);
 }
 
 }  // namespace
