@@ -30,10 +30,6 @@ int few_contacts(const Sides& all) { return std::min<int>(1000, static_cast<int>
 constexpr double kLeastViolation = 0.05;
 constexpr int kManyPeaks = 16;
 
-// The cost of the interior point method in rounds of the active set method: it takes 13 to 15 factorizations and five
-// solves with each.
-constexpr double kRoundsOfInteriorPoint = 20.0;
-
 // The sweeps of relaxation before the first factorization, from the free minimum, most of which may be beyond its
 // bounds; and after each round whose set changes by more than this share. They save up to nine tenths of the
 // factorizations.
@@ -42,17 +38,6 @@ constexpr double kManyChanges = 0.2;
 
 // The part of the projected gradient that the unknowns between their bounds may keep.
 constexpr double kLostDigits = 0.1;
-
-// Returns whether the rounds that are left cost more factorizations than the interior point method, if the number of
-// changes goes on falling at its present rate: one each as long as there are many, then parts of one.
-bool settles_slowly(int changes_before, int changes) {
-  if (changes <= 1) return false;
-  const double rate = static_cast<double>(changes) / changes_before;
-  if (rate >= 1.0) return true;
-  const double many = static_cast<double>(changes) / HeldFactor::kMostNewColumns;
-  const double rounds_of_many = std::max(0.0, std::log(many) / -std::log(rate));
-  return rounds_of_many + std::min(1.0, many) / (1.0 - rate) > kRoundsOfInteriorPoint;
-}
 
 // Finds that active sets follow each other in a ring, by Brent's method (BIT 20, 1980): each is compared with that of
 // the last round whose number is a power of two. There are no rings for an M-matrix, which that of a bent surface is
@@ -182,22 +167,19 @@ std::optional<Sides> BoundedQuadratic::search_contacts(Sides held) {
 
 Sides BoundedQuadratic::settle(ProjectedRelaxation& relaxation, Sides held) {
   Ring ring;
-  int changes = 0, slow_rounds = 0;
   bool estimated = false;
   for (int round = 0; round < kMaxRounds; ++round) {
     throw_if_cancelled(progress_);
     const Trial trial = minimize_held(held);
     if (best_norm_ <= wanted_) break;
     Sides next = next_held(bounds_, held, trial.d, trial.gradient);
-    // Few contacts are not estimated from inside: 330 of 100,000 took more than 40 steps, and 28 rounds without.
     const bool few = is_few(next);
     if (few) next = keep_peaks(model_.H, bounds_, held, next, trial.d);
-    const int changes_before = std::exchange(changes, count_changes(held, next));
+    const int changes = count_changes(held, next);
     if (changes == 0 && factor_.leaves_out(held)) break;
     if (changes == 0) factorize(held);  // which has the digits that the Schur complement lost
     const bool in_ring = changes > 0 && ring.is_closed_by(next);
-    slow_rounds = round > 0 && !few && settles_slowly(changes_before, changes) ? slow_rounds + 1 : 0;
-    if ((slow_rounds >= 2 || in_ring) && !estimated) {
+    if (in_ring && !estimated) {
       estimated = true;
       next = estimate_from_inside(std::sqrt(trial.d.squaredNorm() / static_cast<double>(trial.d.size())));
     } else if (!few && changes > std::max<double>(HeldFactor::kMostNewColumns, kManyChanges * count_held(next))) {

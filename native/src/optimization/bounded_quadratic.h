@@ -23,7 +23,7 @@ class ProjectedRelaxation;
 // Others are found by the primal-dual active set method, a semismooth Newton method (Hintermueller, Ito and Kunisch,
 // SIAM J. Optim. 13, 2003): solve with the held unknowns at their bounds, hold those that violate a bound, release
 // those with a multiplier of the wrong sign. ProjectedRelaxation makes the large first changes of the set, a bordered
-// factor the small last ones, and InteriorPoint estimates it anew where it changes slowly.
+// factor the small last ones, and InteriorPoint estimates it anew where sets follow each other in a ring.
 class BoundedQuadratic {
  public:
   // Takes the model, its bounds and the projected gradient that is wanted; `counts` collects factorizations and solves.
