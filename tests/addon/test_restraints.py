@@ -72,13 +72,6 @@ def test_a_limit_holds_for_the_surface_of_a_cage() -> None:
     assert moves[1] == pytest.approx(report.cage_move, rel=1e-3) and 0.01 < moves[1] < 0.5 * moves[0]
 
 
-def test_a_limit_that_nothing_reaches_changes_no_bit() -> None:
-    _, _, free = press("direction", density=1.1)
-    _, before, limited = press("direction", density=1.1, limit=1.0)
-    assert largest_move(before, limited) > 0.0
-    assert np.array_equal(free, limited)
-
-
 def test_the_crossed_light_counts_unless_it_is_left_out() -> None:
     changes = {}
     for lights in ('SINGLE', 'CROSSED'):

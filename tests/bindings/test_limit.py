@@ -67,16 +67,6 @@ def test_a_limit_that_nothing_touches_changes_no_bit():
     assert same.limited == 0 and not limited.at_limit.any()
 
 
-def test_it_beats_the_free_result_scaled_down_to_the_limit():
-    free, positions, target, report = solved(None)
-    limited, _, _, bounded = solved(0.3 * report.largest_move)
-    scaled = made(positions, ripples()[1])
-    heights = scaled.heights + 0.3 * (free.heights - scaled.heights)
-    lines = made(positions + np.outer(heights - scaled.heights, VIEW), ripples()[1]).energy(target)
-    assert limited.energy(target) == pytest.approx(bounded.energy_after)
-    assert bounded.energy_after < 0.9 * lines < 0.9 * scaled.energy(target)
-
-
 def energy_of(solver, positions, triangles, target):
     """The energy as a function of the moves of the free vertices."""
     free = solver.free
@@ -95,9 +85,9 @@ def test_the_projected_gradient_is_that_of_a_minimum():
     x = moves(solver, positions)[solver.free]
     held = solver.at_limit[solver.free]
     energy, step = energy_of(solver, positions, ripples(10)[1], target), 1e-7
-    start = energy_of(solver, positions, ripples(10)[1], target)
+    assert energy(x) == pytest.approx(report.energy_after)
     slopes = np.array([(energy(x + step * e) - energy(x - step * e)) / (2 * step) for e in np.eye(len(x))])
-    first = np.array([(start(step * e) - start(-step * e)) / (2 * step) for e in np.eye(len(x))])
+    first = np.array([(energy(step * e) - energy(-step * e)) / (2 * step) for e in np.eye(len(x))])
     small = 1e-5 * np.linalg.norm(first)  # differences of energies have seven digits
     assert np.abs(slopes[held == 0]).max() < small
     assert (slopes[held > 0] < small).all() and (slopes[held < 0] > -small).all()
