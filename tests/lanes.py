@@ -181,7 +181,8 @@ def window_counts(index: int, files: Sequence[Path]) -> Counts:
     names = [str(path.relative_to(ROOT)) for path in files]
     script = script_options(names[0]) if len(names) == 1 else [*script_options("tests/ui/several.py"), *names]
     mark = files[0].stem if len(files) == 1 else f"{files[0].stem} and {len(files) - 1} more"
-    return run_reporting([*window_command(800, 600, 100 + 20 * index), *script],
+    size = (1280, 900) if files[0].stem == "test_first_screen" else (800, 600)
+    return run_reporting([*window_command(*size, 100 + 20 * index), *script],
                          blender_environment(f"blender_user_{files[0].stem}"), 300 * (len(files) + 1), f"{mark}: ")
 
 
