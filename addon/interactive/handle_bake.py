@@ -79,7 +79,7 @@ class HandleBake:
         try:
             handles = ob.reflection_lines.handles.read(ob.data)
             purpose = Purpose.WRITE_SHARED if self.mode == 'EDIT' else Purpose.WRITE
-            patch = gather.gather_patch(ob, run.solve_for, run.result, self.start, purpose=purpose)
+            patch = gather.gather_patch(ob, run.result, self.start, purpose=purpose)
             build, seen = self.lines.build(scene, ob, patch, handles), facing.read_patch_view(scene, patch)
         except Refusal as refusal:
             raise Refusal(f"Frame {self.frame:g}: {refusal}") from refusal

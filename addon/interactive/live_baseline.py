@@ -92,7 +92,7 @@ def read_signs(scene: bpy.types.Scene, ob: bpy.types.Object, center: np.ndarray)
 def read_baseline(scene: bpy.types.Scene, ob: bpy.types.Object) -> Baseline:
     """Reads the baseline: the patch at the start of the live warp, with view and border."""
     settings = scene.reflection_lines
-    patch = gather.gather_patch(ob, settings.live.solve_for, settings.live.result, live_warp_start.read_whole_start(ob))
+    patch = gather.gather_patch(ob, settings.live.result, live_warp_start.read_whole_start(ob))
     now = read_signs(scene, ob, patch.center)
     return Baseline(patch, facing.read_patch_view(scene, patch), settings.border, now)
 
@@ -121,4 +121,4 @@ def read_operator_settings(scene: bpy.types.Scene) -> dict[str, str | float]:
     settings, own = scene.reflection_lines, scene.reflection_lines.warp
     return {"amount": own.amount, "fit": own.fit, "border": settings.border,
             "lights": settings.lights, "limit": settings.limit,
-            "solve_for": settings.live.solve_for, "result": settings.live.result}
+            "result": settings.live.result}

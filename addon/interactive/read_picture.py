@@ -17,7 +17,7 @@ def read_picture(context: bpy.types.Context, ob: bpy.types.Object) -> Steps[tupl
     """
     context.view_layer.update()
     settings = context.scene.reflection_lines
-    patch = gather.gather_patch(ob, settings.solve_for, 'MESH', or_all=True, purpose=Purpose.READ)
+    patch = gather.gather_patch(ob, or_all=True, purpose=Purpose.READ)
     with live_optimizer.convert_native_errors(patch):
         surface = read_checked.read_checked_surface(ob, patch, patch.V)
     seen = facing.read_patch_view(context.scene, patch)

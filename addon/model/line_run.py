@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from .refusal import Refusal
 
 CHOICES = {"border": ("clamped", "curvature", "flow", "fixed", "free", "follow"),
-           "lights": ("CROSSED", "SINGLE", "SET"),
-           "solve_for": ("CAGE", "MESH"), "result": ("MESH", "SHAPE_KEY")}  # the defaults first
+           "lights": ("CROSSED", "SINGLE", "SET"), "result": ("MESH", "SHAPE_KEY")}  # the defaults first
 
 
 @dataclass(frozen=True)
@@ -15,7 +14,6 @@ class LineRun:
     """The settings of a solve for handles, by the names of the operator's properties."""
     border: str
     lights: str
-    solve_for: str
     result: str
     limit: float  # world units; 0 is automatic
 

@@ -33,7 +33,7 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
         context.view_layer.update()
         settings = context.scene.reflection_lines
         ob = scene_objects.find_subjects(context)[0]
-        patch = gather.gather_patch(ob)
+        patch = gather.gather_patch(ob, as_mesh=True)
         seen = facing.read_patch_view(context.scene, patch)
         frame = live_optimizer.compute_image_frame(patch, seen)
         region_faces.keep_region(ob, patch)

@@ -82,7 +82,7 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
             report = ob.reflection_lines.report
             return patch, positions, check_table.describe_solve(report.lines_off(), growth * report.largest_move,
                                                                 growth * report.automatic_limit or None)
-        patch = gather.gather_patch(ob, or_all=True, purpose=Purpose.READ)
+        patch = gather.gather_patch(ob, as_mesh=True, or_all=True, purpose=Purpose.READ)
         return patch, patch.V, []
 
 

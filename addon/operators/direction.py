@@ -26,12 +26,11 @@ direction, or lie closer together"""
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.direction
 
-    def has_use(self, context: bpy.types.Context, name: str) -> bool:
-        """Returns whether a setting acts beside the others as they are."""
+    def has_use(self, name: str) -> bool:
         unused = {"angle": self.direction not in {'PRESENT', 'ANGLE'}, "density_end": self.axis == 'NONE',
                   "strength": self.direction == 'PRESENT', "radius": self.centre == 'EVERYWHERE',
                   "shape": self.centre == 'EVERYWHERE'}
-        return super().has_use(context, name) and not unused.get(name, False)
+        return not unused.get(name, False)
 
     def build_handles(self) -> tuple[Handle, ...]:
         angle = Handle("angle", "Angle", per_pixel=radians(0.25), low=-2.0 * pi, high=2.0 * pi, unit='ANGLE')

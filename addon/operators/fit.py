@@ -30,7 +30,6 @@ has its lines. Select that mesh, then the cage"""
     def copy_settings(self, scene: bpy.types.Scene) -> None:
         """Copies the settings; the border is free where none was given, so that it comes to lie on the other mesh too.
         """
-        self.solve_for = 'CAGE'
         if not self.properties.is_property_set("border"):
             self.border = 'free'
         if not self.properties.is_property_set("result"):
@@ -41,7 +40,7 @@ has its lines. Select that mesh, then the cage"""
         return [scene_objects.find_active_object(context)]
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
-        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), or_all=True,
+        return gather.gather_patch(ob, self.result, self.begin_run(ob), or_all=True,
                                    purpose=self.choose_purpose())
 
     def solve(self, context: bpy.types.Context, ob: bpy.types.Object) -> Solution:

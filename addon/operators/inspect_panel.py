@@ -47,7 +47,7 @@ of the set. Nothing is changed; Esc cancels"""
         """Reads the region, all around it, and the view; refuses what cannot be inspected."""
         context.view_layer.update()
         settings = context.scene.reflection_lines
-        patch = gather.gather_patch(ob, settings.solve_for, 'MESH', or_all=True, purpose=Purpose.READ)
+        patch = gather.gather_patch(ob, or_all=True, purpose=Purpose.READ)
         with live_optimizer.convert_native_errors(patch):
             surface = read_checked.read_checked_surface(ob, patch, patch.V)
         up = view_and_light.read_camera_axes(settings.camera)[1]

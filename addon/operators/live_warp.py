@@ -45,7 +45,7 @@ class LiveWarpEnd:
         stored = ob.reflection_lines
         stored.center = patch.local_center
         shown = (*shape_keys.describe_hidden_key(ob, patch.key),
-                 *modifiers.describe_unsolved_modifiers(ob, scene.reflection_lines.live.solve_for))
+                 *modifiers.describe_unsolved_modifiers(ob))
         stored.report.fill(solution, (*solution.notes, *warp.describe_outside(solution.target), *shown))
         stored.run.note("REFLINES_OT_warp", live_baseline.read_operator_settings(scene), ob.data, patch.key)
         for note in stored.report.notes.splitlines():
@@ -143,16 +143,16 @@ shape, Discard takes it back; both can wait until the file is opened again"""
         if active.type == 'MESH' and active.mode == 'EDIT':
             ob = scene_objects.find_subjects(context)[0]
             refuse_keys(ob, settings.result)
-            region_faces.keep_region(ob, gather.gather_patch(ob, settings.solve_for, settings.result))
+            region_faces.keep_region(ob, gather.gather_patch(ob, settings.result))
         enter_object_mode(context)
         ob = ob or scene_objects.find_subjects(context)[0]
         refuse_keys(ob, settings.result)
-        return gather.gather_patch(ob, settings.solve_for, settings.result)
+        return gather.gather_patch(ob, settings.result)
 
     def begin(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> None:
         settings = context.scene.reflection_lines
         live_warp_start.store_start(ob, patch)
-        settings.live.panel, settings.live.solve_for, settings.live.result = ob, settings.solve_for, settings.result
+        settings.live.panel, settings.live.result = ob, settings.result
         for other in context.selected_objects:
             other.select_set(False)
         settings.warp.lattice.select_set(True)

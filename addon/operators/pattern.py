@@ -42,8 +42,8 @@ What no surface can show is left over: see the colour map of the residual"""
         """Returns false: one light draws an image, and much less of it is reached where crossed lines are kept."""
         return False
 
-    def has_use(self, context: bpy.types.Context, name: str) -> bool:
-        return name != "lights" and super().has_use(context, name)
+    def has_use(self, name: str) -> bool:
+        return name != "lights"
 
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         right, up = view_and_light.read_camera_axes(context.scene.reflection_lines.camera)

@@ -41,13 +41,12 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
                 Handle("length", "Length", per_pixel=1.0 / 150.0, low=1e-9, high=1e9, doubles=True, unit='LENGTH',
                        wheel=True))
 
-    def draw(self, context: bpy.types.Context) -> None:
+    def draw(self, _context: bpy.types.Context) -> None:
         """Draws the redo panel."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
-        for name in ("strength", "border", "solve_for", "result"):
-            if self.has_use(context, name):
-                layout.prop(self, name)
+        for name in ("strength", "border", "result"):
+            layout.prop(self, name)
         self.draw_smooth(layout, automatic_values.draw_plain_value)
         layout.prop(self, "lights")
         automatic_values.draw_plain_value(layout, self, "limit")
@@ -150,7 +149,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         if not self.is_automatic():
             return None
         joint = [ob for ob in self.find_subjects(bpy.context) if ob.mode == 'EDIT']
-        cages = [ob.name for ob in joint if self.solve_for == 'CAGE' and modifiers.is_cage(ob)]
+        cages = [ob.name for ob in joint if modifiers.is_cage(ob)]
         return Crossing(self.border == 'follow', frozenset(ob.name for ob in joint), frozenset(cages))
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:

@@ -17,13 +17,13 @@ from ..read.mesh_checks import Purpose
 from ..solver.live_optimizer import BuildTarget
 from ..state import optimizer_cache, press_cache, solve_history
 from ..ui import automatic_values
-from ..ui.properties import result_property, solve_for_property
+from ..ui.properties import result_property
 from ..ui.tool_properties import border_property
 from ..view import facing, read_light_set, view_and_light
 from ..write import write_mesh
 
 # Settings of the scene for all tools that have none of their own.
-SHARED = {"border", "solve_for", "result", "lights", "limit"}
+SHARED = {"border", "result", "lights", "limit"}
 LOST_START = ("The run began with the mesh as it is now: the shape before the last run is not known, since the mesh "
               "was changed, undone, renamed or duplicated after it, or another shape key is edited")
 
@@ -49,7 +49,6 @@ class SolveTool:
     known_set: tuple[LightSet | None, ...] = ()  # once it was read
 
     border: border_property()
-    solve_for: solve_for_property(options={'SKIP_SAVE'})
     result: result_property(options={'SKIP_SAVE'})
     anew: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Begin with the shape before the last run")
     edited: BoolProperty(options={'HIDDEN', 'SKIP_SAVE'}, description="Also in Object Mode change what Edit Mode does: "
@@ -79,19 +78,18 @@ class SolveTool:
     def poll(cls, context: bpy.types.Context) -> bool:
         return is_ready(cls, context, needs_faces=cls.needs_faces)
 
-    def draw(self, context: bpy.types.Context) -> None:
+    def draw(self, _context: bpy.types.Context) -> None:
         """Draws the redo panel: the settings that act on the active object."""
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         for about in self.properties.bl_rna.properties:
             name = about.identifier
-            if name != "rna_type" and not about.is_hidden and self.has_use(context, name):
+            if name != "rna_type" and not about.is_hidden and self.has_use(name):
                 automatic_values.draw_plain_value(layout, self, name)
 
-    def has_use(self, context: bpy.types.Context, name: str) -> bool:
-        """Returns whether a setting acts: what is solved for can be chosen where there is a cage."""
-        ob = context.view_layer.objects.active
-        return name != "solve_for" or (ob is not None and ob.type == 'MESH' and ob.reflection_lines.is_cage())
+    def has_use(self, _name: str) -> bool:
+        """Returns whether a setting acts beside the others as they are."""
+        return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         self.known_set = ()
@@ -168,7 +166,7 @@ class SolveTool:
         return self.known_set[0]
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
-        return gather.gather_patch(ob, self.solve_for, self.result, self.begin_run(ob), margin=self.choose_margin(),
+        return gather.gather_patch(ob, self.result, self.begin_run(ob), margin=self.choose_margin(),
                                    purpose=self.choose_purpose(), crossing=self.choose_crossing())
 
     def choose_purpose(self) -> Purpose:
@@ -212,7 +210,7 @@ class SolveTool:
         shown = (*self.record_surroundings(ob, solution.patch),
                  *shape_keys.describe_hidden_key(ob, solution.patch.key), *shown_surface.describe_custom_normals(ob),
                  *shown_surface.describe_shared_mesh(ob),
-                 *modifiers.describe_unsolved_modifiers(ob, self.solve_for))
+                 *modifiers.describe_unsolved_modifiers(ob))
         stored.report.fill(solution, (*solution.notes, *self.describe_solution(solution), *shown, *lost))
         for note in stored.report.notes.splitlines():
             self.report({'WARNING'}, f"{ob.name}: {note}")

@@ -11,17 +11,18 @@ from . import modifiers, read_beside, read_cage, read_snapshot, shape_keys
 from .mesh_checks import Purpose
 
 
-def gather_patch(ob: bpy.types.Object, solve_for: str = 'MESH', result: str = 'MESH', local: np.ndarray | None = None,
-                 *, or_all: bool = False, purpose: Purpose = Purpose.WRITE, margin: float = 0.0,
+def gather_patch(ob: bpy.types.Object, result: str = 'MESH', local: np.ndarray | None = None, *, as_mesh: bool = False,
+                 or_all: bool = False, purpose: Purpose = Purpose.WRITE, margin: float = 0.0,
                  crossing: Crossing | None = None) -> Patch:
-    """Reads the mesh of an object once, and gathers its patch, for the mesh or its cage.
+    """Reads the mesh of an object once, and gathers its patch: of the subdivided surface where it is a cage.
 
-    `solve_for` and `result` are values of the properties of these names; `local`, `or_all` and `purpose` are as in
-    read_snapshot, `margin` as in cut_patch, for a mesh. `crossing` says what the border follows, where it does.
+    `result` is a value of the property of this name; `as_mesh` gathers a cage's own faces; `local`, `or_all` and
+    `purpose` are as in read_snapshot, `margin` as in cut_patch, for a mesh. `crossing` says what the border follows,
+    where it does.
     """
     key = shape_keys.NAME if result == 'SHAPE_KEY' else ""
     snapshot = read_snapshot.read_snapshot(ob, key, local, or_all=or_all, purpose=purpose)
-    is_cage = solve_for == 'CAGE' and modifiers.is_cage(ob)
+    is_cage = not as_mesh and modifiers.is_cage(ob)
     patch = cut_patch(snapshot, 0.0 if is_cage else margin)
     if is_cage:
         patch = read_cage.build_cage_patch(ob, snapshot, patch)

@@ -60,16 +60,13 @@ def is_cage(ob: bpy.types.Object | None) -> bool:
     return bool(makers) and is_subdivision(makers[-1])
 
 
-def describe_unsolved_modifiers(ob: bpy.types.Object, solve_for: str) -> tuple[str, ...]:
-    """Describes, in sentences, modifiers that make the surface shown another one than the surface solved.
-
-    `solve_for` is a value of the property of this name.
-    """
-    if solve_for == 'CAGE' and is_cage(ob):
+def describe_unsolved_modifiers(ob: bpy.types.Object) -> tuple[str, ...]:
+    """Describes, in sentences, modifiers that make the surface shown another one than the surface solved."""
+    if is_cage(ob):
         return describe_shells(ob)
     makers, said = find_shaping_modifiers(ob), []
     levels = [modifier.name for modifier in makers if is_subdivision(modifier)]
-    if solve_for == 'CAGE' and levels:
+    if levels:
         said.append(f"The modifier {makers[-1].name} follows {levels[-1]}, so the mesh was solved as if it were not "
                     f"subdivided: move {levels[-1]} to the end, or hide what follows it, to solve for the cage")
     deforming = [each.name for each in makers if each.type in DEFORMING and not is_shading_only(each)]

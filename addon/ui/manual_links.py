@@ -16,7 +16,7 @@ SETTINGS = (
     *((f"bpy.types.reflines{tool}.*", f"#reflines.{tool}") for tool in ("direction", "warp", "pattern")),
     ("bpy.types.reflinesscene.camera", "#view-and-light"),
     ("bpy.types.reflinesscene.light*", "#view-and-light"),
-    *((f"bpy.types.reflinesscene.{name}", "#region") for name in ("border", "show_borders", "solve_for", "result")),
+    *((f"bpy.types.reflinesscene.{name}", "#region") for name in ("border", "show_borders", "result")),
     ("bpy.types.reflinesobject.crease*", "#region"),
     ("bpy.types.reflinesobject.limit*", "#region"),
     ("bpy.types.reflinespull.*", "#reflines.pull_line"),

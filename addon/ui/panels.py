@@ -98,7 +98,6 @@ class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
             layout.prop_search(ob.reflection_lines, "limit_group", ob, "vertex_groups")
             layout.prop(ob.reflection_lines, "creases")
         if ob is not None and ob.reflection_lines.is_cage():
-            layout.prop(context.scene.reflection_lines, "solve_for")
             layout.operator("reflines.fit", icon='MOD_SHRINKWRAP')
 
     def draw_borders(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:

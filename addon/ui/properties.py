@@ -22,11 +22,6 @@ from .tool_properties import (ReflinesBake, ReflinesBrush, ReflinesDirection, Re
 
 LONGEST = 1e15  # length that is read from a file
 FLOAT_EPSILON = 2.0**-23  # of the coordinates of a mesh
-KINDS = (
-    ('CAGE', "Cage", "Below a Subdivision Surface: move the cage so that the subdivided surface reflects well"),
-    ('MESH', "Mesh", "Move the mesh's own faces, as if it were not subdivided"),
-)
-
 
 CREASES = (
     ('AUTOMATIC', "Automatic", "Edges that bend far more than the surface beside them, and marked ones"),
@@ -50,11 +45,6 @@ RESULTS = (
 def result_property(**options: object) -> object:
     return EnumProperty(name="Result", items=RESULTS, default='MESH', **options,
                         description="Where the moved vertices go")
-
-
-def solve_for_property(**options: object) -> object:
-    return EnumProperty(name="Solve for", items=KINDS, default='CAGE', **options,
-                        description="What moves where the object's last modifier that is shown is Subdivision Surface")
 
 
 class ReflinesReport(bpy.types.PropertyGroup):
@@ -248,7 +238,6 @@ class ReflinesLive(bpy.types.PropertyGroup):
     """The scene's live warp, none where `panel` is empty; write/live_warp_start.py keeps where it began with the mesh.
     """
     panel: PointerProperty(type=bpy.types.Object, poll=is_mesh)
-    solve_for: solve_for_property()
     result: result_property()
 
     def panel_name(self) -> str:
@@ -293,7 +282,6 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
     length_automatic: switch_property("length", "Length")
     limit_shown: shown_property("limit", "Limit")
     limit_automatic: switch_property("limit", "Limit")
-    solve_for: solve_for_property()
     result: result_property()
     show_borders: BoolProperty(name="Show Borders", default=True,
                                description="Draw the borders that were set by segment: green Free, orange Position, "

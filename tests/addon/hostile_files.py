@@ -248,7 +248,7 @@ def save_past_the_addon(path: str | Path) -> None:
     handlers.extend(own)
 
 
-CHOICES = ("border", "solve_for", "result", "lights", "stripes.mode", "stripes.eye", "stripes.scope",
+CHOICES = ("border", "result", "lights", "stripes.mode", "stripes.eye", "stripes.scope",
            "direction.centre", "direction.shape", "direction.direction", "direction.axis",
            "warp.fit", "pattern.fit")
 NUMBERS = ("length", "limit", "strength", "stripes.image_rotation", "direction.density",

@@ -83,7 +83,7 @@ def test_every_tool_obeys_the_segments(tool: str) -> None:
 def take_patch(ob: bpy.types.Object) -> tuple[object, object]:
     """The patch of a panel, and its view."""
     addon = sys.modules["reflection_lines"]
-    patch = addon.read.gather.gather_patch(ob, 'CAGE', 'MESH')
+    patch = addon.read.gather.gather_patch(ob)
     return patch, addon.view.facing.read_patch_view(bpy.context.scene, patch)
 
 

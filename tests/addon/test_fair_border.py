@@ -188,7 +188,7 @@ def test_cages_are_refused_in_a_sentence() -> None:
     ob.modifiers.new("Subdivision", 'SUBSURF')
     before = scenes.positions(ob)
     with pytest.raises(RuntimeError, match="the border of a cage cannot be faired"):
-        scenes.smooth(fair_border=True, solve_for='CAGE')
+        scenes.smooth(fair_border=True)
     assert np.array_equal(scenes.positions(ob), before)
 
 

@@ -23,7 +23,7 @@ def brushed(*, cells: int = CELLS, height=scenes.rippled, mirror_x: bool = False
     scenes.look_from_above(90.0 if mirror_x else 70.0)
     scenes.edit_inner(ob, cells)
     addon = modules()
-    patch = addon.read.gather.gather_patch(ob, 'MESH', 'MESH')
+    patch = addon.read.gather.gather_patch(ob)
     view = addon.view.facing.read_patch_view(bpy.context.scene, patch)
     return modules().solver.brush.BrushedPatch(patch, view, "clamped")
 

@@ -29,7 +29,7 @@ def brushed(*, cells: int = CELLS, height=scenes.rippled, mirror_x: bool = False
 
 def take(ob: bpy.types.Object, border: str = "clamped") -> object:
     addon = modules()
-    patch = addon.read.gather.gather_patch(ob, 'CAGE', 'MESH')
+    patch = addon.read.gather.gather_patch(ob)
     view = addon.view.facing.read_patch_view(bpy.context.scene, patch)
     return modules().solver.brushed_cage.take_under_brush(patch, view, border)
 

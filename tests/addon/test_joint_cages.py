@@ -73,9 +73,9 @@ def test_what_lies_beside_is_the_shown_surface_of_a_cage_in_edit_mode() -> None:
     start_several(left, right)
     counts = []
     for crossing in (Crossing(everywhere=True), Crossing(True, frozenset({"Left", "Right"}), frozenset({"Right"}))):
-        counts.append(len(gather.gather_patch(left, 'CAGE', 'MESH', crossing=crossing).beside.F))
+        counts.append(len(gather.gather_patch(left, crossing=crossing).beside.F))
     scenes.select_faces(right, lambda face: face >= 12)
-    counts.append(len(gather.gather_patch(left, 'CAGE', 'MESH', crossing=crossing).beside.F))
+    counts.append(len(gather.gather_patch(left, crossing=crossing).beside.F))
     assert counts[0] > 16 * 2 * 24 and counts[1] == 0 and 0 < counts[2] < counts[0]
 
 

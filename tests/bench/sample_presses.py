@@ -36,7 +36,7 @@ def press(path: Path) -> None:
     if ob is None or ob.type != 'MESH':
         return
     bpy.ops.object.mode_set(mode='EDIT')
-    patch = sys.modules["reflection_lines.read.gather"].gather_patch(ob, or_all=True)
+    patch = sys.modules["reflection_lines.read.gather"].gather_patch(ob, as_mesh=True, or_all=True)
     view = sys.modules["reflection_lines.view.facing"].read_patch_view(bpy.context.scene, patch)
     V, F = read_shown(ob)
     bpy.ops.reflines.smooth('EXEC_DEFAULT', length=0.0, directional=False)
