@@ -1,5 +1,6 @@
 """The operator Bake Handles."""
 import bpy
+from bpy.props import IntProperty
 
 from ..background_work import BackgroundWork
 from ..interactive import running_operators
@@ -8,19 +9,21 @@ from ..model.refusal import Refusal
 from ..native_call import run_now
 from ..read import scene_objects
 from ..state import optimizer_cache
-from ..ui.tool_properties import BakeSettings
 from ..view import view_and_light
 
 TICK_INTERVAL = 0.01  # seconds between two looks at the background work
 CANCEL_KEYS = {'ESC', 'RIGHTMOUSE'}
 
 
-class REFLINES_OT_bake_handles(BakeSettings, bpy.types.Operator):
+class REFLINES_OT_bake_handles(bpy.types.Operator):
     """Solve the keyed handles frame by frame, and keep each as a shape key that comes and goes with its frame: played,
 the scene moves the panel"""
     bl_idname = "reflines.bake_handles"
     bl_label = "Bake Handles"
     bl_options = {'UNDO'}  # no redo panel: Blender would stand still for all frames
+
+    step: IntProperty(default=5, min=1, max=10000, options={'HIDDEN', 'SKIP_SAVE'},
+                      description="Frames from one solve to the next")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -33,11 +36,7 @@ the scene moves the panel"""
         return not obstacle
 
     def begin(self, context: bpy.types.Context) -> None:
-        """Begins the bake; settings that are not given are the scene's."""
         context.view_layer.update()
-        settings = context.scene.reflection_lines.bake
-        if not self.properties.is_property_set("step"):
-            self.step = settings.step
         self.bake = HandleBake(context.scene, scene_objects.find_active_object(context))
         self.bake.begin(self.step)
 

@@ -4,7 +4,7 @@ from math import radians
 from pathlib import Path
 
 import bpy
-from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..interactive import read_picture, running_operators
@@ -33,8 +33,6 @@ ends it early"""
     filename_ext = ".png"
     filter_glob: StringProperty(default="*.png", options={'HIDDEN'})
     kind: EnumProperty(name="Film", items=KINDS, default='LIGHT', description="What moves")
-    frames: IntProperty(name="Frames", default=72, min=2, max=10000, description="Pictures from the beginning to where "
-                        "it begins again")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -42,9 +40,16 @@ ends it early"""
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
-        size = read_render_size(context.scene.render)
-        work = FilmWork(Path(bpy.path.abspath(self.filepath)), (self.kind, SWING, self.frames, *size))
-        return self.write_file(context, work)
+        scene = context.scene
+        settings = self.kind, SWING, count_frames(scene), *read_render_size(scene.render)
+        return self.write_file(context, FilmWork(Path(bpy.path.abspath(self.filepath)), settings))
+
+
+def count_frames(scene: bpy.types.Scene) -> int:
+    """Returns how many frames Blender plays: of the preview range where that is in use."""
+    if scene.use_preview_range:
+        return 1 + scene.frame_preview_end - scene.frame_preview_start
+    return 1 + scene.frame_end - scene.frame_start
 
 
 def read_render_size(render: bpy.types.RenderSettings) -> tuple[int, int]:

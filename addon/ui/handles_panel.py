@@ -37,7 +37,7 @@ class VIEW3D_PT_reflines_handles(ReflinesPanel, bpy.types.Panel):
             return
         if kept.kept:
             self.draw_values(layout, kept, handles)
-            self.draw_bake(layout, context.scene.reflection_lines.bake)
+            layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
         elif handles:
             draw_paragraph(layout, context, "Handles of an older file: Re-solve lets them be keyed", 'INFO')
         layout.operator("reflines.delete_handles", icon='X')
@@ -54,12 +54,6 @@ class VIEW3D_PT_reflines_handles(ReflinesPanel, bpy.types.Panel):
             column.prop(kept.kept[index], "place")
             column.prop(kept.kept[index], "radius")
         column.prop(kept.kept[index], "muted")
-
-    def draw_bake(self, layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
-        column = layout.column(align=True)
-        column.use_property_split, column.use_property_decorate = True, False
-        column.prop(settings, "step")
-        layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_UL_handles, VIEW3D_PT_reflines_handles])

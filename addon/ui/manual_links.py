@@ -22,7 +22,6 @@ SETTINGS = (
     ("bpy.types.reflinespull.*", "#reflines.pull_line"),
     ("bpy.types.reflinesbrush.*", "#reflines.fair_brush"),
     ("bpy.types.reflineshandle*", "#kept-handles"),
-    ("bpy.types.reflinesbake.*", "#reflines.bake_handles"),
     ("bpy.types.reflinesmarks.*", "#reflines.check"),
     ("bpy.types.reflinesinspection.*", "#reflines.inspect"),
     ("bpy.types.reflinesspot.*", "#reflines.inspect"),

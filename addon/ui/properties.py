@@ -17,7 +17,7 @@ from .handle_properties import ReflinesHandles
 from .inspection_properties import ReflinesInspection, ReflinesSpot
 from .light_set_properties import ReflinesLightSet
 from .stripe_properties import ReflinesStripes
-from .tool_properties import (ReflinesBake, ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
+from .tool_properties import (ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
                               ReflinesWarp, SmoothSettings)
 
 LONGEST = 1e15  # length that is read from a file
@@ -288,7 +288,6 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
                                "blue Tangent, violet Curvature, red Flow, cyan Neighbours")
     direction: PointerProperty(type=ReflinesDirection)
     pull: PointerProperty(type=ReflinesPull)
-    bake: PointerProperty(type=ReflinesBake)
     brush: PointerProperty(type=ReflinesBrush)
     warp: PointerProperty(type=ReflinesWarp)
     live: PointerProperty(type=ReflinesLive)

@@ -190,12 +190,6 @@ class PullSettings:
                           "at most half its width")
 
 
-class BakeSettings:
-    step: IntProperty(name="Step", default=5, min=1, soft_max=50, max=10000, **SAVED,
-                      description="Frames from one solve to the next; keyed frames are solved besides, and between the "
-                      "shapes run evenly")
-
-
 class BrushSettings:
     size: IntProperty(name="Size", default=60, min=2, soft_max=500, max=5000, subtype='PIXEL', **SAVED,
                       description="Radius of the brush on the screen")
@@ -211,10 +205,6 @@ class ReflinesDirection(FalloffSettings, DirectionSettings, bpy.types.PropertyGr
 class ReflinesPull(PullSettings, bpy.types.PropertyGroup):
     """The scene's settings of Pull Line."""
     radius_automatic: switch_property("radius", "Radius")
-
-
-class ReflinesBake(BakeSettings, bpy.types.PropertyGroup):
-    """The scene's settings of Bake Handles."""
 
 
 class ReflinesBrush(BrushSettings, bpy.types.PropertyGroup):
@@ -238,4 +228,4 @@ class ReflinesPattern(PatternSettings, bpy.types.PropertyGroup):
 
 
 register, unregister = bpy.utils.register_classes_factory([
-    ReflinesDirection, ReflinesPull, ReflinesBake, ReflinesBrush, ReflinesWarp, ReflinesPattern])
+    ReflinesDirection, ReflinesPull, ReflinesBrush, ReflinesWarp, ReflinesPattern])

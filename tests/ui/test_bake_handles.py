@@ -81,10 +81,10 @@ def seen() -> np.ndarray:
     return np.array([vertex.co for vertex in mesh.vertices], dtype=np.float32)
 
 
-def baking(driver: window.Window) -> None:
+def baking(driver: window.Window, step: int) -> None:
     driver.move(300, 300)
     with driver.override():
-        assert bpy.ops.reflines.bake_handles('INVOKE_DEFAULT', True) == {'RUNNING_MODAL'}
+        assert bpy.ops.reflines.bake_handles('INVOKE_DEFAULT', True, step=step) == {'RUNNING_MODAL'}
 
 
 def baked(ob: bpy.types.Object) -> list[str]:
@@ -96,8 +96,7 @@ def test_a_handle_is_keyed_baked_and_played(driver: window.Window) -> Steps:
     first, last = yield from keyed(driver, by_hand=True)
     ob, scene = bpy.context.view_layer.objects.active, bpy.context.scene
     scene.frame_set(4)
-    scene.reflection_lines.bake.step = 2
-    baking(driver)
+    baking(driver, step=2)
     for _ in range(200):
         yield 0.05
         if baked(ob):
@@ -141,15 +140,13 @@ def test_escape_leaves_no_bit_changed(driver: window.Window) -> Steps:
     scene.frame_set(4)
     before = scenes.fingerprint(ob)
     scene.use_preview_range, scene.frame_preview_start, scene.frame_preview_end = True, 1, 900
-    scene.reflection_lines.bake.step = 1
-    baking(driver)
+    baking(driver, step=1)
     yield 0.2
     yield from picture("baking")
     driver.key('ESC')
     yield 0.5
     assert scenes.fingerprint(ob) == before and scene.frame_current == 4
     scene.use_preview_range = False
-    scene.reflection_lines.bake.property_unset("step")
     yield from settled(driver)
 
 
@@ -173,8 +170,8 @@ def test_a_bake_that_cannot_go_on_takes_all_back_and_says_so(driver: window.Wind
         yield from keyed(driver)
         ob, scene = bpy.context.view_layer.objects.active, bpy.context.scene
         scene.frame_set(7)
-        before, scene.reflection_lines.bake.step = scenes.fingerprint(ob), 1
-        baking(driver)
+        before = scenes.fingerprint(ob)
+        baking(driver, step=1)
         assert ob.mode == 'OBJECT'
         how()
         yield 1.0

@@ -92,11 +92,13 @@ def begin_film(driver: window.Window, folder: Path) -> Generator[float, None, No
     with driver.override():
         scenes.panel(height=dented, cells=CELLS)
         scenes.look_from_above()
-        bpy.context.scene.render.resolution_x, bpy.context.scene.render.resolution_y = 640, 360
+        scene = bpy.context.scene
+        scene.render.resolution_x, scene.render.resolution_y = 640, 360
+        scene.use_preview_range, scene.frame_preview_start, scene.frame_preview_end = True, 5, 10
     driver.move(300, 300)
     yield 0.1
     with driver.override():
-        assert bpy.ops.reflines.export_film('INVOKE_DEFAULT', filepath=str(folder / "film_.png"), frames=6) == {
+        assert bpy.ops.reflines.export_film('INVOKE_DEFAULT', filepath=str(folder / "film_.png")) == {
             'RUNNING_MODAL'}
     browser = yield from wait_for_file_browser()
     browser[1].spaces.active.params.directory = str(folder).encode()
