@@ -2,12 +2,11 @@
 
 Setting = str | int | float | tuple[float, float, float, float]
 
-WHITE, BLACK = (0.9, 0.93, 1.0, 1.0), (0.01, 0.012, 0.016, 1.0)
+WHITE, BLACK = (0.9, 0.93, 1.0, 0.9), (0.01, 0.012, 0.016, 0.9)  # over the mesh, which shines through
 
 
 def build_bands(mode: str, count: int, width: float, softness: float) -> dict[str, Setting]:
-    return {"mode": mode, "count": count, "width": width, "softness": softness, "color": WHITE, "gap_color": BLACK,
-            "opacity": 0.9}
+    return {"mode": mode, "count": count, "width": width, "softness": softness, "color": WHITE, "gap_color": BLACK}
 
 
 LOOKS = {

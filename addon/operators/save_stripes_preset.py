@@ -3,8 +3,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 
 # The look: what belongs to a scene, as its collection, image and frozen eye, is no part of a preset.
-LOOK = ("mode", "eye", "scope", "image_rotation", "count", "width", "softness",
-        "color", "gap_color", "opacity")
+LOOK = ("mode", "eye", "scope", "image_rotation", "count", "width", "softness", "color", "gap_color")
 
 
 class REFLINES_OT_save_stripes_preset(AddPresetBase, bpy.types.Operator):

@@ -89,7 +89,7 @@ void main()
     float s = mode == 2 ? length(cross(n, a)) : dot(direction, ub.a_perp.xyz);
     color = mix(ub.gap_color, ub.color, band(c, s, rate));
   }
-  fragColor = vec4(color.rgb, color.a * ub.paint.x);
+  fragColor = color;
 }
 """
 

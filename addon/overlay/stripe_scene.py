@@ -85,7 +85,7 @@ def compute_offset(context: bpy.types.Context, ob: bpy.types.Object) -> float:
 
 def read_look(settings: bpy.types.PropertyGroup, offset: float) -> Look:
     return Look(settings.mode, settings.count, settings.width, settings.softness, tuple(settings.color),
-                        tuple(settings.gap_color), settings.opacity, settings.image_rotation, offset)
+                        tuple(settings.gap_color), settings.image_rotation, offset)
 
 
 def to_array(matrix: Matrix) -> np.ndarray:

@@ -32,7 +32,6 @@ class Look:
     softness: float
     color: tuple[float, float, float, float]
     gap_color: tuple[float, float, float, float]
-    opacity: float
     image_rotation: float  # radians
     depth_offset: float    # how much nearer to the eye than the surface, as a fraction of the distance
 
@@ -101,7 +100,7 @@ def pack_uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.
         np.append(eye.direction, 0.0) if eye.position is None else np.append(eye.position, 1.0),
         np.append(lights.v_a, 0.0), np.append(lights.a_perp, 0.0), np.append(lights.line, 0.0),
         [look.count / TURN, look.width, look.softness, look.depth_offset],
-        look.color, look.gap_color, [look.opacity, MODES.get(look.mode, 0), look.image_rotation / TURN, 0.0],
+        look.color, look.gap_color, [0.0, MODES.get(look.mode, 0), look.image_rotation / TURN, 0.0],
     ]
     return np.concatenate([np.ravel(block) for block in blocks]).astype(np.float32)
 

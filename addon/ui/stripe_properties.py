@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
-from ..model.looks import LOOKS
+from ..model.looks import BLACK, LOOKS, WHITE
 
 MODES = (
     ('REFLECTION', "Reflection Lines", "Parallel line lights as the panel mirrors them: what the solver optimizes"),
@@ -71,9 +71,8 @@ class ReflinesStripes(bpy.types.PropertyGroup):
                          description="Fraction of the distance between two line lights that is light")
     softness: FloatProperty(name="Soft Edge", default=0.1, min=0.0, max=1.0, subtype='FACTOR', options={'HIDDEN'},
                             description="Blur of the edges of the stripes, as a fraction of their width")
-    color: color_property("Light", (0.9, 0.93, 1.0, 1.0))
-    gap_color: color_property("Gap", (0.01, 0.012, 0.016, 1.0))
-    opacity: FloatProperty(name="Opacity", default=0.9, min=0.0, max=1.0, subtype='FACTOR')
+    color: color_property("Light", WHITE)
+    gap_color: color_property("Gap", BLACK)
 
     def find_look(self) -> int:
         """Returns the number of the look that the settings are those of; the last one is the artist's own."""

@@ -50,6 +50,7 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
         column.template_ID(stripes, "image", open="image.open")
         if stripes.image is None:
             draw_paragraph(column, bpy.context, "Open an equirectangular image, as World environments use", 'INFO')
+        layout.prop(stripes, "image_rotation")
 
 
 class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
@@ -57,17 +58,16 @@ class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_reflines_stripes"
     bl_options = {'DEFAULT_CLOSED'}
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.scene.reflection_lines.stripes.mode in BANDS
+
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.reflection_lines, self.layout
         layout.active = settings.stripes.show
         layout.use_property_split, layout.use_property_decorate = True, False
-        for name in self.list_settings(settings.stripes.mode):
+        for name in ("count", "width", "color", "gap_color"):
             layout.prop(settings.stripes, name)
-
-    def list_settings(self, mode: str) -> tuple[str, ...]:
-        bands = ("count", "width", "color", "gap_color") if mode in BANDS else ()
-        own = ("image_rotation",) if mode == 'IMAGE' else ()
-        return (*bands, *own, "opacity")
 
 
 register, unregister = bpy.utils.register_classes_factory([

@@ -22,7 +22,7 @@ Steps = Generator[float, None, None]
 def prepare(driver: window.Window, ob: bpy.types.Object) -> None:
     """Black and white stripes, nothing else drawn, and the viewport looking as the view camera does."""
     stripes = bpy.context.scene.reflection_lines.stripes
-    stripes.show, stripes.count, stripes.width, stripes.softness, stripes.opacity = True, COUNT, WIDTH, 1.0, 1.0
+    stripes.show, stripes.count, stripes.width, stripes.softness = True, COUNT, WIDTH, 1.0
     stripes.eye, stripes.cage_on_top, stripes.mode, stripes.scope = 'CAMERA', False, 'REFLECTION', 'OBJECT'
     stripes.color, stripes.gap_color = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 1.0)
     for name in OVERLAYS:

@@ -101,7 +101,7 @@ def test_settings_view_and_light_rebuild_no_batch(driver: window.Window) -> Step
     yield from captured(driver)
     before = builds()
     settings = bpy.context.scene.reflection_lines
-    for name, value in (("count", 17), ("width", 0.3), ("softness", 0.6), ("opacity", 0.4), ("eye", 'VIEWPORT'),
+    for name, value in (("count", 17), ("width", 0.3), ("softness", 0.6), ("eye", 'VIEWPORT'),
                         ("color", (1, 0, 0, 1)), ("gap_color", (0, 1, 0, 1)), ("eye", 'CAMERA'), ("cage_on_top", True)):
         setattr(settings.stripes, name, value)
         picture = yield from captured(driver)
