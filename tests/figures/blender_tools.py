@@ -1,4 +1,4 @@
-"""Compares Smooth Lines with Blender's own Fair Tangency and Smooth Vertices, in numbers and in stripes."""
+"""Compares Smooth Lines with Blender's own Fair Tangency, Smooth Vertices and Relax, in numbers and in stripes."""
 import json
 import subprocess
 from datetime import date

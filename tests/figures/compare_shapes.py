@@ -14,7 +14,7 @@ import reflines
 LENGTHS = 14        # in the region's diagonal: the automatic length of Smooth
 STEEPEST = 0.2      # cosine to the view of normals whose lines are measured
 REPEATED = re.compile(r"flawed_vertices_(\d+)")
-TOOLS = ("smooth", "length", "fair", "vertices")
+TOOLS = ("smooth", "length", "fair", "vertices", "relax")
 
 Shapes = dict[str, np.ndarray]
 Numbers = dict[str, float]
@@ -111,15 +111,18 @@ def measure_shape(shapes: Shapes, name: str) -> Numbers:
 
 
 def measure_tool(shapes: Shapes, tool: str) -> Numbers:
-    """Returns all numbers of a tool: lines and moves on the flawed panel, its time, and its harm to the clean one."""
+    """Returns all numbers of a tool: lines and moves on the flawed panel, its harm to the clean one, and its time; the
+    drag of Relax has none.
+    """
     for shape in ("flawed", "clean"):
         refuse_moves_outside(shapes, f"{shape}_{tool}")
     check = compare(shapes, "flawed", f"flawed_{tool}")
     harm = measure_line_error(shapes, f"clean_{tool}")
+    seconds = shapes.get(f"flawed_{tool}_seconds")
     return (measure_shape(shapes, f"flawed_{tool}") | measure_border(check)
             | {"moved": check.largest_deviation, "harm": harm[0], "harm_crossed": harm[1],
-               "harm_moved": compare(shapes, "clean", f"clean_{tool}").largest_deviation,
-               "seconds": statistics.median(shapes[f"flawed_{tool}_seconds"])})
+               "harm_moved": compare(shapes, "clean", f"clean_{tool}").largest_deviation}
+            | ({} if seconds is None else {"seconds": statistics.median(seconds)}))
 
 
 def choose_repeats(shapes: Shapes, wobble: float) -> int:

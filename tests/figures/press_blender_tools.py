@@ -1,6 +1,6 @@
-"""Applies Smooth Lines, Blender's Fair Tangency and its Smooth Vertices to panels, for figures/blender_tools.py.
+"""Applies Smooth Lines and Blender's Fair Tangency, Smooth Vertices and Relax to panels, for figures/blender_tools.py.
 
-Runs in a Blender with a window, because Fair Tangency takes the face set below the mouse:
+Runs in a Blender with a window, because Fair Tangency takes the face set below the mouse and Relax is dragged:
 
     blender --factory-startup --enable-event-simulate --python tests/in_blender.py --
         tests/figures/press_blender_tools.py FOLDER
@@ -33,6 +33,8 @@ LENGTHS = 6   # in the diagonal: the length of a drag
 SHAPES = "_shapes"
 FACE_SETS = ".sculpt_face_set"
 FACTOR = 0.5  # of Smooth Vertices in Blender's menus
+RELAX_STEPS = 100   # moves of the mouse, each of which relaxes once more
+FULL_STRENGTH = 100  # pixels of the drag that bring the filter's strength of 10 to 1
 
 
 def read_positions(ob: bpy.types.Object) -> np.ndarray:
@@ -85,7 +87,9 @@ def build_panel(data: np.lib.npyio.NpzFile) -> bpy.types.Object:
 def open_panel(path: Path, shape: str) -> bpy.types.Object:
     """Returns the panel in the named shape, in Edit Mode, as if nothing had been done to it before."""
     data = np.load(path)
-    if "corners" not in data:
+    if "corners" in data:
+        bpy.ops.wm.read_homefile(use_empty=True, load_ui=False)  # drops what the add-on keeps of the press before
+    else:
         bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{path.stem}.blend"), load_ui=False)
     with window.Window().override():
         ob = build_panel(data) if "corners" in data else bpy.context.view_layer.objects.active
@@ -146,6 +150,39 @@ def fair_tangency(driver: window.Window, ob: bpy.types.Object) -> Generator[floa
     return seconds
 
 
+def write_mask(ob: bpy.types.Object) -> None:
+    """Masks all vertices but those within the region, as a mask from its face set does."""
+    F, inside = read_triangles(ob)
+    mask = np.ones(len(ob.data.vertices), np.float32)
+    mask[F[inside]] = 0.0
+    mask[F[~inside]] = 1.0
+    bpy.ops.object.mode_set(mode='SCULPT')
+    bpy.ops.paint.mask_flood_fill(mode='VALUE', value=1.0)
+    bpy.ops.object.mode_set(mode='OBJECT')
+    ob.data.vertex_paint_masks[0].data.foreach_set("value", mask)
+
+
+def relax(driver: window.Window, ob: bpy.types.Object) -> Steps:
+    """Drags Sculpt Mode's tool Mesh Filter with its type Relax, at its full strength."""
+    with driver.override():
+        bpy.ops.object.mode_set(mode='OBJECT')
+        write_mask(ob)
+        bpy.ops.object.mode_set(mode='SCULPT')
+        bpy.ops.wm.tool_set_by_id(name="builtin.mesh_filter")
+        chosen = bpy.context.workspace.tools.from_space_view3d_mode('SCULPT').operator_properties("sculpt.mesh_filter")
+        chosen.type, chosen.strength = 'RELAX', 10.0
+    yield from aim_at_region(driver, ob)
+    x, y = driver.region().width // 2, driver.region().height // 2
+    driver.event('LEFTMOUSE', 'PRESS')
+    for step in range(RELAX_STEPS):
+        driver.move(x + FULL_STRENGTH + step % 2, y)
+        yield 0.01
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.2
+    with driver.override():
+        bpy.ops.object.mode_set(mode='EDIT')
+
+
 def measure(driver: window.Window, act: Callable[[], object]) -> float:
     """Returns the seconds of an operator in the 3D view."""
     with driver.override():
@@ -167,6 +204,10 @@ def apply_all(path: Path, shape: str, found: dict[str, np.ndarray]) -> Steps:
             seconds = yield from apply_tool(window.Window(), ob, tool)
             times.setdefault(tool, []).append(seconds)
             found[f"{shape}_{tool}"] = read_positions(ob)
+    ob = open_panel(path, shape)
+    yield 0.2
+    yield from relax(window.Window(), ob)
+    found[f"{shape}_relax"] = read_positions(ob)
     found.update({f"{shape}_{tool}_seconds": np.array(seconds) for tool, seconds in times.items()})
 
 

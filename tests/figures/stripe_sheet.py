@@ -14,10 +14,10 @@ SHARPNESS = 4.0     # of the edges of stripes
 STEEPEST = 0.1      # cosine to the view of normals that are drawn
 BEHIND = 1.0        # pixels: what lies farther below another sheet is hidden
 DPI = 100
-PACKED = {"quality": 40, "method": 6}  # of WebP
+PACKED = {"quality": 30, "method": 6}  # of WebP
 COLUMNS = {"flawed": "before", "flawed_smooth": "Smooth Lines", "flawed_length": "Smooth Lines, length set",
            "flawed_fair": "Fair Tangency", "flawed_vertices": "Smooth Vertices",
-           "clean": "the clean panel"}
+           "flawed_relax": "Relax", "clean": "the clean panel"}
 
 
 def list_weights(count: int) -> np.ndarray:

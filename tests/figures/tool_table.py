@@ -7,7 +7,7 @@ PANELS = {"hood": "sample hood: dents and ripples", "faucet": "sample faucet: de
           "door": "sample door: long wiggles", "subaru_hood": "Subaru bonnet: dents planted",
           "drivaer_hood_wide": "DrivAer bonnet: ripples planted"}
 SHAPES = {"flawed": "before", "smooth": "Smooth Lines", "length": "Smooth Lines, length set", "fair": "Fair Tangency",
-          "vertices": "Smooth Vertices", "clean": "the clean panel"}
+          "vertices": "Smooth Vertices", "relax": "Relax", "clean": "the clean panel"}
 MILLIMETRES = 1000.0
 
 Numbers = dict[str, float]
@@ -31,7 +31,7 @@ def write_row(shape: str, numbers: Numbers) -> list[str]:
         return cells + [""] * 5
     return [*cells, write_length(numbers, "moved"), write_length(numbers, "border_moved"),
             f"{numbers['border_kink']:.2f}", f"{write_pair(numbers, 'harm', 2)}; {write_length(numbers, 'harm_moved')}",
-            f"{1000.0 * numbers['seconds']:.0f}"]
+            f"{1000.0 * numbers['seconds']:.0f}" if "seconds" in numbers else ""]
 
 
 def list_rows() -> list[list[str]]:
