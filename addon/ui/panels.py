@@ -320,6 +320,8 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
             self.layout.operator("reflines.resolve", icon='FILE_REFRESH')
             return
         draw_paragraph(column, context, report.headline(), 'CHECKMARK' if good else 'INFO')
+        self.layout.prop(context.scene.reflection_lines.stripes, "before", toggle=True, icon='MOD_MIRROR')
+        column = self.layout.column(align=True)
         for note in report.notes.splitlines():
             draw_paragraph(column, context, note, 'INFO' if good else 'ERROR')
         keys = ob.data.shape_keys.key_blocks if ob.type == 'MESH' and ob.data.shape_keys is not None else {}
@@ -334,7 +336,6 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if report.limited and limit and bpy.ops.reflines.resolve.poll():
             shown = run.format_length(limit)
             self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
-        self.layout.prop(context.scene.reflection_lines.stripes, "before", toggle=True, icon='MOD_MIRROR')
         if ob.type == 'MESH':
             self.draw_mesh_remedies(ob, report)
         if report.worse:
