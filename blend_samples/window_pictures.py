@@ -22,7 +22,7 @@ Steps = Generator[float, None, None]
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
 STRIP = ("sample", "smoothed", "camera", "stripes", "swept", "own_smoothed")  # row by row, two in each
 COLUMNS, STRIP_WIDTH, WIDTH = 2, 960, 760  # of pictures in a row; pixels of the strip, and of a single picture
-QUALITY = 60  # per cent: with it the pictures of the manual stay below what a test allows
+QUALITY = 54  # per cent: with it the pictures of the manual stay below what a test allows
 
 
 def view_picture(name: str) -> Steps:
