@@ -41,7 +41,7 @@ def dented_cylinder(angle: float) -> tuple[Array, Array, Array]:
 
 @pytest.mark.parametrize("angle", [0.1, 0.2, 0.3, 0.5])
 def test_a_dent_along_the_normal_of_a_symmetric_panel_goes(angle: float) -> None:
-    """Its vertices have no partners, for it has moved them aside: of dents at 11 and 17 degrees 0.99 and 0.51 stayed."""
+    """Its vertices have no partners, for it has moved them aside: at 11 and 17 degrees 0.99 and 0.51 stayed."""
     V, F, near = dented_cylinder(angle)
     P, report = reflines.smooth_panel(V, F, view_direction=(0, 0, 1), line_direction=(1, 0.3, 0))
     before, after = (np.linalg.norm((RADIUS - np.hypot(each[:, 0], each[:, 2]))[near]) for each in (V, P))

@@ -77,23 +77,6 @@ class BumpGain {
   const TriangleFields& hessian_;
 };
 
-// Returns the bump with the share of its height that takes most of the variation away. A fit is too high by up to 40 %
-// where a dent ends sooner than a Gaussian, for the background makes up for it: of those of a door 0.32 stayed, and
-// 0.24 so.
-Bump lower_by_gain(Bump bump, const BumpGain& gain) {
-  const double height = bump.height;
-  double best = gain.of(bump);
-  for (const double share : kRules.bump.lower) {
-    Bump lower = bump;
-    lower.height = share * height;
-    const double own = gain.of(lower);
-    if (own <= best) break;
-    best = own;
-    bump = lower;
-  }
-  return bump;
-}
-
 // Returns how much of a bump is to go, 0 to 1: none where it is wide for the piece of the surface that it is on, of
 // which it is a shape, nor where the surface around it is hardly smoother without it.
 double weigh(const Bump& bump, double largest_radius, double gain) {
@@ -124,8 +107,7 @@ BumpRemoval remove_bumps(const CurvatureVariation& variation, const MeanPlane& p
     const std::vector<Bump> found = find_bumps(samples, seeds, removed, options, progress);
     removed.clear();
     const BumpGain gain(variation, centers, samples.hessian);
-    for (const Bump& fitted : found) {
-      const Bump bump = lower_by_gain(fitted, gain);
+    for (const Bump& bump : found) {
       const double weight = weigh(bump, largest(find_nearest(centers, bump.center)), gain.of(bump));
       if (weight == 0) continue;
       removed.push_back(bump);

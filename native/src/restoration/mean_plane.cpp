@@ -32,7 +32,7 @@ HeightField MeanPlane::project(HeightField field) const {
   return field;
 }
 
-// The slope is an eigenvector of the stretch, of the eigenvalue 1 / c: g.p = c g.(S p).
+// Uses that the slope is an eigenvector of the stretch, of the eigenvalue 1 / c: g.p = c g.(S p).
 Vector MeanPlane::lower(const Vector& z, const PlanePositions& xy) const { return lift_ * (z - xy * (lift_ * slope_)); }
 
 TangentMap MeanPlane::map_to_tangent(const Vector2& slope) const {

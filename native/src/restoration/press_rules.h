@@ -40,7 +40,6 @@ struct BumpRules {
   double worth_refining = 0.7;                  // of `unexplained`: before centre and radius are refined
   double no_gain = 0.1, whole_gain = 0.35;      // of the curvature's variation around that goes: from none to all
   double gain_radius = 2.0;                     // radii: of that "around"
-  double lower[4] = {0.9, 0.8, 0.7, 0.6};       // of the fitted height: tried while more of the variation goes
   double reported = 0.5;                        // weight from which on it is counted in the report
   int rounds = 3;                               // of finding and removing
   // The fit of one candidate.
@@ -110,7 +109,7 @@ struct VerdictRules {
   int retries = 3;             // each with the triangles held that turned too far before
   double worse = 1.01;         // times its unevenness at the start: not worse to the eye
   double even = 0.97;          // times its unevenness at the start: from here to `worse` on, places that get worse stay
-  int rounds = 3;              // of finding such places, each after those before stay
+  int rounds = 3;              // of finding such places for a set, each after those before stay
   double sooner = 0.3;         // of `raised` from one round to the next
   double even_radius = 0.5;    // lengths: of such a place
   double raised = 0.3;         // rise of its mean square, over that before, with which a place stays: from all to none

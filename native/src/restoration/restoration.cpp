@@ -260,7 +260,8 @@ SmoothPanelResult Restoration::judge(const Vector& wanted, bool whole) {
   Vector move = wanted;
   if (amount_.judged) {
     Unevenness after = measure_move(move);
-    for (int round = 0; !whole && round < kRules.verdict.rounds; ++round) {
+    const int rounds = whole ? 0 : options_.set.exist() ? kRules.verdict.rounds : 1;
+    for (int round = 0; round < rounds; ++round) {
       Vector left = leave_uneven_places(move, after, kRules.verdict.raised * std::pow(kRules.verdict.sooner, round));
       if (left == move) break;
       move = std::move(left);
