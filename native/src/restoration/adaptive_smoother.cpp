@@ -142,7 +142,7 @@ void AdaptiveSmoother::factorize(Progress* progress) {
 }
 
 Vector AdaptiveSmoother::adapt(const Vector& z, Progress* progress) {
-  const Vector start = plane_.lower(z, field_.xy);
+  const Vector start = plane_.project_heights(z, field_.xy);
   return put_back(view_heights_, take_view_heights(z, start, adapt_over_plane(start, progress)));
 }
 
@@ -172,7 +172,7 @@ Vector AdaptiveSmoother::put_back(const Vector& held, Vector z) const {
 
 // Returns heights along the view (#V), of which the heights over the plane were `before` and are `after`.
 Vector AdaptiveSmoother::take_view_heights(const Vector& z, const Vector& before, const Vector& after) const {
-  return z + plane_.raise(after - before);
+  return z + plane_.change_along_view(after - before);
 }
 
 Vector AdaptiveSmoother::smooth(const Vector& z) {
@@ -182,15 +182,15 @@ Vector AdaptiveSmoother::smooth(const Vector& z) {
 }
 
 Vector AdaptiveSmoother::smooth_over_plane(const Vector& z) {
-  const Vector lowered = plane_.lower(z, field_.xy);
-  return take_view_heights(z, lowered, system_.smooth(lowered));
+  const Vector heights = plane_.project_heights(z, field_.xy);
+  return take_view_heights(z, heights, system_.smooth(heights));
 }
 
 Vector AdaptiveSmoother::smooth_further(const Vector& z, Progress* progress) {
   const EdgeWeights weight = weight_;
   const Vector open = open_;
   further_ = true;
-  take_step(plane_.lower(z, field_.xy), kRules.scale.longest * length_, progress);
+  take_step(plane_.project_heights(z, field_.xy), kRules.scale.longest * length_, progress);
   weight_ = weight;
   open_ = open;
   return smooth_over_plane(z);

@@ -27,13 +27,15 @@ MeanPlane::MeanPlane(const HeightField& field)
 
 HeightField MeanPlane::project(HeightField field) const {
   field.xy *= stretch_;
-  field.z = lower(field.z, field.xy);
+  field.z = project_heights(field.z, field.xy);
   field.area /= lift_;
   return field;
 }
 
 // Uses that the slope is an eigenvector of the stretch, of the eigenvalue 1 / c: g.p = c g.(S p).
-Vector MeanPlane::lower(const Vector& z, const PlanePositions& xy) const { return lift_ * (z - xy * (lift_ * slope_)); }
+Vector MeanPlane::project_heights(const Vector& z, const PlanePositions& xy) const {
+  return lift_ * (z - xy * (lift_ * slope_));
+}
 
 TangentMap MeanPlane::map_to_tangent(const Vector2& slope) const {
   const Vector2 in_view = slope_ + stretch_ * slope / lift_;

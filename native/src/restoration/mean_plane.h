@@ -27,10 +27,10 @@ class MeanPlane {
   HeightField project(HeightField field) const;
 
   // Returns heights over this plane of those along the view (#V), at places `xy` over this plane (#V x 2).
-  Vector lower(const Vector& z, const PlanePositions& xy) const;
+  Vector project_heights(const Vector& z, const PlanePositions& xy) const;
 
   // Returns the change of heights along the view that changes those over this plane by so much.
-  Vector raise(const Vector& change) const { return change / lift_; }
+  Vector change_along_view(const Vector& change) const { return change / lift_; }
 
   // Returns the map to the tangent plane where the surface has this slope over this plane.
   TangentMap map_to_tangent(const Vector2& slope) const;

@@ -212,6 +212,16 @@ class VertexGrid {
   std::map<std::pair<int, int>, std::vector<int>> cells_;
 };
 
+// Lists the vertices beside a line that have no partner across it.
+std::vector<int> list_alone(const PlanePositions& xy, double tolerance, const Images& images) {
+  std::vector<int> result;
+  for (int v = 0; v < xy.rows(); ++v) {
+    const bool beside = (images.line.mirror(xy.row(v)) - xy.row(v).transpose()).norm() > tolerance;
+    if (beside && images.partner(v) == v) result.push_back(v);
+  }
+  return result;
+}
+
 // Mirrors heights z (#V). A dent along the normal has moved its vertices aside, off the places of their partners: there
 // the mirrored surface is its nearest vertex's tangent plane. Without it the skirt of a dent was taken out, where the
 // partners were near enough, and the edge left around its core was kept as design: of dents in a cylinder that slopes
@@ -219,12 +229,12 @@ class VertexGrid {
 MirroredHeights mirror_heights(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal,
                                const Images& images) {
   MirroredHeights result{images.partner, z(images.partner)};
+  const std::vector<int> alone = list_alone(xy, kRules.symmetry.pair_tolerance * diagonal, images);
+  if (alone.empty()) return result;
   const VertexGrid grid(xy, kRules.symmetry.deepest * diagonal);
   const PlanePositions gradient = find_vertex_gradients(xy, F, z);
-  for (int v = 0; v < z.size(); ++v) {
+  for (const int v : alone) {
     const Vector2 place = images.line.mirror(xy.row(v));
-    const double across = (place - xy.row(v).transpose()).norm();
-    if (images.partner(v) != v || across <= kRules.symmetry.pair_tolerance * diagonal) continue;
     const int near = grid.find_nearest(place);
     if (near < 0) continue;
     result.image(v) = near;

@@ -43,7 +43,7 @@ TEST(MeanPlane, ChangesOfHeightReturn) {
   const MeanPlane plane(field);
   const HeightField over = plane.project(field);
   const Vector moved = field.z + Vector::LinSpaced(field.vertex_count(), -0.1, 0.2);
-  const Vector returned = field.z + plane.raise(plane.lower(moved, over.xy) - over.z);
+  const Vector returned = field.z + plane.change_along_view(plane.project_heights(moved, over.xy) - over.z);
   EXPECT_LT((returned - moved).cwiseAbs().maxCoeff(), 1e-14);
 }
 
@@ -58,7 +58,7 @@ TEST(MeanPlane, MapsToTheTangentPlane) {
     const int a = field.F(t, 0), b = field.F(t, 1);
     const double length = std::hypot((field.xy.row(a) - field.xy.row(b)).norm(), field.z(a) - field.z(b));
     EXPECT_NEAR((map.stretch * (over.xy.row(a) - over.xy.row(b)).transpose()).norm(), length, 1e-13);
-    EXPECT_NEAR(map.lift * plane.lower(Vector::Ones(1), PlanePositions::Zero(1, 2))(0),
+    EXPECT_NEAR(map.lift * plane.project_heights(Vector::Ones(1), PlanePositions::Zero(1, 2))(0),
                 1.0 / std::sqrt(1.0 + in_view.row(t).squaredNorm()), 1e-13);
   }
 }
