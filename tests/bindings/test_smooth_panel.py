@@ -179,20 +179,38 @@ def test_a_limit_below_the_flaw_leaves_the_lines_more_even_than_they_were(bonnet
                zip(report.unevenness_before, report.unevenness_after, strict=True))
 
 
-def test_the_verdict_tells_by_place_what_was_healed_and_what_was_kept() -> None:
-    """A dent is healed, a step of the design beside it is kept, and of the calm rest there is nothing to tell."""
+def dent_beside_step() -> tuple[np.ndarray, np.ndarray]:
     plane, F = grid(60)
     x, y = plane.T
-    V = np.column_stack([plane, 0.2 * (1 - (x - 0.5)**2 - (y - 0.5)**2) + 0.01 * np.tanh((x - 0.75) / 0.02)
-                         - 0.0013 * np.exp(-((x - 0.3)**2 + (y - 0.5)**2) / 0.03**2)])
+    z = (0.2 * (1 - (x - 0.5)**2 - (y - 0.5)**2) + 0.01 * np.tanh((x - 0.75) / 0.02)
+         - 0.0013 * np.exp(-((x - 0.3)**2 + (y - 0.5)**2) / 0.03**2))
+    return np.column_stack([plane, z]), F
+
+
+def test_the_verdict_tells_by_place_what_was_healed_and_what_was_kept() -> None:
+    """A dent is healed, a step of the design beside it is kept, and of the calm rest there is nothing to tell."""
+    V, F = dent_beside_step()
     told = reflines.smooth_panel(V, F, view_direction=PANEL_VIEW, line_direction=PANEL_LINE)[1]
-    at, area = plane[F].mean(axis=1), 0.5 / 3600
+    at, area = V[F, :2].mean(axis=1), 0.5 / 3600
     from_dent = np.hypot(at[:, 0] - 0.3, at[:, 1] - 0.5)
     assert told.verdict[from_dent < 0.02].min() > 0.95 and told.verdict[abs(at[:, 0] - 0.75) < 0.02].max() < -0.95
     assert np.abs(told.verdict[(from_dent > 0.2) & (at[:, 0] < 0.45)]).max() < 0.05
     assert area * told.verdict.clip(0).sum() == pytest.approx(told.healed.area, abs=0.01)
     kept = reflines.smooth_panel(V, F, strength=0.0, view_direction=PANEL_VIEW, line_direction=PANEL_LINE)[1].verdict
     assert kept.max() <= 0 and kept.min() == told.verdict.min()
+
+
+def test_the_verdict_is_told_for_the_same_places_where_a_face_is_turned_away() -> None:
+    """The flaws are looked for in the faces that are seen, which are fewer then: their numbers are not those of F."""
+    V, F = dent_beside_step()
+    F = np.random.default_rng(2).permutation(F)
+    turned = F.copy()
+    turned[0] = turned[0, ::-1]
+    lights = {"view_direction": PANEL_VIEW, "line_direction": PANEL_LINE}
+    whole, without = (reflines.smooth_panel(V, faces, **lights)[1] for faces in (F, turned))
+    assert without.region.turned_away == 1 and without.verdict[0] == 0
+    away = np.linalg.norm(V[F].mean(1) - V[F[0]].mean(0), axis=1) > 0.3
+    np.testing.assert_allclose(without.verdict[away], whole.verdict[away], atol=0.1)
 
 
 def test_the_report_tells_of_the_region_and_where_the_lines_stray(bonnet: tuple[np.ndarray, np.ndarray]) -> None:

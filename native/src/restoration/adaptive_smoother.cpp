@@ -161,6 +161,12 @@ Vector AdaptiveSmoother::adapt_over_plane(const Vector& start, Progress* progres
   return system_.smooth(put_back(field_.z, removal.heights));
 }
 
+Vector AdaptiveSmoother::design() const {
+  Vector result = Vector::Zero(field_.silhouette.size());
+  result(field_.source) = design_;
+  return result;
+}
+
 // Returns heights (#V) with those of the vertices that stay as they are: what was taken away there is not gone, and the
 // surface beside it is to run on smoothly.
 Vector AdaptiveSmoother::put_back(const Vector& held, Vector z) const {
