@@ -1,5 +1,6 @@
 #include "python/bind.h"
 #include "reflines/errors.h"
+#include "threads/short_waits.h"
 
 namespace reflines {
 
@@ -56,4 +57,5 @@ PYBIND11_MODULE(reflines, module) {
   reflines::bind_builders(module);
   reflines::bind_line_handles(module);
   reflines::allow_only_initialized_objects(module);
+  reflines::shorten_waits();
 }
