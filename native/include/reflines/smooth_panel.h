@@ -54,7 +54,7 @@ struct SmoothPanelOptions {
   LightSet judges;         // or none: lights with eyes that take no part; see HealedFlaws::worse_for_judges
   double length = 0.0;     // size of the flaws, in units of V; 0: kAutomaticLength times the diagonal and flaw_size
   double flaw_size = 1.0;  // see length; above 0
-  double strength = 1.0;   // share of the move that is made, 0 to 1
+  double strength = 1.0;   // fraction of the move that is made, 0 to 1
   double limit = 0.0;      // no vertex moves further along the view, in units of V; 0: kAutomaticLimit times the length
   // Shares of the limit for each vertex (#V, of a cage its own): the lowest moves -1 to 0, the highest 0 to 1. Empty:
   // -1 and 1 everywhere.
@@ -77,7 +77,7 @@ inline constexpr double kWorsened = 0.1, kWorst = 0.3;
 // Tells what a press healed. The deviation of lines is how far they are from the course that they would have without
 // flaws: degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most.
 struct HealedFlaws {
-  double area = 0.0;  // share of the region's area where lines deviated visibly and most of that went
+  double area = 0.0;  // fraction of the region's area where lines deviated visibly and most of that went
   double worst_before = 0.0, worst_after = 0.0;  // deviation of the worst place of the region
   double mean_before = 0.0, mean_after = 0.0;    // likewise, root mean square over the healed area
   WorsePlace worse;
@@ -108,7 +108,7 @@ struct SmoothPanelReport {
   bool longer_waves = false;          // that may be flaws, too, were left; see Restoration::find_longer_waves
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
-  std::vector<double> seen;  // likewise: share of the region's area that its eye sees; 1 along the view
+  std::vector<double> seen;  // likewise: fraction of the region's area that its eye sees; 1 along the view
   HealedFlaws healed;        // of a press that was not applied nothing: the worst place after it is that before
   Vector stray;    // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
                    // result, radians / length

@@ -131,7 +131,8 @@ WorstSpot make_spot(const Peak& peak, const Scene& scene, const HeightField& fie
                  .degrees = deviation.worst(peak.top),
                  .view = deviation.view(peak.top),
                  .light = deviation.light(peak.top),
-                 .front_light = deviation.front_light(peak.top)};
+                 .front_light = deviation.front_light(peak.top),
+                 .triangles = {}};
   double area = 0;
   for (const int t : peak.triangles) {
     const Vector3 cross = scene.cross(field.source[t]);
@@ -178,7 +179,8 @@ PanelInspection inspect(const Positions& V, const Triangles& F, const Positions&
   const UsedVertices used = find_used_vertices(F, static_cast<int>(V.rows()));
   const Scene scene = make_scene(V, used, options);
   const std::vector<Vector3> axes = rows_of(lines);
-  const ImagePlane frame = choose_frame(views.row(0), axes, {.directions = axes});
+  const ImagePlane frame =
+      choose_frame(views.row(0), axes, {.directions = axes, .blocker_vertices = {}, .blockers = {}});
   const HeightField field = make_field(scene, frame);
   PanelInspection result;
   const double diagonal = bounding_box_diagonal(scene.panel_vertices());

@@ -296,7 +296,8 @@ std::vector<MirrorPartners> find_mirror_partners(const PlanePositions& xy, const
 
 MirrorEvidence find_mirror_evidence(const PlanePositions& xy, const Vector& z, const Triangles& F, double diagonal,
                                     double length, const PlanePositions& axes) {
-  MirrorEvidence result{.correction = Vector::Zero(z.size()), .design = Mask::Constant(z.size(), false)};
+  MirrorEvidence result{
+      .correction = Vector::Zero(z.size()), .design = Mask::Constant(z.size(), false), .partners = {}};
   std::vector<Images> found = find_images(xy, z, diagonal, axes);
   if (found.empty()) return result;
   result.vertices = static_cast<int>(z.size());

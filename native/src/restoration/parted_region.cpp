@@ -105,7 +105,7 @@ Mask find_facing(const Whole& whole, size_t own) {
 // Builds the panel of some triangles of the region, which follows other parts where it faces them (#V).
 JointPanel build_panel(const Whole& whole, const std::vector<int>& triangles, const Mask& facing, const Vector3& view,
                        const Vector3& lines) {
-  JointPanel panel{whole.V, whole.F(triangles, Eigen::all), view, lines, whole.options};
+  JointPanel panel{whole.V, whole.F(triangles, Eigen::all), view, lines, whole.options, {}, {}, {}};
   SmoothPanelOptions& options = panel.options;
   options.border.resize(whole.V.rows(), Border::kClamped);
   const UsedVertices used = find_used_vertices(panel.F, static_cast<int>(whole.V.rows()));
