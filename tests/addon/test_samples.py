@@ -112,8 +112,8 @@ def test_opens_with_its_numbers(name: str) -> None:
     assert settings.camera == bpy.context.scene.camera and settings.stripes.show
 
 
-OPERATORS = {"Smooth": "smooth", "Direction and Density": "direction", "Warp": "warp", "Image Pattern": "pattern",
-             "Re-solve": "resolve"}
+OPERATORS = {"Smooth Lines": "smooth", "Direction and Density": "direction", "Warp Lines": "warp",
+             "Image Pattern": "pattern", "Re-solve": "resolve"}
 EXPECTED = re.compile(r"\*([\w -]+)\*: (\w+), ([\d.]+) % left, ([\d.]+) mm")
 
 
