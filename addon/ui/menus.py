@@ -1,17 +1,15 @@
 """The tools in Blender's menus, in its context menus, and in two pie menus: one presses them, the other drags them."""
 import bpy
 
+from . import rows
+
 # (operator, icon), in the order of the work.
-DRAGGED = (
-    ("reflines.smooth", 'MOD_SMOOTH'), ("reflines.direction", 'ALIGN_JUSTIFY'),
-    ("reflines.warp", 'MOD_LATTICE'), ("reflines.pattern", 'IMAGE_DATA'),
-)
-TOOLS = (*DRAGGED, ("reflines.pull_line", 'VIEW_PAN'), ("reflines.fair_brush", 'BRUSH_DATA'),
-         ("reflines.fit", 'MOD_SHRINKWRAP'))
+DESIGN = (("reflines.direction", 'ALIGN_JUSTIFY'), ("reflines.warp", 'MOD_LATTICE'), ("reflines.pattern", 'IMAGE_DATA'))
+TOOLS = (("reflines.smooth", 'MOD_SMOOTH'), ("reflines.pull_line", 'VIEW_PAN'), ("reflines.fair_brush", 'BRUSH_DATA'),
+         *DESIGN, ("reflines.fit", 'MOD_SHRINKWRAP'))
 SETUP = (
     ("reflines.set_up", 'VIEW_CAMERA'), ("reflines.look_through", 'HIDE_OFF'),
     ("reflines.sweep_light", 'LIGHT_SUN'), ("reflines.sweep_view", 'ORIENTATION_GIMBAL'),
-    ("reflines.export_film", 'RENDER_ANIMATION'),
     ("reflines.add_warp_lattice", 'LATTICE_DATA'),
 )
 BEFORE = "scene.reflection_lines.stripes.before"
@@ -29,6 +27,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.separator()
         for name, icon in SETUP:
             layout.operator(name, icon=icon)
+        layout.operator_menu_enum("reflines.light_set", "action")
         layout.operator_menu_enum("reflines.set_border", "border")
         layout.separator()
         stripes = context.scene.reflection_lines.stripes
@@ -37,19 +36,32 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.prop_menu_enum(stripes, "mode")
         layout.operator("reflines.resolve", icon='FILE_REFRESH')
         layout.operator("reflines.bake_handles", icon='KEYTYPE_KEYFRAME_VEC')
+        layout.operator("reflines.delete_handles", icon='X')
         layout.operator("reflines.check", icon='CHECKMARK')
         layout.operator("reflines.inspect", icon='VIEWZOOM')
         layout.operator("reflines.show_spot", icon='FRAME_NEXT')
+        layout.menu("VIEW3D_MT_reflines_export", icon='EXPORT')
+
+
+class VIEW3D_MT_reflines_export(bpy.types.Menu):
+    bl_label = "Export"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draws an entry for each file that can be written."""
+        layout = self.layout
+        layout.operator("reflines.export_table", text="Export Table of Check")
+        layout.operator("reflines.export_table", text="Export Table of Spots").table = 'SPOTS'
+        layout.operator("reflines.export_sheet")
+        layout.operator("reflines.export_film")
 
 
 def draw_drags(layout: bpy.types.UILayout) -> None:
     """Draws an entry for each tool that starts its drag, and those that are always dragged."""
-    for name, icon in DRAGGED:
+    layout.operator("reflines.smooth", text="Drag Smooth Lines", icon='MOD_SMOOTH').follow_mouse = True
+    rows.draw_hands(layout)
+    for name, icon in DESIGN:
         label = getattr(bpy.ops.reflines, name.partition(".")[2]).get_rna_type().name
         layout.operator(name, text=f"Drag {label}", icon=icon).follow_mouse = True
-    layout.operator("reflines.pull_line", icon='VIEW_PAN')
-    layout.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
-    layout.operator("reflines.fair_brush", icon='BRUSH_DATA')
 
 
 class VIEW3D_MT_reflines_drag(bpy.types.Menu):
@@ -90,7 +102,8 @@ def draw_entry(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
 
 PLACES = ("VIEW3D_MT_edit_mesh", "VIEW3D_MT_edit_mesh_context_menu", "VIEW3D_MT_object",
           "VIEW3D_MT_object_context_menu")
-CLASSES = (VIEW3D_MT_reflines_drag, VIEW3D_MT_reflines_drag_pie, VIEW3D_MT_reflines, VIEW3D_MT_reflines_pie)
+CLASSES = (VIEW3D_MT_reflines_drag, VIEW3D_MT_reflines_drag_pie, VIEW3D_MT_reflines_export, VIEW3D_MT_reflines,
+           VIEW3D_MT_reflines_pie)
 
 
 def register() -> None:

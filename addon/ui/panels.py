@@ -173,9 +173,7 @@ class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
     def draw_hands(self, layout: bpy.types.UILayout) -> None:
         """Draws what is done by hand where the press has left something."""
         hands = layout.column(align=True)
-        hands.operator("reflines.fair_brush", icon='BRUSH_DATA')
-        hands.operator("reflines.pull_line", icon='VIEW_PAN')
-        hands.operator("reflines.pull_line", text="Draw Highlight", icon='GREASEPENCIL').draws = True
+        rows.draw_hands(hands)
         hands.operator("reflines.sweep_light", icon='LIGHT_SUN')
 
     def draw_problem(self, layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
@@ -321,6 +319,8 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
             return
         draw_paragraph(column, context, report.headline(), 'CHECKMARK' if good else 'INFO')
         self.layout.prop(context.scene.reflection_lines.stripes, "before", toggle=True, icon='MOD_MIRROR')
+        if ob.type == 'MESH':
+            self.draw_mesh_remedies(ob, report)  # above the notes, which would push them out of a low window
         column = self.layout.column(align=True)
         for note in report.notes.splitlines():
             draw_paragraph(column, context, note, 'INFO' if good else 'ERROR')
@@ -336,8 +336,6 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
         if report.limited and limit and bpy.ops.reflines.resolve.poll():
             shown = run.format_length(limit)
             self.layout.operator("reflines.resolve", text=f"Solve with Limit {shown}").limit = limit
-        if ob.type == 'MESH':
-            self.draw_mesh_remedies(ob, report)
         if report.worse:
             self.layout.operator("reflines.show_spot", text="Show Worse Place", icon='VIEWZOOM').worse = True
         if report.longer_waves and run.operator:

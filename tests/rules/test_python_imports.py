@@ -67,7 +67,7 @@ MAY_IMPORT = {
     "ui.divider_gizmo": {"state.compared", "overlay.legend"},
     "ui.gizmos": {*SCENE, "interactive.drag", "state.last_panels"},
     "ui.handle_gizmos": {"model", "interactive.drag", "interactive.handle_tracing"},
-    "ui.menus": set(),
+    "ui.menus": {"ui.rows"},
     "ui.keymaps": set(),
     "ui.manual_links": set(),
     "ui.toolbar": {"ui.automatic_values", "ui.gizmos", "ui.handle_gizmos", "overlay.brush_circle"},

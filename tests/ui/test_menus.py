@@ -61,7 +61,7 @@ def test_menus_open_in_both_modes(driver: window.Window) -> Steps:
         scenes.look_from_above()
     for _ in range(2):
         for name in ("VIEW3D_MT_reflines", "VIEW3D_MT_reflines_pie", "VIEW3D_MT_reflines_drag",
-                     "VIEW3D_MT_reflines_drag_pie"):
+                     "VIEW3D_MT_reflines_drag_pie", "VIEW3D_MT_reflines_export"):
             yield from opened_without_error(driver, name)
         with driver.override():
             scenes.edit_inner(ob)
