@@ -10,7 +10,7 @@ TOOLS = (("reflines.smooth", 'MOD_SMOOTH'), ("reflines.pull_line", 'VIEW_PAN'), 
 SETUP = (
     ("reflines.set_up", 'VIEW_CAMERA'), ("reflines.look_through", 'HIDE_OFF'),
     ("reflines.sweep_light", 'LIGHT_SUN'), ("reflines.sweep_view", 'ORIENTATION_GIMBAL'),
-    ("reflines.add_warp_lattice", 'LATTICE_DATA'),
+    ("reflines.add_warp_lattice", 'LATTICE_DATA'), ("reflines.live_warp", 'PLAY'),
 )
 BEFORE = "scene.reflection_lines.stripes.before"
 DRAG_PIE = "VIEW3D_MT_reflines_drag_pie"
@@ -27,7 +27,7 @@ class VIEW3D_MT_reflines(bpy.types.Menu):
         layout.separator()
         for name, icon in SETUP:
             layout.operator(name, icon=icon)
-        layout.operator_menu_enum("reflines.light_set", "action")
+        layout.operator("reflines.light_set", text="Light Set: Walk Around", icon='LIGHT')
         layout.operator_menu_enum("reflines.set_border", "border")
         layout.separator()
         stripes = context.scene.reflection_lines.stripes

@@ -75,6 +75,12 @@ def test_every_operator_has_its_section_in_the_manual() -> None:
     assert operators() == told, f"without a section: {operators() - told}; without an operator: {told - operators()}"
 
 
+def test_every_operator_is_in_a_menu() -> None:
+    """Blender's search finds no others."""
+    menus = "".join((ROOT / f"addon/ui/{name}.py").read_text() for name in ("menus", "rows", "stripe_presets"))
+    assert not {name for name in operators() if f'"{name}"' not in menus}
+
+
 def test_the_manual_shows_all_pictures_that_the_package_carries() -> None:
     folder = ROOT / MANUAL.parent
     shown = {folder / target for target in targets(MANUAL)}
