@@ -3,10 +3,9 @@ import bpy
 
 from ..blender import units
 from ..interactive import running_operators
-from ..interactive.brush_stroke import BrushStroke
+from ..interactive.brush_stroke import BrushedObject, BrushStroke
 from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
-from ..read import scene_objects
 from ..solver import limited_solve
 from ..solver.brush import WIDEST, Brush
 from ..ui.tool_properties import BrushSettings, limit_property, lights_property
@@ -55,50 +54,63 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         return running_operators.begin(self, context)
 
     def begin_stroke(self, context: bpy.types.Context) -> None:
-        self.find_subjects(context)  # refuses where no face is selected
-        ob = scene_objects.find_active_object(context)
+        """Takes the objects below the brush; refuses where none can be brushed."""
         self.result = 'MESH'
-        patch = self.gather_patch(ob)
-        self.subject, self.stroke = ob.name, BrushStroke(context, ob, patch, self.border)
-        length = context.scene.reflection_lines.length or WIDEST * patch.diagonal
-        limit = limited_solve.choose_limit(patch, SolveSettings(self.border, length, self.limit, limit_length=length))
+        objects, self.refusals = [], []
+        for ob in self.find_subjects(context):  # refuses where no face is selected
+            try:
+                objects.append(BrushedObject(context, ob, self.gather_patch(ob), self.border))
+            except Refusal as refusal:
+                self.refusals.append(refusal)
+        if not objects:
+            raise self.refusals[0]
+        self.stroke = BrushStroke(context.area, objects)
+        widest = max((each.patch for each in objects), key=lambda patch: patch.diagonal)
+        length = context.scene.reflection_lines.length or WIDEST * widest.diagonal
+        limit = limited_solve.choose_limit(widest, SolveSettings(self.border, length, self.limit, limit_length=length))
         self.brush = Brush(0.0, self.strength, length, limit, 1 if self.lights == 'SINGLE' else 2)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        ob = bpy.data.objects.get(self.subject)
-        if self.stroke.is_changed(ob):
-            return self.end(context, f"{self.subject} was changed during the stroke: it is left as it is now")
+        changed = self.stroke.find_changed()
+        if changed is not None:
+            self.stroke.restore()
+            return self.end(context, f"{changed.name} was changed during the stroke: it is left as it is now")
         if event.type in CANCEL_KEYS and event.value == 'PRESS':
-            self.stroke.restore(ob)
+            self.stroke.restore()
             return self.end(context, "")
         if event.type in {'MOUSEMOVE', 'INBETWEEN_MOUSEMOVE'}:
             try:
                 self.paint(context, event)
             except Refusal as refusal:
-                self.stroke.restore(ob)
+                self.stroke.restore()
                 return self.end(context, str(refusal))
         elif event.type == 'LEFTMOUSE' and event.value == 'RELEASE':
-            return self.finish(context, ob)
+            return self.finish(context)
         return {'RUNNING_MODAL'}
 
     def paint(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
         """Dabs up to where the mouse is, with less strength while Shift is held, and by a tablet's pressure."""
         strength = self.strength * (LOWER if event.shift else 1.0) * (event.pressure if event.is_tablet else 1.0)
         brush = Brush(0.0, strength, self.brush.length, self.brush.limit, self.brush.families)
-        self.stroke.move_to(bpy.data.objects[self.subject], event.mouse_x, event.mouse_y, self.size, brush)
+        self.stroke.move_to(event.mouse_x, event.mouse_y, self.size, brush)
         context.area.header_text_set(f"{self.describe(context)}   ({self.bl_label})")
 
     def describe(self, context: bpy.types.Context) -> str:
         moved = units.format_length(self.stroke.largest_move, context.scene, precision=2)
-        return f"Moved at most {moved}" if self.stroke.dabs else "No vertices under the brush that can move"
+        return f"Moved at most {moved}" if self.stroke.list_moved() else "No vertices under the brush that can move"
 
-    def finish(self, context: bpy.types.Context, ob: bpy.types.Object) -> set[str]:
-        if not self.stroke.dabs:
-            return self.end(context, f"{ob.name}: the brush met no vertices that can move: make it larger (F), or "
+    def finish(self, context: bpy.types.Context) -> set[str]:
+        moved = self.stroke.list_moved()
+        for refusal in self.refusals:
+            self.report({'WARNING'}, f"Left as it is: {refusal}")
+        if not moved:
+            names = ", ".join(each.name for each in self.stroke.objects)
+            return self.end(context, f"{names}: the brush met no vertices that can move: make it larger (F), or "
                             "paint on the selected faces")
-        solution = self.stroke.summarize()
+        solutions = [(bpy.data.objects[each.name], each.summarize()) for each in moved]
         self.end(context, "")
-        self.record_solution(ob, solution)
+        for ob, solution in solutions:
+            self.record_solution(ob, solution)
         context.area.tag_redraw()  # the last drawing was of the mesh alone
         return {'FINISHED'}
 
@@ -112,14 +124,12 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         return {'CANCELLED'}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Restores the mesh when Blender exits or opens another file."""
+        """Restores the meshes when Blender exits or opens another file."""
         self.take_back(context)
 
     def take_back(self, context: bpy.types.Context) -> None:
-        """Restores the mesh, where nobody else has changed it, and ends the stroke."""
-        ob = bpy.data.objects.get(self.subject)
-        if not self.stroke.is_changed(ob):
-            self.stroke.restore(ob)
+        """Restores the meshes, where nobody else has changed them, and ends the stroke."""
+        self.stroke.restore()
         self.end(context, "")
 
 

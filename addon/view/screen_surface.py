@@ -1,4 +1,6 @@
 """Finds the place of a surface under the mouse, and the pixels of points."""
+from collections.abc import Sequence
+
 import bpy
 import numpy as np
 
@@ -57,10 +59,24 @@ class ScreenSurface:
         across = np.linalg.norm(matrix[:2, :3], axis=1).mean()
         return float(matrix[3] @ np.append(point, 1.0)) / across
 
+    def measure_depth(self, point: np.ndarray) -> float:
+        """Returns the depth of a point (3): less is nearer to the viewer."""
+        return float(project_points(compute_pixel_matrix(self.find_view()), point[None])[1][0, 1])
+
     def find_pixels(self, points: np.ndarray) -> np.ndarray:
         """Returns where points (#P x 3) are seen, in pixels of the window: #P x 2, NaN behind the viewer."""
         view = self.find_view()
         return project_points(compute_pixel_matrix(view), points)[0] + [view[0].x, view[0].y]
+
+
+def find_foremost(surfaces: Sequence[ScreenSurface], x: float, y: float, *,
+                  stay: bool = False) -> tuple[int, np.ndarray] | None:
+    """Returns the foremost place of several surfaces at a pixel, as find_place does: the number of its surface, and the
+    point (3, world space).
+    """
+    found = [(number, each.surface.read_point(place, each.surface.start)) for number, each in enumerate(surfaces)
+             if (place := each.find_place(x, y, stay=stay)) is not None]
+    return min(found, key=lambda each: surfaces[each[0]].measure_depth(each[1]), default=None)
 
 
 def compute_pixel_matrix(view: View) -> np.ndarray:

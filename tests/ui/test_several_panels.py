@@ -1,0 +1,113 @@
+"""The hands on two panels that meet over a gap, both in Edit Mode: what each of them does to both."""
+from collections.abc import Generator
+
+import bpy
+import numpy as np
+import scenes
+import window
+
+Steps = Generator[float, None, None]
+CELLS, GAP = 24, 0.016
+LEFT, RIGHT = (260, 290), (400, 290)  # pixels; the gap is seen between them
+BRUSH = "reflection_lines.fair_brush"
+
+
+def rippled(x: float, y: float) -> float:
+    return scenes.crown(x, y) + 5e-4 * np.sin(24.0 * x + 1.0) * np.cos(20.0 * y)
+
+
+def half(name: str, low: float, high: float) -> bpy.types.Object:
+    columns, rows = np.linspace(low, high, CELLS + 1), np.linspace(-1.0, 1.0, 2 * CELLS + 1)
+    points = [(x, y, rippled(x, y)) for y in rows for x in columns]
+    faces = [(i, i + 1, i + CELLS + 2, i + CELLS + 1) for j in range(2 * CELLS)
+             for i in range(j * (CELLS + 1), j * (CELLS + 1) + CELLS)]
+    return scenes.linked(name, points, faces)
+
+
+def start(driver: window.Window, selected: tuple[str, ...] = ("Door", "Wing")) -> dict[str, np.ndarray]:
+    """Builds both panels, of which the door is active, and returns their positions."""
+    with driver.override():
+        if bpy.context.mode != 'OBJECT':
+            bpy.ops.object.mode_set(mode='OBJECT')
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+        panels = half("Wing", 0.5 * GAP, 1.0), half("Door", -1.0, -0.5 * GAP)
+        scenes.look_from_above()
+        scenes.edit(*panels)
+        for ob in panels:
+            scenes.select_faces(ob, lambda _face, name=ob.name: name in selected)
+        bpy.context.scene.reflection_lines.stripes.show = True
+        bpy.context.scene.reflection_lines.stripes.scope = 'VISIBLE'
+        driver.region_3d().view_perspective = 'ORTHO'
+        driver.region_3d().view_rotation = (1.0, 0.0, 0.0, 0.0)
+        driver.region_3d().view_distance = 4.0
+        bpy.ops.ed.undo_push(message="Start")
+    return shown()
+
+
+def shown() -> dict[str, np.ndarray]:
+    return {name: scenes.positions(bpy.data.objects[name]) for name in ("Door", "Wing")}
+
+
+def find_moved(before: dict[str, np.ndarray]) -> list[str]:
+    now = shown()
+    return [name for name, was in before.items() if not np.array_equal(now[name], was)]
+
+
+def take_tool(driver: window.Window, name: str) -> Steps:
+    driver.move(*LEFT)
+    with driver.override():
+        assert bpy.ops.wm.tool_set_by_id(name=name) == {'FINISHED'}
+    driver.redraw()
+    yield 0.3
+
+
+def paint(driver: window.Window, first: tuple[int, int], last: tuple[int, int]) -> Steps:
+    brush = bpy.context.scene.reflection_lines.brush
+    brush.size, brush.strength = 60, 0.8
+    driver.move(*first)
+    yield 0.1
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield 0.2
+    for share in (0.25, 0.5, 0.75, 1.0):
+        driver.move(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))
+        yield 0.2
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.3
+
+
+def comes_back(driver: window.Window, before: dict[str, np.ndarray]) -> Steps:
+    """One undo takes back what both have moved."""
+    driver.key('Z', ctrl=True)
+    for _ in range(100):
+        yield 0.05
+        if not find_moved(before):
+            return
+    raise AssertionError("the meshes do not come back")
+
+
+def test_a_stroke_smooths_what_it_passes_over_on_both_sides_of_the_gap(driver: window.Window) -> Steps:
+    before = start(driver)
+    yield from take_tool(driver, BRUSH)
+    yield from window.take_picture(driver, "brush_gap_before")
+    yield from paint(driver, LEFT, RIGHT)
+    yield from window.take_picture(driver, "brush_gap")
+    assert find_moved(before) == ["Door", "Wing"]
+    for name, was in before.items():
+        rim = np.abs(was[:, 0]) < GAP
+        assert rim.any() and np.array_equal(shown()[name][rim], was[rim])
+        report = bpy.data.objects[name].reflection_lines.report
+        assert report.score_after < 0.9 * report.score_before, report.headline()
+    yield from comes_back(driver, before)
+
+
+def test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone(driver: window.Window) -> Steps:
+    before = start(driver)
+    yield from take_tool(driver, BRUSH)
+    yield from paint(driver, RIGHT, (430, 290))
+    assert find_moved(before) == ["Wing"]
+    yield from comes_back(driver, before)
+
+
+window.run(test_a_stroke_smooths_what_it_passes_over_on_both_sides_of_the_gap,
+           test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone)
