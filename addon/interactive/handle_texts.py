@@ -18,6 +18,11 @@ def describe_keys(*, draws: bool, nearest: bool) -> str:
     return f"{press}   {KEYS_TEXT}"
 
 
+def describe_other(name: str, other: str) -> str:
+    """Says how the lines of another panel than that of a session are pulled."""
+    return f"Handles belong to one object, here {name}: press Enter, make {other} active, and pull its lines"
+
+
 def count_handles(handles: Handles) -> str:
     return f"{len(handles)} handle{'s' if len(handles) != 1 else ''}"
 

@@ -18,6 +18,7 @@ from ..overlay.handle_marks import Marks
 from ..read import read_mesh
 from ..solver.read_solved import read_triangles
 from ..view import screen_surface
+from ..view.screen_surface import ScreenSurface
 from . import drag_handles, drawn_lines, handle_texts
 from .drag import Drag, DraggedOperator
 from .drag_handles import PRECISE_FACTOR
@@ -33,8 +34,11 @@ STROKE_STEP = 4.0  # pixels between two points of a stroke
 class LineDrag(Drag):
     """One session, from the press of the button until Enter or Esc."""
 
-    def __init__(self, tool: DraggedOperator, context: bpy.types.Context, handles: Handles) -> None:
-        self.handles = handles
+    def __init__(self, tool: DraggedOperator, context: bpy.types.Context, handles: Handles,
+                 others: dict[str, ScreenSurface]) -> None:
+        """Takes the handles to begin with, and by their names the panels that are edited as well."""
+        self.handles, self.others = handles, others
+        self.beside = ""  # the one of them that was pressed on last
         self.history = HandleHistory()
         self.tracing = HandleTracing(self)
         self.surface: LineSurface | None = None  # once the first lines are there
@@ -156,6 +160,7 @@ class LineDrag(Drag):
         self.look()
         if self.taken is not None:
             (self.near, self.dot), self.taken = self.taken, None
+        self.beside = self.find_other(x, y) if self.near is None and self.hover is None else ""
         if self.near is None and self.hover is None:
             return
         self.history.keep(self.handles)
@@ -169,6 +174,11 @@ class LineDrag(Drag):
         made = self.make_pin(self.hover) if pins else self.make_pull(self.hover)
         if self.add_handle(made) and not pins:
             self.held = len(self.handles) - 1
+
+    def find_other(self, x: float, y: float) -> str:
+        """Returns the name of another edited panel at a place (pixels of the window); empty where there is none."""
+        found = screen_surface.find_foremost(list(self.others.values()), x, y)
+        return "" if found is None else list(self.others)[found[0]]
 
     def add_handle(self, made: LineHandle | None) -> bool:
         """Adds a handle, for which history has a step; takes that back where there is none, or no room."""
@@ -349,7 +359,8 @@ class LineDrag(Drag):
         self.refresh_marks()
         index = self.find_active()
         conflicts = self.tool.builder.conflicts
-        first = self.problem or (conflicts[0] if conflicts else self.describe_gain(context))
+        other = handle_texts.describe_other(self.patches[0].name, self.beside) if self.beside else ""
+        first = other or self.problem or (conflicts[0] if conflicts else self.describe_gain(context))
         about = f"   {self.describe_handle(context, index)}" if index is not None and self.surface is not None else ""
         count = handle_texts.count_handles(self.handles)
         self.show_texts(context, f"{first}   {count}{about}   ({self.tool.bl_label})",

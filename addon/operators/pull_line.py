@@ -1,4 +1,5 @@
 """Pull Line."""
+from contextlib import suppress
 from dataclasses import replace
 
 import bpy
@@ -18,6 +19,8 @@ from ..model.solution import Solution
 from ..read import scene_objects
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
+from ..view import screen_surface
+from ..view.screen_surface import ScreenSurface
 from ..ui.tool_properties import PullSettings
 from .dragged_tool import DraggedTool
 
@@ -97,15 +100,33 @@ where a line was pulled to; Enter applies them all"""
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         self.follow_mouse = True
         self.begin(context, in_session=True)
+        presses = event.type == 'LEFTMOUSE' and event.value == 'PRESS'
+        self.pressed = (event.mouse_x, event.mouse_y) if presses and self.taken[0] < 0 else None
         result = super().invoke(context, event)
-        if 'RUNNING_MODAL' in result and event.type == 'LEFTMOUSE' and event.value == 'PRESS':
+        if 'RUNNING_MODAL' in result and presses:
             self.drag.take_dot(*self.taken)
             self.drag.press(event.mouse_x, event.mouse_y, pins=event.alt)
         return result
 
     def begin_drag(self, context: bpy.types.Context) -> LineDrag:
+        others = self.choose_object(context)
         ob = self.find_subjects(context)[0]
-        return LineDrag(self, context, self.find_stored_handles(ob))
+        return LineDrag(self, context, self.find_stored_handles(ob), others)
+
+    def choose_object(self, context: bpy.types.Context) -> dict[str, ScreenSurface]:
+        """Makes that of several objects in Edit Mode active whose selected faces were pressed on, as Blender does with
+        what is clicked; returns the others by their names, to tell of them.
+        """
+        subjects, found = scene_objects.find_subjects(context), {}
+        for ob in subjects if len(subjects) > 1 else ():
+            with suppress(Refusal):  # this one cannot be pulled
+                found[ob.name] = screen_surface.build_screen(self.gather_patch(ob), context.area)
+        if self.pressed is not None and found:
+            foremost = screen_surface.find_foremost(list(found.values()), *self.pressed)
+            if foremost is not None:
+                context.view_layer.objects.active = bpy.data.objects[list(found)[foremost[0]]]
+        found.pop(scene_objects.find_active_object(context).name, None)
+        return found
 
     def find_stored_handles(self, ob: bpy.types.Object) -> Handles:
         """Returns the handles that are kept with the object. Where the mesh is as they left it, the session begins with

@@ -41,7 +41,7 @@ def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:
     else:
         faces = region_faces.read_stored_region(mesh)
     if not faces.any():
-        raise Refusal(scene_objects.describe_empty_selection([ob]) if ob.mode == 'EDIT'
+        raise Refusal(scene_objects.describe_unselected(ob) if ob.mode == 'EDIT'
                       else region_faces.describe_missing_region(ob))
     return faces
 

@@ -82,6 +82,14 @@ def describe_empty_selection(editing: list[bpy.types.Object]) -> str:
     return f"No faces are selected{also}: select the faces of the panel"
 
 
+def describe_unselected(ob: bpy.types.Object) -> str:
+    """Says that an edited mesh has no selected face, and which of the others in Edit Mode have some."""
+    others = [each.name for each in list_edited_meshes(bpy.context) if each.data.total_face_sel > 0]
+    if not others:
+        return describe_empty_selection([ob])
+    return f"{ob.name} is active and has no selected faces: select some, or make {others[0]} active"
+
+
 def explain_missing_region(context: bpy.types.Context, ob: bpy.types.Object) -> str:
     """Says why there are no faces that a tool could work on; empty where there are."""
     if ob.mode != 'EDIT':

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ..model.line_surface import LineSurface, Place, PlaneTriangles
+from ..model.line_surface import LineState, LineSurface, Place, PlaneTriangles
+from ..model.patch import Patch
 from . import view_region
 from .view_region import View
 
@@ -67,6 +68,11 @@ class ScreenSurface:
         """Returns where points (#P x 3) are seen, in pixels of the window: #P x 2, NaN behind the viewer."""
         view = self.find_view()
         return project_points(compute_pixel_matrix(view), points)[0] + [view[0].x, view[0].y]
+
+
+def build_screen(patch: Patch, area: bpy.types.Area) -> ScreenSurface:
+    """Builds what finds a patch under the mouse."""
+    return ScreenSurface(LineSurface(LineState(patch.V, np.zeros(len(patch.V))), patch.F, np.eye(3)), area)
 
 
 def find_foremost(surfaces: Sequence[ScreenSurface], x: float, y: float, *,
