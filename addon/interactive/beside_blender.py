@@ -1,7 +1,10 @@
 """The modal part of operators whose work is done in short steps beside Blender. Esc ends it."""
+from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
 import bpy
+import numpy as np
+from mathutils import Matrix
 
 from ..model.refusal import Refusal, report_refusals
 from ..model.steps import Steps, finish
@@ -57,8 +60,13 @@ class BesideBlender(Generic[Outcome]):
         if outcome is None:
             context.workspace.status_text_set(self.job.describe())
             return {'RUNNING_MODAL'}
-        running_operators.end(self, context)
-        return self.take_outcome(outcome)
+        result = {'CANCELLED'}
+        try:
+            result = self.take_outcome(outcome)
+        finally:
+            if result != {'RUNNING_MODAL'}:
+                running_operators.end(self, context)
+        return result
 
     def take_back(self, context: bpy.types.Context) -> None:
         """Ends the work without a result."""
@@ -70,11 +78,27 @@ class BesideBlender(Generic[Outcome]):
         self.take_back(context)
 
 
+@dataclass(frozen=True)
+class PanelShape:
+    """A panel as it was when an operator began."""
+    name: str
+    shape: np.ndarray  # #vertices x 3 float32
+    matrix: Matrix
+
+
 class PanelWork(BesideBlender[Outcome]):
-    """An operator that looks at the active panel: what it finds is refused where the panel was changed meanwhile. An
-    outcome has a `refusal`, empty where there is a result.
+    """An operator that looks at panels one after the other: what it finds is refused where the panel was changed
+    meanwhile. An outcome has a `refusal`, empty where there is a result.
     """
-    verb: str  # what is done with the panel: "check"
+    verb: str  # what is done with a panel: "check"
+
+    def find_panels(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Returns the panels, which is the active one."""
+        return [scene_objects.read_active_object(context)]
+
+    def look_at(self, context: bpy.types.Context, ob: bpy.types.Object) -> Outcome:
+        """Looks at a panel at once; refuses what cannot be looked at."""
+        raise NotImplementedError
 
     def build_job(self, context: bpy.types.Context, ob: bpy.types.Object) -> Job[Outcome]:
         """Reads the panel, and begins; refuses what cannot be looked at."""
@@ -83,27 +107,55 @@ class PanelWork(BesideBlender[Outcome]):
     def store(self, ob: bpy.types.Object, outcome: Outcome) -> None:
         raise NotImplementedError
 
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        results = [self.look_at_once(context, ob) for ob in self.find_panels(context)]
+        return {'FINISHED'} if {'FINISHED'} in results else {'CANCELLED'}
+
+    @report_refusals
+    def look_at_once(self, context: bpy.types.Context, ob: bpy.types.Object) -> set[str]:
+        self.store(ob, self.look_at(context, ob))
+        return {'FINISHED'}
+
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Works beside Blender, which goes on meanwhile."""
-        is_in_view = context.area is not None and context.area.type == 'VIEW_3D'
-        return self.begin_job(context) if is_in_view else self.execute(context)
+        if context.area is None or context.area.type != 'VIEW_3D':
+            return self.execute(context)
+        self.left = [PanelShape(ob.name, read_mesh.read_shown_coordinates(ob), ob.matrix_world.copy())
+                     for ob in self.find_panels(context)]
+        result = self.begin_next(context)
+        return running_operators.begin(self, context, TICK_INTERVAL) if result == {'RUNNING_MODAL'} else result
+
+    def begin_next(self, context: bpy.types.Context) -> set[str]:
+        """Begins with the next panel that can be looked at; ends where none is left."""
+        result = {'CANCELLED'}
+        while self.left and result == {'CANCELLED'}:
+            self.panel = self.left.pop(0)
+            result = self.begin_job(context)
+        return result
 
     @report_refusals
     def begin_job(self, context: bpy.types.Context) -> set[str]:
-        ob = scene_objects.read_active_object(context)
-        self.job = self.build_job(context, ob)
-        self.panel, self.shape, self.matrix = ob.name, read_mesh.read_shown_coordinates(ob), ob.matrix_world.copy()
-        return running_operators.begin(self, context, TICK_INTERVAL)
+        self.job = self.build_job(context, self.find_unchanged())
+        return {'RUNNING_MODAL'}
+
+    def find_unchanged(self) -> bpy.types.Object:
+        """Returns the object at work; refuses where it was changed since the operator began."""
+        ob, panel = bpy.data.objects.get(self.panel.name), self.panel
+        if ob is None or ob.matrix_world != panel.matrix or not last_checks.has_shape(ob, panel.shape):
+            raise Refusal(f"{panel.name} was changed while it was {self.verb}ed: {self.verb} it again")
+        return ob
+
+    def take_outcome(self, outcome: Outcome) -> set[str]:
+        result = self.take_panel(bpy.context, outcome)
+        following = self.begin_next(bpy.context)
+        return following if following == {'RUNNING_MODAL'} else result
 
     @report_refusals
-    def take_outcome(self, outcome: Outcome) -> set[str]:
-        ob = bpy.data.objects.get(self.panel)
+    def take_panel(self, context: bpy.types.Context, outcome: Outcome) -> set[str]:
         if outcome.refusal:
             raise Refusal(outcome.refusal)
-        if ob is None or ob.matrix_world != self.matrix or not last_checks.has_shape(ob, self.shape):
-            raise Refusal(f"{self.panel} was changed while it was {self.verb}ed: {self.verb} it again")
-        self.store(ob, outcome)
-        for area in bpy.context.window.screen.areas:
+        self.store(self.find_unchanged(), outcome)
+        for area in context.window.screen.areas:
             area.tag_redraw()
         return {'FINISHED'}
 

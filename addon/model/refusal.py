@@ -8,12 +8,12 @@ class Refusal(Exception):
     """One sentence for the user: what, how many, what to do."""
 
 
-def report_refusals(execute: Callable[[Any, Any], set[str]]) -> Callable[[Any, Any], set[str]]:
+def report_refusals(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
     """Makes the method of an operator report a refusal, or why a file cannot be written, and end as cancelled."""
     @wraps(execute)
-    def reporting(self: Any, context: Any) -> set[str]:
+    def reporting(self: Any, context: Any, *more: Any) -> set[str]:
         try:
-            return execute(self, context)
+            return execute(self, context, *more)
         except (Refusal, OSError) as error:
             self.report({'ERROR'}, str(error))
             return {'CANCELLED'}

@@ -9,7 +9,7 @@ from ..model import check_table
 from ..model.check_table import TableRow
 from ..model.beside import Neighbors
 from ..model.patch import Patch, compute_bounds
-from ..model.refusal import Refusal, report_refusals
+from ..model.refusal import Refusal
 from ..model.steps import Steps, finish
 from ..model.view import View
 from ..native_call import run_now
@@ -35,12 +35,16 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
     def poll(cls, context: bpy.types.Context) -> bool:
         return scene_objects.has_panel(cls, context)
 
-    @report_refusals
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        ob = scene_objects.read_active_object(context)
+    def find_panels(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Returns the active object, or all in Edit Mode that have selected faces or a last run, that one last."""
+        active = scene_objects.read_active_object(context)
+        edited = scene_objects.list_edited_meshes(context) if active.mode == 'EDIT' else ()
+        found = [ob for ob in edited if ob.data.total_face_sel > 0 or solve_history.find_last_solve(ob.name_full)]
+        return sorted(found, key=lambda ob: (ob == active, ob.name)) or [active]
+
+    def look_at(self, context: bpy.types.Context, ob: bpy.types.Object) -> CheckOutcome:
         request, reading = self.read_request(context, ob)
-        self.store(ob, run_now(check_job.measure(request, finish(reading))))
-        return {'FINISHED'}
+        return run_now(check_job.measure(request, finish(reading)))
 
     def read_request(self, context: bpy.types.Context,
                      ob: bpy.types.Object) -> tuple[CheckRequest, Steps[Neighbors]]:

@@ -5,9 +5,9 @@ from bpy.props import EnumProperty
 from ..interactive import running_operators
 from ..interactive.beside_blender import PanelWork
 from ..interactive.inspection_job import InspectionJob, InspectionOutcome, InspectionRequest
-from ..model.refusal import Refusal, report_refusals
+from ..model.refusal import Refusal
 from ..native_call import run_now
-from ..read import gather, read_checked, scene_objects
+from ..read import gather, read_checked
 from ..read.mesh_checks import Purpose
 from ..solver import live_optimizer, panel_inspection
 from ..solver.panel_inspection import Inspected
@@ -34,14 +34,10 @@ of the set. Nothing is changed; Esc cancels"""
     def poll(cls, context: bpy.types.Context) -> bool:
         return view_and_light.has_seen_panel(cls, context)
 
-    @report_refusals
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        ob = scene_objects.read_active_object(context)
+    def look_at(self, context: bpy.types.Context, ob: bpy.types.Object) -> InspectionOutcome:
         request = self.build_request(context, ob)
         with live_optimizer.convert_native_errors(request.patch):
-            found = run_now(panel_inspection.inspect_surface(request.wanted))
-        self.store(ob, InspectionOutcome(found))
-        return {'FINISHED'}
+            return InspectionOutcome(run_now(panel_inspection.inspect_surface(request.wanted)))
 
     def build_request(self, context: bpy.types.Context, ob: bpy.types.Object) -> InspectionRequest:
         """Reads the region, all around it, and the view; refuses what cannot be inspected."""

@@ -1,5 +1,5 @@
-"""Draws the last check of the active object: seams that are better than before green, worse ones red, others grey,
-and a dot at each worst place, red or, where it is beyond the mark as before, orange.
+"""Draws the last checks of the active object and of all in Edit Mode: seams that are better than before green, worse
+ones red, others grey, and a dot at each worst place, red or, where it is beyond the mark as before, orange.
 """
 from dataclasses import dataclass, field
 
@@ -20,55 +20,54 @@ DOT_RIM_COLOR = (1.0, 1.0, 1.0, 1.0)
 
 @dataclass
 class CheckCache:
-    """The lines of the check drawn last."""
-    check: DrawnCheck | None = None
-    lines: SurfaceLines = surface_lines.NOTHING
+    """The lines of the checks drawn last, by the full name of the object."""
+    shown: dict[str, tuple[DrawnCheck, SurfaceLines]] = field(default_factory=dict)
     handles: list = field(default_factory=list)
 
 
 _cache = CheckCache()
 
 
-def find_drawn(context: bpy.types.Context) -> tuple[bpy.types.Object, DrawnCheck] | None:
-    """Returns the active object and its check; None where nothing of it is drawn in this view."""
-    ob = context.view_layer.objects.active
-    if ob is None or not context.space_data.overlay.show_overlays or not ob.visible_get(viewport=context.space_data):
-        return None
-    check = last_checks.find_check(ob.name_full)
-    return None if check is None else (ob, check)
+def find_drawn(context: bpy.types.Context) -> list[tuple[bpy.types.Object, DrawnCheck]]:
+    """Returns the objects whose checks are drawn in this view, with these."""
+    active = context.view_layer.objects.active
+    if active is None or not context.space_data.overlay.show_overlays:
+        return []
+    found = context.objects_in_mode if active.mode == 'EDIT' else [active]
+    return [(ob, check) for ob in found if ob.visible_get(viewport=context.space_data)
+            and (check := last_checks.find_check(ob.name_full)) is not None]
+
+
+def build_seams(check: DrawnCheck) -> SurfaceLines:
+    return surface_lines.build_lines({color: check.segments[check.change == change].reshape(-1, 3)
+                                      for change, color in COLORS.items()})
 
 
 def draw_seams() -> None:
     """Draws the seams in a viewport (POST_VIEW), after the stripes."""
-    found = find_drawn(bpy.context)
-    if found is None:
-        return
-    ob, check = found
-    if _cache.check is not check:
-        _cache.lines = surface_lines.build_lines({color: check.segments[check.change == change].reshape(-1, 3)
-                                                  for change, color in COLORS.items()})
-        _cache.check = check
-    surface_lines.draw_lines(bpy.context, ob, _cache.lines)
+    for ob, check in find_drawn(bpy.context):
+        if ob.name_full not in _cache.shown or _cache.shown[ob.name_full][0] is not check:
+            _cache.shown[ob.name_full] = check, build_seams(check)
+        surface_lines.draw_lines(bpy.context, ob, _cache.shown[ob.name_full][1])
 
 
 def draw_worst() -> None:
     """Draws the dots at the worst places in a viewport (POST_PIXEL)."""
-    context, found = bpy.context, find_drawn(bpy.context)
-    if found is None:
-        return
-    ob, check = found
-    scale, matrix = context.preferences.system.ui_scale, np.array(ob.matrix_world)
-    for point, worse in zip(check.worst @ matrix[:3, :3].T + matrix[:3, 3], check.worse, strict=True):
-        place = location_3d_to_region_2d(context.region, context.region_data, point.tolist())
-        if place is not None:
-            handle_marks.draw_ring(place, 0.0, scale * (DOT_RADIUS + DOT_RIM), DOT_RIM_COLOR)
-            color = COLORS["worse"] if worse else BEYOND_COLOR
-            handle_marks.draw_ring(place, 0.0, scale * DOT_RADIUS, (*color, 1.0))
+    context = bpy.context
+    scale = context.preferences.system.ui_scale
+    for ob, check in find_drawn(context):
+        matrix = np.array(ob.matrix_world)
+        for point, worse in zip(check.worst @ matrix[:3, :3].T + matrix[:3, 3], check.worse, strict=True):
+            place = location_3d_to_region_2d(context.region, context.region_data, point.tolist())
+            if place is not None:
+                handle_marks.draw_ring(place, 0.0, scale * (DOT_RADIUS + DOT_RIM), DOT_RIM_COLOR)
+                color = COLORS["worse"] if worse else BEYOND_COLOR
+                handle_marks.draw_ring(place, 0.0, scale * DOT_RADIUS, (*color, 1.0))
 
 
 @bpy.app.handlers.persistent
 def clear_cache(*_: object) -> None:
-    _cache.check, _cache.lines = None, surface_lines.NOTHING
+    _cache.shown.clear()
 
 
 def register() -> None:
