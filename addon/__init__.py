@@ -20,7 +20,7 @@ NAMES = (
     "model.creases", "model.line_curve", "model.mirror", "model.orientation", "model.refusal",
     "model.triangulation", "model.mesh_snapshot", "model.surroundings",
     "model.line_handle", "model.kept_handles", "model.bake_frames", "model.line_run", "model.nearest_line",
-    "model.line_surface", "model.patch", "model.region_patch", "model.cage",
+    "model.line_surface", "model.patch", "model.meeting", "model.region_patch", "model.cage",
     "model.view", "model.light_set", "model.solution", "model.surface",
     "model.steps", "model.canvas", "model.panel_picture", "model.film", "model.sheet",
     "targets.falloff", "targets.crossed", "targets.direction", "targets.fit", "targets.mirror_target",

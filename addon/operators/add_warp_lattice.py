@@ -1,6 +1,7 @@
 """The operator Add Warp Lattice."""
 import bpy
 
+from ..model import meeting
 from ..model.refusal import report_refusals
 from ..read import gather, region_faces, scene_objects
 from ..solver import live_optimizer
@@ -32,13 +33,15 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()
         settings = context.scene.reflection_lines
-        ob = scene_objects.find_subjects(context)[0]
-        patch = gather.gather_patch(ob, as_mesh=True)
+        ob, *others = sorted(scene_objects.find_subjects(context),
+                             key=lambda each: each != scene_objects.find_active_object(context))
+        patch, *beside = [gather.gather_patch(each, as_mesh=True) for each in (ob, *others)]
         seen = facing.read_patch_view(context.scene, patch)
         frame = live_optimizer.compute_image_frame(patch, seen)
         region_faces.keep_region(ob, patch)
-        added = warp_lattice.add_lattice(patch, frame, columns=self.columns, rows=self.rows, kind=self.interpolation,
-                            collection=scene_objects.find_editable_collection(context))
+        added = warp_lattice.add_lattice(meeting.find_meeting(patch, beside), frame, columns=self.columns,
+                                         rows=self.rows, kind=self.interpolation,
+                                         collection=scene_objects.find_editable_collection(context))
         settings.warp.lattice = added
         added.reflection_lines.panel = ob
         return {'FINISHED'}

@@ -7,6 +7,8 @@ import numpy as np
 
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
+from ..model.solution import Solution
+from ..read import scene_objects
 from ..read.read_falloff import read_falloff
 from ..solver.live_optimizer import BuildTarget
 from ..targets import direction
@@ -39,8 +41,8 @@ direction, or lie closer together"""
                 Handle("strength", "Strength", per_pixel=1.0 / 300.0, low=0.0, high=1.0),
                 *build_radius_handle(self.centre))
 
-    def read_falloff(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Falloff | None:
-        return read_falloff(self, context.scene, ob, patch)
+    def read_falloff(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> Falloff | None:
+        return read_falloff(self, context.scene, scene_objects.find_active_object(context), self.find_meeting(patch))
 
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         scene = context.scene
@@ -48,6 +50,11 @@ direction, or lie closer together"""
             self.find_line_direction(scene), self.angle, self.density, self.density_end, self.axis,
             strength=self.strength, falloff=self.read_falloff(context, ob, patch))
         return partial(direction.build_direction_target, settings=settings)
+
+    def describe_solution(self, solution: Solution) -> tuple[str, ...]:
+        if self.direction != 'MEAN' or len(self.find_meeting(solution.patch)) == 1:
+            return ()
+        return ("Straight takes the mean direction of each panel's own lines: At an Angle gives all panels one",)
 
     def find_line_direction(self, scene: bpy.types.Scene) -> np.ndarray | None:
         """Returns the direction of straight lines in world space, where zero stands for the region's mean; None where

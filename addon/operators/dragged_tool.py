@@ -69,7 +69,8 @@ class DraggedTool(SolveTool):
 
     def choose_automatic(self, name: str, patch: Patch) -> float:
         """Returns the value that 0 stands for in a property."""
-        return {"length": solve.choose_length(patch, 0.0), "radius": choose_radius(patch)}.get(name, 0.0)
+        return {"length": solve.choose_length(patch, 0.0),
+                "radius": choose_radius(self.find_meeting(patch))}.get(name, 0.0)
 
     def keeps_crossed(self) -> bool:
         """Returns whether the lines that cross the wanted ones count."""

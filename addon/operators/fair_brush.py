@@ -64,7 +64,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
                 self.refusals.append(refusal)
         if not objects:
             raise self.refusals[0]
-        self.stroke = BrushStroke(context.area, objects)
+        self.stroke, self.panels = BrushStroke(context.area, objects), [each.patch for each in objects]
         widest = max((each.patch for each in objects), key=lambda patch: patch.diagonal)
         length = context.scene.reflection_lines.length or WIDEST * widest.diagonal
         limit = limited_solve.choose_limit(widest, SolveSettings(self.border, length, self.limit, limit_length=length))

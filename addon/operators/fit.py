@@ -40,14 +40,13 @@ has its lines. Select that mesh, then the cage"""
         return [scene_objects.find_active_object(context)]
 
     def gather_patch(self, ob: bpy.types.Object) -> Patch:
-        return gather.gather_patch(ob, self.result, self.begin_run(ob), or_all=True,
-                                   purpose=self.choose_purpose())
-
-    def solve(self, context: bpy.types.Context, ob: bpy.types.Object) -> Solution:
         if not modifiers.is_cage(ob):
             raise Refusal(f"{ob.name} is no cage: the last modifier that is shown has to be a Subdivision Surface "
                           "with levels")
-        patch = self.gather_patch(ob)
+        return gather.gather_patch(ob, self.result, self.begin_run(ob), or_all=True,
+                                   purpose=self.choose_purpose())
+
+    def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         seen = facing.read_patch_view(context.scene, patch)
         fit = Fit(dense_mesh.read_dense_mesh(context, ob), seen.view_direction, seen.line_direction)
         settings = SolveSettings(self.border, self.read_detail_length(context.scene), math.inf,

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ..interactive.drag_handles import Handle
+from ..model import meeting
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..read import image_pixels
@@ -47,10 +48,11 @@ What no surface can show is left over: see the colour map of the residual"""
 
     def build_target(self, context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         right, up = view_and_light.read_camera_axes(context.scene.reflection_lines.camera)
-        centre = patch.center + self.offset[0] * right + self.offset[1] * up
-        settings = Pattern(
-            image_pixels.read_grey(self.chosen(context.scene)), centre, right, self.width or np.ptp(patch.V @ right),
-            self.angle, self.strength, self.blur, self.fit == 'VALUE')
+        panels = self.find_meeting(patch)  # which have one picture
+        centre = meeting.find_middle(panels) + self.offset[0] * right + self.offset[1] * up
+        width = self.width or np.ptp(np.concatenate([each.V for each in panels]) @ right)
+        settings = Pattern(image_pixels.read_grey(self.chosen(context.scene)), centre, right, width, self.angle,
+                           self.strength, self.blur, self.fit == 'VALUE')
         return partial(pattern.build_pattern_target, settings=settings)
 
     def chosen(self, scene: bpy.types.Scene) -> bpy.types.Image:

@@ -188,6 +188,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
                 self.refusals.append(refusal)
         if not gathered:
             raise self.refusals[0]
+        self.panels = [patch for patch, _ in gathered]
         return gathered
 
     def hear_refused(self, refusals: Iterable[Refusal]) -> None:

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
+from ..model import meeting
 from ..model.beside import Crossing
 from ..model.light_set import LightSet
 from ..model.patch import Patch
@@ -46,6 +47,7 @@ class SolveTool:
 
     # Whether the buttons are grey where there are no faces to work on. A press in the view would go unheard then.
     needs_faces = True
+    panels: Sequence[Patch] = ()  # of the run
     known_set: tuple[LightSet | None, ...] = ()  # once it was read
 
     border: border_property()
@@ -116,12 +118,19 @@ class SolveTool:
 
     def solve_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[Solution]:
         """Solves the objects before any is written; refuses all of them where one cannot be solved."""
-        return [self.solve(context, ob) for ob in subjects]
+        self.panels = [self.gather_patch(ob) for ob in subjects]
+        return [self.solve_patch(context, ob, patch) for ob, patch in zip(subjects, self.panels, strict=True)]
 
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
         """Gathers the patches of the objects, each with its view."""
-        patches = [self.gather_patch(ob) for ob in subjects]
-        return [(patch, self.read_view(context, patch)) for patch in patches]
+        self.panels = [self.gather_patch(ob) for ob in subjects]
+        return [(patch, self.read_view(context, patch)) for patch in self.panels]
+
+    def find_meeting(self, patch: Patch) -> list[Patch]:
+        """Returns a patch and those of this run that meet it across gaps: tools that work on all of a region take them
+        as one.
+        """
+        return meeting.find_meeting(patch, self.panels)
 
     def read_view(self, context: bpy.types.Context, patch: Patch) -> View:
         """Reads the view and the light that a patch is solved for."""
@@ -145,9 +154,6 @@ class SolveTool:
             value = getattr(holder, name)
             if value != "" or taken.type != 'ENUM':  # a changed file may hold a choice that there is not
                 setattr(self, name, value)
-
-    def solve(self, context: bpy.types.Context, ob: bpy.types.Object) -> Solution:
-        return self.solve_patch(context, ob, self.gather_patch(ob))
 
     def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
         build = self.build_target(context, ob, patch)
@@ -232,5 +238,16 @@ class SolveTool:
         unjoined = unjoined_border.find_unjoined(scene, ob, patch, within=not self.is_automatic())
         turn = shown_surface.measure_rounding(patch)
         report.merge_distance, report.rounding = unjoined.distance if unjoined.own else 0.0, turn
-        breaks = unjoined.describe() if self.border != "follow" else ()  # then the lines do not break there
-        return (*shown_surface.describe_rounding(scene, patch, turn), *breaks)
+        follows = self.border == "follow" and self.is_automatic()  # then the lines do not break there
+        breaks = () if follows else unjoined.describe()
+        return (*shown_surface.describe_rounding(scene, patch, turn), *breaks, *self.describe_apart(patch))
+
+    def describe_apart(self, patch: Patch) -> tuple[str, ...]:
+        """Says where panels that meet are solved one by one what the border does between them."""
+        beside = [each.name for each in self.find_meeting(patch)[1:]]
+        if self.border == "follow" and not self.is_automatic():
+            return ("The border Neighbours is for Smooth Lines with the automatic length: here it was Tangent",)
+        if self.border == "free" and beside:
+            return (f"The border Free moves each panel by itself: gap and step towards {', '.join(beside)} change, "
+                    "Tangent keeps them",)
+        return ()

@@ -1,4 +1,6 @@
 """The warp lattice: a Blender Lattice that lies in the image plane over a region."""
+from collections.abc import Sequence
+
 import bpy
 import numpy as np
 from mathutils import Matrix
@@ -11,17 +13,17 @@ from ..targets.warp import Lattice
 LIFT = 0.1  # of the panel's diagonal, towards the viewer: the lattice is to be seen before the panel
 
 
-def add_lattice(patch: Patch, frame: np.ndarray, *, columns: int, rows: int, kind: str,
-        collection: bpy.types.Collection) -> bpy.types.Object:
-    """Adds a lattice over the patch's extent along the image-plane axes `frame` (3 x 3, rows x, y and towards the
+def add_lattice(panels: Sequence[Patch], frame: np.ndarray, *, columns: int, rows: int, kind: str,
+                collection: bpy.types.Collection) -> bpy.types.Object:
+    """Adds a lattice over the extent of panels along the image-plane axes `frame` (3 x 3, rows x, y and towards the
     viewer).
     """
     data = bpy.data.lattices.new("Warp Lattice")
     data.points_u, data.points_v, data.points_w = columns, rows, 1
     data.interpolation_type_u = data.interpolation_type_v = data.interpolation_type_w = kind
-    seen = patch.V @ frame.T
+    seen = np.concatenate([patch.V for patch in panels]) @ frame.T
     low, high = seen.min(axis=0), seen.max(axis=0)
-    centre = np.append((low + high)[:2] / 2.0, high[2] + LIFT * patch.diagonal)
+    centre = np.append((low + high)[:2] / 2.0, high[2] + LIFT * panels[0].diagonal)
     last = np.array(data.points[-1].co)  # a lattice given more points is larger in its own space, with the middle at 0
     size = (high - low)[:2] / (2.0 * last[:2])
     matrix = np.eye(4)

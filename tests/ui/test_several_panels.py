@@ -1,8 +1,11 @@
 """The hands on two panels that meet over a gap, both in Edit Mode: what each of them does to both."""
+import sys
 from collections.abc import Generator
 
 import bpy
+import dragging
 import numpy as np
+import pulling
 import scenes
 import window
 
@@ -109,5 +112,78 @@ def test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone(drive
     yield from comes_back(driver, before)
 
 
+def pulled(driver: window.Window, tool: str, stroke: tuple[tuple[int, int], ...]) -> Generator[float, None, list[str]]:
+    """Presses over the wing while the door is active; returns what has moved once that is applied."""
+    before = start(driver)
+    yield from take_tool(driver, f"reflection_lines.{tool}")
+    yield from pulling.draw(driver, stroke)
+    assert len(pulling.session().handles) == 1 and bpy.context.view_layer.objects.active.name == "Wing"
+    yield from window.take_picture(driver, tool)
+    yield from pulling.applied(driver)
+    moved = find_moved(before)
+    yield from comes_back(driver, before)
+    return moved
+
+
+def test_a_press_pulls_or_draws_the_line_of_the_panel_that_it_lies_on(driver: window.Window) -> Steps:
+    assert (yield from pulled(driver, "pull_line", (RIGHT, (400, 294), (400, 298)))) == ["Wing"]
+    assert (yield from pulled(driver, "draw_highlight", ((360, 290), (385, 291), (410, 292), (430, 293)))) == ["Wing"]
+
+
+def test_a_session_says_that_the_lines_of_another_panel_are_not_its_own(driver: window.Window) -> Steps:
+    before = start(driver)
+    yield from pulling.begin(driver)
+    yield from pulling.draw(driver, (RIGHT, (400, 300)))
+    header = pulling.session().texts[0]
+    assert header.startswith("Handles belong to one object, here Door: press Enter, make Wing active"), header
+    yield from window.take_picture(driver, "pull_beside")
+    yield from pulling.pull(driver, LEFT, (260, 298))
+    assert not pulling.session().texts[0].startswith("Handles belong") and find_moved(before) == ["Door"]
+    driver.key('ESC')
+    yield 0.3
+    assert not find_moved(before)
+
+
+def test_a_drag_of_direction_moves_both_and_escape_takes_both_back(driver: window.Window) -> Steps:
+    before = start(driver)
+    bpy.context.scene.reflection_lines.direction.centre = 'REGION'
+    yield from dragging.press(driver, "direction")
+    driver.move(460, 300)
+    yield from dragging.settled(driver)
+    yield from window.take_picture(driver, "direction_gap")
+    assert find_moved(before) == ["Door", "Wing"]
+    driver.key('ESC')
+    yield 0.3
+    assert not find_moved(before)
+
+
+def test_check_measures_and_draws_both(driver: window.Window) -> Steps:
+    start(driver)
+    addon = sys.modules["reflection_lines"]
+    with driver.override():
+        assert bpy.ops.reflines.check('INVOKE_DEFAULT', True) == {'RUNNING_MODAL'}
+    for _ in range(600):
+        if not addon.interactive.running_operators._running:
+            break
+        yield 0.05
+    drawn = []
+    handle = bpy.types.SpaceView3D.draw_handler_add(
+        lambda: drawn.append([ob.name for ob, _ in addon.overlay.draw_check.find_drawn(bpy.context)]), (), 'WINDOW',
+        'POST_VIEW')
+    driver.redraw()
+    while not drawn:
+        yield 0.1
+    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+    yield from window.take_picture(driver, "check_gap")
+    assert sorted(drawn[-1]) == ["Door", "Wing"]
+    for name, other in (("Door", "Wing"), ("Wing", "Door")):
+        shown, = bpy.data.objects[name].reflection_lines.check.list_shut_lines()
+        assert shown.describe().startswith(f"Shut line 1, {other}: gap 1.6 cm to 1.6 cm"), shown.describe()
+    assert driver.read_last_report().startswith("Door: ")  # the active one
+
+
 window.run(test_a_stroke_smooths_what_it_passes_over_on_both_sides_of_the_gap,
-           test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone)
+           test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone,
+           test_a_press_pulls_or_draws_the_line_of_the_panel_that_it_lies_on,
+           test_a_session_says_that_the_lines_of_another_panel_are_not_its_own,
+           test_a_drag_of_direction_moves_both_and_escape_takes_both_back, test_check_measures_and_draws_both)
