@@ -86,6 +86,10 @@ class PanelShape:
     matrix: Matrix
 
 
+def read_shape(ob: bpy.types.Object) -> PanelShape:
+    return PanelShape(ob.name, read_mesh.read_shown_coordinates(ob), ob.matrix_world.copy())
+
+
 class PanelWork(BesideBlender[Outcome]):
     """An operator that looks at panels one after the other: what it finds is refused where the panel was changed
     meanwhile. An outcome has a `refusal`, empty where there is a result.
@@ -113,6 +117,7 @@ class PanelWork(BesideBlender[Outcome]):
 
     @report_refusals
     def look_at_once(self, context: bpy.types.Context, ob: bpy.types.Object) -> set[str]:
+        self.panel = read_shape(ob)
         self.store(ob, self.look_at(context, ob))
         return {'FINISHED'}
 
@@ -120,8 +125,7 @@ class PanelWork(BesideBlender[Outcome]):
         """Works beside Blender, which goes on meanwhile."""
         if context.area is None or context.area.type != 'VIEW_3D':
             return self.execute(context)
-        self.left = [PanelShape(ob.name, read_mesh.read_shown_coordinates(ob), ob.matrix_world.copy())
-                     for ob in self.find_panels(context)]
+        self.left = [read_shape(ob) for ob in self.find_panels(context)]
         result = self.begin_next(context)
         return running_operators.begin(self, context, TICK_INTERVAL) if result == {'RUNNING_MODAL'} else result
 

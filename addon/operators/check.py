@@ -54,7 +54,9 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
         patch, positions, own = self.find_subject(ob)
         with live_optimizer.convert_native_errors(patch):
             surface = read_checked.read_checked_surface(ob, patch, positions)
-        V = surface.after[surface.F[surface.region]].reshape(-1, 3)
+        inside = np.zeros(len(surface.after), dtype=bool)
+        inside[surface.F[surface.region]] = True
+        V = surface.after[inside]
         marks = panel_check.Marks(settings.marks.gap, settings.marks.angle, settings.marks.curvature, find_limit(own))
         shut_line_marks = ShutLineMarks(find_view(context.scene, V), 2.0 * np.pi / settings.stripes.count,
                                         settings.marks.shut_line)
@@ -72,14 +74,15 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
         stored = ob.reflection_lines.check
         stored.fill([*found.rows, *own, *shut.rows], len(found.passes), int((~found.passes).sum()),
                     compared=bool(own))
-        last_checks.remember_check(ob.name_full, build_drawn(ob, found.join(shut), compared=bool(own)))
+        last_checks.remember_check(ob.name_full, build_drawn(ob, found.join(shut), self.panel.shape,
+                                                             compared=bool(own)))
         self.report({'INFO'}, f"{ob.name}: {stored.headline()}")
 
     def find_subject(self, ob: bpy.types.Object) -> tuple[Patch, np.ndarray, list[TableRow]]:
         """Returns the patch, its positions now, and the lines of the table that tell of the last run."""
-        if ob.mode == 'EDIT':
-            ob.update_from_editmode()
         last = solve_history.find_last_solve(ob.name_full)
+        if last is not None and ob.mode == 'EDIT':
+            ob.update_from_editmode()
         if last is not None and read_mesh.read_shape_before(ob, last.patch, last.positions) is not None:
             mesh_checks.refuse_flat(ob)
             patch, positions, growth = read_checked.follow_object(ob, last.patch, last.positions)
@@ -103,13 +106,15 @@ def find_view(scene: bpy.types.Scene, V: np.ndarray) -> View | None:
         return None
 
 
-def build_drawn(ob: bpy.types.Object, found: Checked, *, compared: bool) -> DrawnCheck:
-    """Takes to object space what is drawn of a check; without a run what passes counts as better, the rest as worse."""
+def build_drawn(ob: bpy.types.Object, found: Checked, shape: np.ndarray, *, compared: bool) -> DrawnCheck:
+    """Takes to object space what is drawn of a check of a mesh with these coordinates; without a run what passes counts
+    as better, the rest as worse.
+    """
     inverse = np.linalg.inv(np.array(ob.matrix_world, dtype=np.float64))
     segments, worst = (points @ inverse[:3, :3].T + inverse[:3, 3] for points in (found.segments, found.worst))
     change = found.change if compared else np.where(found.passes, "better", "worse")
     worse = found.worse if compared else np.ones(len(worst), dtype=bool)
-    return DrawnCheck(segments, change, worst, worse, read_mesh.read_shown_coordinates(ob))
+    return DrawnCheck(segments, change, worst, worse, shape)
 
 
 register, unregister = running_operators.make_registration(REFLINES_OT_check)

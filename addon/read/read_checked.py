@@ -12,10 +12,9 @@ from . import read_mesh
 
 
 def read_checked_surface(ob: bpy.types.Object, patch: Patch, positions: np.ndarray) -> CheckedSurface:
-    """Reads the surface with the patch as it was and at `positions` (#V x 3, world space), and all around it.
+    """Reads the surface with the patch as it was and at `positions` (#V x 3, world space), and all around it, from a
+    mesh that was updated from Edit Mode, which gathering the patch does.
     """
-    if ob.mode == 'EDIT':
-        ob.update_from_editmode()
     return build_cage_surface(patch, positions) if isinstance(patch, CagePatch) else read_mesh_surface(
         ob, patch, positions)
 

@@ -186,12 +186,22 @@ def tilt(right: bpy.types.Object) -> None:
     right.rotation_euler.y = 0.5
 
 
+def overlap(right: bpy.types.Object) -> None:
+    right.location.x = -0.1
+
+
+def hide_faces(right: bpy.types.Object) -> None:
+    for face in right.data.polygons:
+        face.hide = True
+
+
 def break_vertices(right: bpy.types.Object) -> None:
     right.data.vertices.foreach_set("co", np.full(3 * len(right.data.vertices), np.nan, dtype=np.float32))
     right.data.update()
 
 
-NO_NEIGHBOURS = [hide, turn_away, move_back, move_away, draw_as_wire, flatten, slide_under, tilt, break_vertices]
+NO_NEIGHBOURS = [hide, turn_away, move_back, move_away, draw_as_wire, flatten, slide_under, tilt, overlap, hide_faces,
+                 break_vertices]
 
 
 @pytest.mark.parametrize("change", NO_NEIGHBOURS, ids=lambda change: change.__name__)
@@ -207,6 +217,21 @@ def test_what_is_no_neighbour_changes_no_bit(change: Callable) -> None:
         start(left)
         assert scenes.smooth(border='clamped' if alone else 'follow') == {'FINISHED'}
         results.append(places(left))
+    assert np.array_equal(*results)
+
+
+@pytest.mark.parametrize("change", [overlap, slide_under, tilt], ids=lambda change: change.__name__)
+def test_panels_that_overlap_are_pressed_each_by_itself(change: Callable) -> None:
+    """Also where both are in Edit Mode: neither bends the other."""
+    results = []
+    for border in ('clamped', 'follow'):
+        bpy.ops.wm.read_homefile(use_empty=True)
+        right = half("Right", 0.0, 1.0, dented, 17)
+        change(right)
+        left = half("Left", -1.0, 0.0, bent)
+        start_several(left, right)
+        assert scenes.smooth(border=border) == {'FINISHED'}
+        results.append(np.concatenate([places(left), places(right)]))
     assert np.array_equal(*results)
 
 

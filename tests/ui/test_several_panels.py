@@ -2,6 +2,7 @@
 import sys
 from collections.abc import Generator
 
+import bmesh
 import bpy
 import dragging
 import numpy as np
@@ -112,14 +113,49 @@ def test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone(drive
     yield from comes_back(driver, before)
 
 
+def test_a_panel_that_cannot_be_brushed_is_named_and_the_other_is_brushed(driver: window.Window) -> Steps:
+    start(driver)
+    with driver.override():
+        edit = bmesh.from_edit_mesh(bpy.data.objects["Wing"].data)
+        bmesh.ops.reverse_faces(edit, faces=edit.faces)
+        bmesh.update_edit_mesh(bpy.data.objects["Wing"].data)
+    before = shown()
+    yield from take_tool(driver, BRUSH)
+    yield from paint(driver, (270, 290), (290, 290))
+    assert find_moved(before) == ["Door"]
+    yield from paint(driver, RIGHT, (420, 290))
+    assert "the brush met no vertices" in driver.read_last_report()
+
+
+def lines_shown() -> Steps:
+    """Waits until a session has its lines: a press before that is heard then."""
+    for _ in range(1200):
+        yield 0.05
+        if drag_module()._running and pulling.session().surface is not None:
+            return
+    raise AssertionError("no session begins")
+
+
+def drag_module() -> object:
+    return sys.modules["reflection_lines"].interactive.drag
+
+
 def pulled(driver: window.Window, tool: str, stroke: tuple[tuple[int, int], ...]) -> Generator[float, None, list[str]]:
     """Presses over the wing while the door is active; returns what has moved once that is applied."""
     before = start(driver)
     yield from take_tool(driver, f"reflection_lines.{tool}")
-    yield from pulling.draw(driver, stroke)
+    yield from pulling.move(driver, *stroke[0])
+    driver.event('LEFTMOUSE', 'PRESS')
+    yield from lines_shown()
+    for place in stroke[1:]:
+        yield from pulling.move(driver, *place)
+    driver.event('LEFTMOUSE', 'RELEASE')
+    yield 0.1
+    yield from dragging.settled(driver)
     assert len(pulling.session().handles) == 1 and bpy.context.view_layer.objects.active.name == "Wing"
     yield from window.take_picture(driver, tool)
     yield from pulling.applied(driver)
+    assert not drag_module()._running
     moved = find_moved(before)
     yield from comes_back(driver, before)
     return moved
@@ -184,6 +220,7 @@ def test_check_measures_and_draws_both(driver: window.Window) -> Steps:
 
 window.run(test_a_stroke_smooths_what_it_passes_over_on_both_sides_of_the_gap,
            test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone,
+           test_a_panel_that_cannot_be_brushed_is_named_and_the_other_is_brushed,
            test_a_press_pulls_or_draws_the_line_of_the_panel_that_it_lies_on,
            test_a_session_says_that_the_lines_of_another_panel_are_not_its_own,
            test_a_drag_of_direction_moves_both_and_escape_takes_both_back, test_check_measures_and_draws_both)
