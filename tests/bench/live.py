@@ -93,6 +93,10 @@ def press_rows(times: Times) -> list[Row]:
         rows.append(Row(f"press_over_native_{size}", press / alone, "",
                         f"{press:.0f} ms / {alone:.0f} ms on a panel with ripples and noise, in Edit Mode, by turns; "
                         f"medians of {len(times[f'press_{size}'])}"))
+        one, four = (statistics.median(times[f"{name}_{size}"]) for name in ("one_object", "four_objects"))
+        rows.append(Row(f"four_objects_over_one_{size}", four / one, "",
+                        f"{four:.0f} ms / {one:.0f} ms: the panel cut in four objects, pressed as one problem, and "
+                        f"whole, by turns; medians of {len(times[f'one_object_{size}'])}"))
     return rows
 
 

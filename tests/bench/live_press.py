@@ -1,8 +1,9 @@
-"""What a press of Smooth takes in a Blender in the background: the whole operator, and its native call alone.
+"""What a press of Smooth takes in a Blender in the background: the whole operator, its native call alone, and that over
+four objects which gaps part.
 
     blender -b --factory-startup --python tests/in_blender.py -- tests/bench/live_press.py
 
-Both are measured by turns on a panel with ripples and noise. Writes build/bench/live_press.json: name -> list of
+Each two are measured by turns on a panel with ripples and noise. Writes build/bench/live_press.json: name -> list of
 milliseconds.
 """
 import json
@@ -23,6 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SIZES = {"10k": 99, "100k": 315}  # cells a side
 REPETITIONS = 3
 NOISE = 1e-5  # root mean square, of a panel of width 2
+GAP = 0.008
 
 
 def milliseconds(work: Callable[[], object]) -> float:
@@ -67,10 +69,41 @@ def measure_press(cells: int) -> dict[str, list[float]]:
     return {"press": press, "press_native": alone}
 
 
+def build_part(name: str, x: np.ndarray, y: np.ndarray) -> bpy.types.Object:
+    """A part of the panel with ripples and noise, at these columns and rows."""
+    random = np.random.default_rng(5)
+    points = [(a, b, scenes.rippled(a, b) + NOISE * random.standard_normal()) for b in y for a in x]
+    first = (np.arange(len(y) - 1)[:, None] * len(x) + np.arange(len(x) - 1)).reshape(-1, 1)
+    return scenes.linked(name, points, (first + [0, 1, len(x) + 1, len(x)]).tolist())
+
+
+def press_parts(cells: int, parts: int) -> float:
+    """Builds the panel in parts x parts objects anew, and presses them as one problem."""
+    if bpy.context.mode != 'OBJECT':
+        scenes.object_mode()
+    for old in list(bpy.data.objects):
+        bpy.data.objects.remove(old)
+    ends = np.linspace(-1.0, 1.0, parts + 1)
+    sides = [np.linspace(low + 0.5 * GAP, high - 0.5 * GAP, cells // parts + 1)
+             for low, high in zip(ends[:-1], ends[1:], strict=True)]
+    objects = [build_part(f"Part {i}{j}", x, y) for i, x in enumerate(sides) for j, y in enumerate(sides)]
+    scenes.look_from_above()
+    scenes.edit(*objects)
+    for ob in objects:
+        scenes.select_faces(ob, lambda _face: True)
+    sys.modules["reflection_lines.state.press_cache"].clear_cache()
+    return milliseconds(lambda: scenes.smooth(border='follow'))
+
+
+def measure_parts(cells: int) -> dict[str, list[float]]:
+    turns = [(press_parts(cells, 1), press_parts(cells, 2)) for _ in range(REPETITIONS)]
+    return {name: list(times) for name, times in zip(("one_object", "four_objects"), zip(*turns, strict=True), strict=True)}
+
+
 def main() -> None:
     installation.install()
     times = {f"{name}_{size}": values for size, cells in SIZES.items()
-             for name, values in measure_press(cells).items()}
+             for name, values in (measure_press(cells) | measure_parts(cells)).items()}
     out = ROOT / "build" / "bench" / "live_press.json"
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps(times, indent=1) + "\n")
