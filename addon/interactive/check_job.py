@@ -29,6 +29,9 @@ class CheckRequest:
     shut_line_marks: ShutLineMarks
 
 
+CheckInput = tuple[CheckRequest, Neighbors]
+
+
 @dataclass(frozen=True)
 class CheckOutcome:
     """The findings of a check of borders and of shut lines, or why there are none."""
@@ -39,11 +42,13 @@ class CheckOutcome:
 
 
 class CheckJob:
-    """The work on a request, and how far it is."""
+    """The work on one check, and how far it is."""
 
-    def __init__(self, request: CheckRequest, reading: Steps[Neighbors]) -> None:
-        self.request, self.stage = request, "what lies beside, step 1 of 3"
-        self._reading: Steps[Neighbors] | None = reading
+    def __init__(self, reading: Steps[CheckInput]) -> None:
+        """Reads the panel at once, so that what cannot be checked is refused before anything begins."""
+        next(reading)
+        self.stage = "what lies beside, step 1 of 3"
+        self._reading: Steps[CheckInput] | None = reading
         self._work = BackgroundWork(self.run)
 
     def is_reading(self) -> bool:
@@ -62,11 +67,13 @@ class CheckJob:
         except StopIteration as end:
             self._reading = None
             self._work.submit(end.value)
+        except Refusal as refusal:
+            return CheckOutcome(refusal=str(refusal))
         return None
 
-    async def run(self, neighbors: Neighbors) -> CheckOutcome:
+    async def run(self, given: CheckInput) -> CheckOutcome:
         try:
-            return await measure(self.request, neighbors, self.begin_stage)
+            return await measure(*given, self.begin_stage)
         except (Refusal, native.Cancelled) as error:
             return CheckOutcome(refusal=str(error))
 

@@ -4,10 +4,9 @@ import numpy as np
 
 from ..interactive import check_job, running_operators
 from ..interactive.beside_blender import PanelWork
-from ..interactive.check_job import CheckJob, CheckOutcome, CheckRequest
+from ..interactive.check_job import CheckInput, CheckJob, CheckOutcome, CheckRequest
 from ..model import check_table
 from ..model.check_table import TableRow
-from ..model.beside import Neighbors
 from ..model.patch import Patch, compute_bounds
 from ..model.refusal import Refusal
 from ..model.steps import Steps, finish
@@ -43,27 +42,27 @@ last run, or beyond its mark; without a run the selected faces alone. Esc cancel
         return sorted(found, key=lambda ob: (ob == active, ob.name)) or [active]
 
     def look_at(self, context: bpy.types.Context, ob: bpy.types.Object) -> CheckOutcome:
-        request, reading = self.read_request(context, ob)
-        return run_now(check_job.measure(request, finish(reading)))
-
-    def read_request(self, context: bpy.types.Context,
-                     ob: bpy.types.Object) -> tuple[CheckRequest, Steps[Neighbors]]:
-        """Reads the panel, and returns the request and the reading of what lies beside; refuses what cannot be checked.
-        """
-        settings = context.scene.reflection_lines
-        patch, positions, own = self.find_subject(ob)
-        with live_optimizer.convert_native_errors(patch):
-            surface = read_checked.read_checked_surface(ob, patch, positions)
-        inside = np.zeros(len(surface.after), dtype=bool)
-        inside[surface.F[surface.region]] = True
-        V = surface.after[inside]
-        marks = panel_check.Marks(settings.marks.gap, settings.marks.angle, settings.marks.curvature, find_limit(own))
-        shut_line_marks = ShutLineMarks(find_view(context.scene, V), 2.0 * np.pi / settings.stripes.count,
-                                        settings.marks.shut_line)
-        return CheckRequest(ob.name, patch, surface, own, marks, shut_line_marks), read_beside.read_neighbors(ob, V)
+        return run_now(check_job.measure(*finish(self.read(context.scene, ob))))
 
     def build_job(self, context: bpy.types.Context, ob: bpy.types.Object) -> CheckJob:
-        return CheckJob(*self.read_request(context, ob))
+        return CheckJob(self.read(context.scene, ob))
+
+    def read(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> Steps[CheckInput]:
+        """Reads the panel in the first step, and then what lies around and beside it; refuses what cannot be checked.
+        """
+        patch, positions, own = self.find_subject(ob)
+        yield
+        with live_optimizer.convert_native_errors(patch):
+            surface = read_checked.read_checked_surface(ob, patch, positions)
+        yield
+        inside = np.zeros(len(surface.after), dtype=bool)
+        inside[surface.F[surface.region]] = True
+        V, settings = surface.after[inside], scene.reflection_lines
+        marks = panel_check.Marks(settings.marks.gap, settings.marks.angle, settings.marks.curvature, find_limit(own))
+        shut_line_marks = ShutLineMarks(find_view(scene, V), 2.0 * np.pi / settings.stripes.count,
+                                        settings.marks.shut_line)
+        neighbors = yield from read_beside.read_neighbors(ob, V)
+        return CheckRequest(ob.name, patch, surface, own, marks, shut_line_marks), neighbors
 
     def describe_end(self) -> str:
         return "Check Panel was cancelled: the last check stays"

@@ -97,7 +97,8 @@ def press_parts(cells: int, parts: int) -> float:
 
 def measure_parts(cells: int) -> dict[str, list[float]]:
     turns = [(press_parts(cells, 1), press_parts(cells, 2)) for _ in range(REPETITIONS)]
-    return {name: list(times) for name, times in zip(("one_object", "four_objects"), zip(*turns, strict=True), strict=True)}
+    one, four = map(list, zip(*turns, strict=True))
+    return {"one_object": one, "four_objects": four}
 
 
 def main() -> None:
