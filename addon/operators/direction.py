@@ -7,9 +7,9 @@ import numpy as np
 
 from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
-from ..model.solution import Solution
 from ..read import scene_objects
 from ..read.read_falloff import read_falloff
+from ..solver.common_lines import CommonLines
 from ..solver.live_optimizer import BuildTarget
 from ..targets import direction
 from ..targets.direction import Direction
@@ -24,6 +24,7 @@ class REFLINES_OT_direction(DraggedTool, FalloffSettings, DirectionSettings, bpy
 direction, or lie closer together"""
     bl_idname = "reflines.direction"
     bl_label = "Direction and Density"
+    common_of: object = None  # the panels that the common lines were asked for
 
     def find_scene_settings(self, scene: bpy.types.Scene) -> bpy.types.PropertyGroup:
         return scene.reflection_lines.direction
@@ -48,13 +49,21 @@ direction, or lie closer together"""
         scene = context.scene
         settings = Direction(
             self.find_line_direction(scene), self.angle, self.density, self.density_end, self.axis,
-            strength=self.strength, falloff=self.read_falloff(context, ob, patch))
+            strength=self.strength, falloff=self.read_falloff(context, ob, patch),
+            find_mean=None if (common := self.find_common(context, patch)) is None else common.find_gradient)
         return partial(direction.build_direction_target, settings=settings)
 
-    def describe_solution(self, solution: Solution) -> tuple[str, ...]:
-        if self.direction != 'MEAN' or len(self.find_meeting(solution.patch)) == 1:
-            return ()
-        return ("Straight takes the mean direction of each panel's own lines: At an Angle gives all panels one",)
+    def find_common(self, context: bpy.types.Context, patch: Patch) -> CommonLines | None:
+        """Returns the common course of panels that meet, which straight lines take; None of one panel alone."""
+        meeting = self.find_meeting(patch)
+        names = frozenset(each.name for each in meeting)
+        if len(meeting) == 1 or self.direction == 'PRESENT':
+            return None
+        if self.common_of is not self.panels:
+            self.common_of, self.common = self.panels, {}
+        if names not in self.common:
+            self.common[names] = CommonLines([(each, self.read_view(context, each)) for each in meeting], self.border)
+        return self.common[names]
 
     def find_line_direction(self, scene: bpy.types.Scene) -> np.ndarray | None:
         """Returns the direction of straight lines in world space, where zero stands for the region's mean; None where

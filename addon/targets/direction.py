@@ -1,4 +1,5 @@
 """The target of lines of another direction and density."""
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,8 @@ class Direction:
     axis: str = 'NONE'         # along which the density varies: 'ALONG' or 'ACROSS' the lines
     strength: float = 1.0
     falloff: Falloff | None = None
+    find_mean: Callable[[], Awaitable[np.ndarray]] | None = None  # of straight lines over several panels: the mean
+                                                                  # gradient of theta, 3; None: that of the region
 
 
 async def build_direction_target(optimizer: "native.ShapeOptimizer", settings: Direction) -> "native.Target":
@@ -31,6 +34,11 @@ async def build_direction_target(optimizer: "native.ShapeOptimizer", settings: D
     axis = compute_density_axis(optimizer, direction, settings.axis)
     wanted = {"density": settings.density, "density_end": settings.density_end if axis.any() else -1.0, "axis": axis,
               "influence": influence, "weight": compute_weight(influence)}
+    if straight and settings.find_mean is not None:
+        mean = project_to_plane(optimizer, await settings.find_mean())
+        scale = {name: wanted[name] * float(np.linalg.norm(mean)) for name in ("density", "density_end")}
+        along = direction if direction.any() else np.array([mean[1], -mean[0]])
+        return await call(native.reflines.uniform, optimizer, direction=along, relative=False, **(wanted | scale))
     if straight:
         return await call(native.reflines.uniform, optimizer, direction=direction, relative=True, **wanted)
     return await call(native.reflines.turn, optimizer, angle=settings.angle, **wanted)

@@ -625,6 +625,9 @@ def uniform(optimizer: ShapeOptimizer, *, direction: Sequence[float] = (0, 0), d
     """Builds the target of lines of one direction ((0, 0): that of the region's median) and density (a factor of the median's, or
     |grad theta| in radians / length); along `axis` the density goes linearly from density to density_end."""
 
+def median_gradient(optimizer: ShapeOptimizer, *, family: int = 0) -> np.ndarray:
+    """Returns the median of the region's field, by area (2): the gradient of the lines that `uniform` makes by itself."""
+
 def turn(optimizer: ShapeOptimizer, *, angle: float = 0.0, density: float = 1.0, density_end: float = -1.0,
          axis: Sequence[float] = (0, 0), influence: np.ndarray | None = None, weight: np.ndarray | None = None,
          family: int = 0) -> Target:

@@ -44,6 +44,10 @@ py::object uniform(ShapeOptimizer& optimizer, const Vector2& direction, double d
   });
 }
 
+py::object median_gradient(ShapeOptimizer& optimizer, int family) {
+  return call_native(optimizer, [=, &optimizer] { return optimizer.region_field(family).median_gradient(); });
+}
+
 py::object turn(ShapeOptimizer& optimizer, double angle, double density, double density_end, const Vector2& axis,
                 const Maybe& influence, const Maybe& weight, int family) {
   const TurnOptions options{angle, density, density_end, axis};
@@ -124,6 +128,7 @@ void bind_builders(py::module_& module) {
              py::arg("relative") = uniform_defaults.relative, py::arg("density_end") = uniform_defaults.density_end,
              py::arg("axis") = uniform_defaults.axis, py::arg("influence") = py::none(), py::arg("weight") = py::none(),
              py::arg("family") = 0);
+  module.def("median_gradient", &median_gradient, py::arg("optimizer"), py::kw_only(), py::arg("family") = 0);
   const TurnOptions turn_defaults;
   module.def("turn", &turn, py::arg("optimizer"), py::kw_only(), py::arg("angle") = turn_defaults.angle,
              py::arg("density") = turn_defaults.density, py::arg("density_end") = turn_defaults.density_end,

@@ -2,6 +2,7 @@
 need a mouse are in tests/ui/test_several_panels.py.
 """
 import json
+import sys
 
 import bmesh
 import bpy
@@ -83,11 +84,20 @@ def test_what_follows_no_neighbours_says_so() -> None:
     assert "here it was Tangent" not in notes(left)
 
 
-def test_straight_says_that_each_panel_has_its_own_direction() -> None:
-    left, right = start()
-    for direction in ('MEAN', 'ANGLE'):
-        assert bpy.ops.reflines.direction('EXEC_DEFAULT', True, direction=direction) == {'FINISHED'}
-        assert all(("At an Angle gives all panels one" in notes(ob)) == (direction == 'MEAN') for ob in (left, right))
+@pytest.mark.parametrize("settings", [{"direction": 'MEAN'}, {"direction": 'ANGLE', "angle": 1.3}],
+                         ids=["mean", "angle"])
+def test_straight_lines_have_one_direction_and_density_on_both(settings: dict) -> None:
+    """Each panel by itself takes its own mean: their lines would meet at an angle, and not one for one."""
+    pair = start()
+    assert bpy.ops.reflines.direction('EXEC_DEFAULT', True, **settings, centre='EVERYWHERE', border='free',
+                                      limit=10.0) == {'FINISHED'}
+    scene, addon, gradients = bpy.context.scene, sys.modules["reflection_lines"], []
+    for ob in pair:
+        patch = addon.read.gather.gather_patch(ob)
+        optimizer = addon.native_call.run_now(addon.solver.live_optimizer.build_optimizer(
+            patch, addon.view.facing.read_patch_view(scene, patch), 'free')).optimizer
+        gradients.append(addon.native.reflines.median_gradient(optimizer))
+    assert np.linalg.norm(gradients[0] - gradients[1]) < 0.01 * np.linalg.norm(gradients[0])
 
 
 def test_a_warp_moves_both_and_one_undo_takes_both_back() -> None:
@@ -99,7 +109,6 @@ def test_a_warp_moves_both_and_one_undo_takes_both_back() -> None:
     bpy.ops.ed.undo_push(message="Lattice")
     before = [places(ob) for ob in pair]
     assert bpy.ops.reflines.warp('EXEC_DEFAULT', True) == {'FINISHED'}
-    print([np.abs(places(ob) - was).max() for ob, was in zip(pair, before, strict=True)], [notes(ob) for ob in pair])
     assert all(np.abs(places(ob) - was).max() > 1e-5 for ob, was in zip(pair, before, strict=True))
     bpy.ops.ed.undo()
     assert all(np.array_equal(places(bpy.data.objects[name]), was)

@@ -184,16 +184,19 @@ def test_a_session_says_that_the_lines_of_another_panel_are_not_its_own(driver: 
 
 
 def test_a_drag_of_direction_moves_both_and_escape_takes_both_back(driver: window.Window) -> Steps:
-    before = start(driver)
-    bpy.context.scene.reflection_lines.direction.centre = 'REGION'
-    yield from dragging.press(driver, "direction")
-    driver.move(460, 300)
-    yield from dragging.settled(driver)
-    yield from window.take_picture(driver, "direction_gap")
-    assert find_moved(before) == ["Door", "Wing"]
-    driver.key('ESC')
-    yield 0.3
-    assert not find_moved(before)
+    own = bpy.context.scene.reflection_lines.direction
+    for direction in ('PRESENT', 'MEAN'):
+        before = start(driver)
+        own.direction, own.centre = direction, 'REGION'
+        yield from dragging.press(driver, "direction")
+        driver.move(460, 300)
+        yield from dragging.settled(driver)
+        yield from window.take_picture(driver, f"direction_gap_{direction}")
+        assert find_moved(before) == ["Door", "Wing"]
+        driver.key('ESC')
+        yield 0.3
+        assert not find_moved(before)
+    own.property_unset("direction")
 
 
 def test_check_measures_and_draws_both(driver: window.Window) -> Steps:
