@@ -14,6 +14,7 @@ import numpy as np
 
 import pictures
 import window
+from window import Steps
 
 HERE = pathlib.Path(__file__).resolve().parent
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
@@ -22,8 +23,6 @@ LOW, HIGH = (215, 120), (847, 668)   # corners of what is shown, pixels of the v
 WIDTH, QUALITY = 1280, 70            # of the picture: pixels, per cent
 OVERLAYS = ("show_floor", "show_axis_x", "show_axis_y", "show_cursor", "show_edges", "show_faces", "show_extras",
             "show_text", "show_outline_selected", "show_object_origins", "show_relationship_lines")
-
-Steps = Generator[float, None, None]
 
 
 def take(_: window.Window) -> Steps:

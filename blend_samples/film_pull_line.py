@@ -6,7 +6,6 @@
 """
 import pathlib
 import sys
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -15,6 +14,7 @@ import car_pictures
 import dragging
 import newcomer
 import window
+from window import Steps
 
 FOLDER = pathlib.Path(sys.argv[1])
 # Places on the bonnet, metres: of the highlight where it is straight, where it is crooked, and where the mouse rests.
@@ -23,8 +23,6 @@ RADIUS = 0.55   # of the pulls, metres
 COUNT = 110     # stripes
 ZOOM, OFFSET = 66.0, (-0.005, -0.055)  # of the camera's frame in the view
 LAST = 10       # pictures of the end
-
-Steps = Generator[float, None, None]
 
 
 def film(_: window.Window) -> Steps:

@@ -19,6 +19,7 @@ import dragging
 import newcomer
 import pictures
 import window
+from window import Steps
 
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
 COUNT, RADIUS = 110, 0.55       # stripes; metres of the pulls
@@ -33,8 +34,6 @@ LATTICE = (1.0, 0.55, 0.1)      # colour of its lines, which are black on black 
 TURNED, SHOWN = (0.75, 0.0, 0.4), 1.45  # the view of the warped bonnet: angles, and metres
 MIDDLE = (0.0, -0.05, 0.0)      # of that bonnet, in its object's space
 PANEL = "VIEW3D_PT_reflines_handles"
-
-Steps = Generator[float, None, None]
 
 
 def open_bonnet() -> Generator[float, None, window.Window]:

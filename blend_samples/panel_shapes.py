@@ -76,10 +76,6 @@ def fender(columns: int = 130, rows: int = 70) -> tuple[np.ndarray, np.ndarray, 
     return np.column_stack([clean + TWIST * -1.1 * dy * dz * near, y, z]), quads, clean
 
 
-def fender_inside(y: np.ndarray, z: np.ndarray) -> np.ndarray:
-    return (np.abs(y) < 0.40) & (z > 0.42) & (z < 0.78)
-
-
 # --- Faucet: a bent spout with dents from casting
 
 def spine(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -4,11 +4,8 @@ sidebar, and the brush.
 Run by `./run gallery` in a real window with simulated events, which takes Blender 3.4: later ones save black pictures
 under Xvfb. What is pressed is what the test of the first use presses, tests/ui/newcomer.py.
 """
-import os
 import pathlib
 import sys
-import traceback
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -17,8 +14,8 @@ import dragging
 import newcomer
 import pictures
 import window
+from window import Steps
 
-Steps = Generator[float, None, None]
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
 STRIP = ("sample", "smoothed", "camera", "stripes", "swept", "own_smoothed")  # row by row, two in each
 COLUMNS, STRIP_WIDTH, WIDTH = 2, 960, 760  # of pictures in a row; pixels of the strip, and of a single picture
@@ -102,7 +99,7 @@ def paint_a_stroke() -> Steps:
     yield from view_picture("fair_brush")
 
 
-def take_all() -> Steps:
+def take_all(_: window.Window) -> Steps:
     yield from paint_a_stroke()
     yield from newcomer.use_sample(view_picture)
     yield from newcomer.use_own_model(view_picture)
@@ -114,17 +111,5 @@ def take_all() -> Steps:
         pictures.shrink(FOLDER / f"{source}.png", FOLDER / f"{name}.jpg", width, QUALITY)
 
 
-def all_steps() -> Steps:
-    """Ends Blender after the last step; one that is not ended waits for a user for ever."""
-    code = 1
-    try:
-        yield from take_all()
-        code = 0
-    except BaseException:  # noqa: BLE001  (a Blender that is not ended waits for a user for ever)
-        traceback.print_exc()
-    sys.stdout.flush()
-    os._exit(code)
-
-
 FOLDER.mkdir(parents=True, exist_ok=True)
-window.start(all_steps())
+window.start(window.all_steps((take_all,)))

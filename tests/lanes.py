@@ -167,7 +167,7 @@ def window_command(width: int = 1280, height: int = 900, display: int = 99) -> l
 TOGETHER = (
     ("reinstall",),
     ("hostile",),
-    ("drag", "drag_cages", "drag_meshes", "drag_tools", "draw_nearest", "drawn_lines", "handle_gizmos"),
+    ("drag", "drag_meshes", "drag_tools", "draw_nearest", "drawn_lines", "handle_gizmos"),
     ("compare", "check", "stripe_modes", "stripes_edit", "look_through", "toolbar"),
     ("borders", "buttons", "light", "menus", "panels"),
     ("bake_handles", "follow_selected_edges", "inspect", "redo", "sidebar"),

@@ -10,10 +10,8 @@ view, light, `count` of stripes and the version of Blender; for the flawed and t
 after each tool (#V x 3), with the seconds that each took; and for each of these shapes the nearest place on the clean
 panel of every vertex of the region (#R x 3) with its triangle (#R).
 """
-import os
 import sys
 import time
-import traceback
 from collections.abc import Callable, Generator
 from pathlib import Path
 
@@ -24,8 +22,8 @@ from mathutils.bvhtree import BVHTree
 
 import studio
 import window
+from window import Steps
 
-Steps = Generator[float, None, None]
 SAMPLES = Path(__file__).resolve().parents[2] / "blend_samples"
 REPEATS = (1, 2, 3, 5, 7, 10, 14, 20, 28, 40, 56, 80, 100)
 RUNS = 3
@@ -249,18 +247,10 @@ def press_panel(path: Path) -> Steps:
     print(f"{path.stem}: {len(F)} triangles, {region.sum()} in the region", flush=True)
 
 
-def all_steps(folder: Path) -> Steps:
-    """Ends Blender after the last step; one that is not ended waits for a user for ever."""
-    code = 1
-    try:
-        for path in sorted(folder.glob("*.npz")):
-            if not path.stem.endswith(SHAPES):
-                yield from press_panel(path)
-        code = 0
-    except BaseException:  # noqa: BLE001  (a Blender that is not ended waits for a user for ever)
-        traceback.print_exc()
-    sys.stdout.flush()
-    os._exit(code)
+def press_all(_: window.Window) -> Steps:
+    for path in sorted(Path(sys.argv[1]).resolve().glob("*.npz")):
+        if not path.stem.endswith(SHAPES):
+            yield from press_panel(path)
 
 
-window.start(all_steps(Path(sys.argv[1]).resolve()))
+window.start(window.all_steps((press_all,)))

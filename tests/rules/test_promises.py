@@ -58,17 +58,14 @@ def promises() -> list[str]:
 
 
 def is_run(name: str) -> bool:
-    """Whether a lane of `./run test` runs a test of this name: FILE, or FILE::FUNCTION of Python; in windows those that
-    are handed over."""
+    """Whether a lane of `./run test` runs a test of this name: FILE, or FILE::FUNCTION of Python."""
     path, _, function = name.partition("::")
     if not (ROOT / path).is_file() or path.split("/")[1] not in {"native", "bindings", "addon", "ui", "rules"}:
         return False
     if not function:
         return True
-    source = (ROOT / path).read_text()
-    handed_over = path.split("/")[1] != "ui" or function in source[source.index("window.run("):]
-    return handed_over and any(isinstance(node, ast.FunctionDef) and node.name == function
-                               for node in ast.parse(source).body)
+    return function.startswith("test_") and any(isinstance(node, ast.FunctionDef) and node.name == function
+                                                for node in ast.parse((ROOT / path).read_text()).body)
 
 
 def test_every_promise_names_tests_that_are_there_and_run() -> None:

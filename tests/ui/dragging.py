@@ -1,13 +1,12 @@
 """What tests of drags share: a panel to drag, the press of the button, and waiting until solves are done."""
 import sys
-from collections.abc import Generator
 
 import bpy
 import numpy as np
 import scenes
 import window
+from window import Steps
 
-Steps = Generator[float, None, None]
 PATIENCE = 60.0  # seconds for a solve on a busy machine
 
 

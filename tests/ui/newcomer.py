@@ -10,8 +10,8 @@ from bpy_extras import view3d_utils
 import sidebar
 import window
 from dragging import ended, settled, shown
+from window import Steps
 
-Steps = Generator[float, None, None]
 Note = Callable[[str], Steps]  # what is done after a step, with its name
 SAMPLE = Path(__file__).resolve().parents[2] / "blend_samples" / "car.blend"
 PANELS = ("Body", "Bonnet", "Doors")

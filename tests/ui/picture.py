@@ -7,6 +7,7 @@ import gpu
 import numpy as np
 import scenes
 import window
+from window import Steps
 
 CELLS = 40
 COUNT, WIDTH = 40, 0.5
@@ -15,8 +16,6 @@ SOFT_EDGE = 0.25  # of a period to each side: softness 1 at width 0.5, wider tha
 # Blender's own overlays; the switch of all of them stays on, for the stripes go by it.
 OVERLAYS = ("show_floor", "show_axis_x", "show_axis_y", "show_axis_z", "show_ortho_grid", "show_text", "show_cursor",
             "show_outline_selected", "show_object_origins", "show_relationship_lines", "show_extras")
-
-Steps = Generator[float, None, None]
 
 
 def prepare(driver: window.Window, ob: bpy.types.Object) -> None:
@@ -46,6 +45,13 @@ def fresh_panel(driver: window.Window, name: str) -> bpy.types.Object:
     return ob
 
 
+def striped_panel(driver: window.Window, name: str) -> bpy.types.Object:
+    """The only panel of the scene, with stripes that a picture can be compared with."""
+    ob = fresh_panel(driver, name)
+    prepare(driver, ob)
+    return ob
+
+
 def captured(driver: window.Window) -> Generator[float, None, np.ndarray]:
     """Linear brightness (height x width, bottom row first) of the 3D view, after the stripes were drawn."""
     pictures = []
@@ -54,6 +60,14 @@ def captured(driver: window.Window) -> Generator[float, None, np.ndarray]:
     bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
     encoded = pictures[-1][:, :, 1] / 255.0
     return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+
+
+def drawn(driver: window.Window) -> Steps:
+    """Waits until the view was drawn with nothing left to fit."""
+    draws: list[None] = []
+    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: draws.append(None), (), 'WINDOW', 'POST_VIEW')
+    yield from drawn_at_rest(driver, draws)
+    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
 
 
 def drawn_at_rest(driver: window.Window, pictures: list) -> Steps:

@@ -7,8 +7,8 @@ import numpy as np
 
 import window
 from dragging import ended, panel, settled, shown
+from window import Steps
 
-Steps = Generator[float, None, None]
 MIDDLE, UP = (330, 290), (330, 312)  # pixels; the lines run from left to right
 
 

@@ -1,7 +1,7 @@
 """Steps of a random walk: what an artist may do at any moment, well considered or not. Each waits as it needs."""
 import random
 import shutil
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -11,8 +11,8 @@ import numpy as np
 import packages
 import scenes
 import window
+from window import Steps
 
-Steps = Generator[float, None, None]
 Act = Callable[["Walker"], Steps]
 
 CELLS = 14
@@ -67,9 +67,7 @@ def new_panel(walker: Walker, cells: int = CELLS) -> Steps:
     for old in list(bpy.data.objects):
         bpy.data.objects.remove(old)
     with walker.override():
-        ob = scenes.panel(cells=cells)
-        scenes.look_from_above()
-        scenes.edit_inner(ob, cells)
+        scenes.edited_panel(cells=cells)
         bpy.context.scene.reflection_lines.stripes.show = True
         bpy.ops.ed.undo_push(message="Panel")
     yield 0.1

@@ -39,9 +39,7 @@ def show(cells: int) -> Generator[float, None, None]:
 
 
 def solve() -> None:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel()
     assert scenes.smooth() == {'FINISHED'}
     scenes.object_mode()
     bpy.data.objects.remove(ob)

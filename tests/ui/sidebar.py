@@ -3,8 +3,8 @@ from collections.abc import Generator
 
 import bpy
 import window
+from window import Steps
 
-Steps = Generator[float, None, None]
 TAB, ROW = 25, 9   # pixels between two places to try: along the tabs, and down the tab
 TAB_STRIP = 8      # pixels from the sidebar's right edge to the middle of its tabs
 

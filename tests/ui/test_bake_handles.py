@@ -11,8 +11,7 @@ import sidebar
 import window
 from dragging import settled, shown
 from pulling import MIDDLE, UP, applied, picture, pull, start
-
-Steps = Generator[float, None, None]
+from window import Steps
 
 
 def kept() -> bpy.types.PropertyGroup:
@@ -177,7 +176,3 @@ def test_a_bake_that_cannot_go_on_takes_all_back_and_says_so(driver: window.Wind
         yield 1.0
         assert ob.mode == 'EDIT' and scene.frame_current == 7 and scenes.fingerprint(ob) == before
         assert told in driver.read_last_report()
-
-
-window.run(test_a_handle_is_keyed_baked_and_played, test_escape_leaves_no_bit_changed,
-           test_a_bake_that_cannot_go_on_takes_all_back_and_says_so)

@@ -8,7 +8,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 import scenes
 import window
-from picture import CELLS, Steps, fresh_panel, pixels, prepare
+from picture import CELLS, Steps, pixels, striped_panel
 
 ROW = CELLS + 1
 SEGMENTS = {"free": 4, "curvature": 12, "fixed": 20, "flow": 28, "clamped": 36}  # condition and column of vertices
@@ -67,8 +67,7 @@ def check_colors(driver: window.Window, ob: bpy.types.Object, *, drawn: bool) ->
 
 
 def test_five_colors_in_both_modes(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Segments")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Segments")
     set_columns(driver, ob)
     yield from check_colors(driver, ob, drawn=True)
     with driver.override():
@@ -80,8 +79,7 @@ def test_five_colors_in_both_modes(driver: window.Window) -> Steps:
 
 
 def test_undo_takes_the_last_segment_away(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Undone")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Undone")
     with driver.override():
         bpy.ops.ed.undo_push(message="panel")
     set_columns(driver, ob)
@@ -93,6 +91,3 @@ def test_undo_takes_the_last_segment_away(driver: window.Window) -> Steps:
     picture = yield from colored(driver)
     assert np.ptp(hue(driver, picture, ob, SEGMENTS["clamped"])) < 0.2
     assert np.ptp(hue(driver, picture, ob, SEGMENTS["fixed"])) > 0.4
-
-
-window.run(test_five_colors_in_both_modes, test_undo_takes_the_last_segment_away)

@@ -8,8 +8,8 @@ import numpy as np
 import sidebar
 import window
 from dragging import adjust, dragged_length, ended, executed, panel, settled, shown, undone_and_redone
+from window import Steps
 
-Steps = Generator[float, None, None]
 HANDLE = "bpy.ops.reflines.smooth(follow_mouse=True)"
 STEP = 6  # pixels between two places to try along a row: a third of a handle's width
 
@@ -96,7 +96,3 @@ def test_escape_leaves_the_settings_too(driver: window.Window) -> Steps:
     driver.key('ESC')
     yield 0.3
     assert abs(bpy.context.scene.reflection_lines.strength - 0.7) < 1e-6
-
-
-window.run(test_the_button_solves_at_once_wherever_the_mouse_goes_then, test_the_redo_panel_is_there_after_the_button,
-           test_the_handle_drags_from_the_present_value_wherever_the_mouse_is, test_escape_leaves_the_settings_too)

@@ -10,7 +10,7 @@ from mathutils import Vector
 
 import scenes
 import window
-from picture import CELLS, Steps, fresh_panel, pixels, prepare
+from picture import CELLS, Steps, pixels, striped_panel
 
 INNER = 10  # rings of faces outside the region
 
@@ -42,8 +42,7 @@ def check(driver: window.Window, curvature: float) -> None:
 
 
 def test_seams_are_green_or_red(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Checked")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Checked")
     with driver.override():
         scenes.edit_inner(ob, CELLS, INNER)
         check(driver, 1e4)
@@ -61,8 +60,7 @@ def test_seams_are_green_or_red(driver: window.Window) -> Steps:
 
 
 def test_the_worst_place_has_a_red_dot_with_a_white_rim(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Dotted")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Dotted")
     with driver.override():
         scenes.edit_inner(ob, CELLS, INNER)
         check(driver, 0.0)
@@ -81,8 +79,7 @@ def test_the_worst_place_has_a_red_dot_with_a_white_rim(driver: window.Window) -
 
 def test_after_a_run_the_color_is_the_change(driver: window.Window) -> Steps:
     """Edges that are beyond the mark as before are grey, and the dot there is orange."""
-    ob = fresh_panel(driver, "Changed")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Changed")
     with driver.override():
         scenes.edit_inner(ob, CELLS, INNER)
         scenes.smooth(strength=0.0)
@@ -91,7 +88,3 @@ def test_after_a_run_the_color_is_the_change(driver: window.Window) -> Steps:
     assert (yield from count_colors(driver, ob)) == (0.0, 0.0)
     yield from window.take_picture(driver, "check_unchanged")
     assert not sys.modules["reflection_lines"].state.last_checks.find_check(ob.name).worse.any()
-
-
-window.run(test_seams_are_green_or_red, test_the_worst_place_has_a_red_dot_with_a_white_rim,
-           test_after_a_run_the_color_is_the_change)

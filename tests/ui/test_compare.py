@@ -8,7 +8,7 @@ import numpy as np
 
 import scenes
 import window
-from picture import CELLS, Steps, captured, fresh_panel, prepare
+from picture import CELLS, Steps, captured, striped_panel
 
 
 def stripes() -> bpy.types.PropertyGroup:
@@ -22,8 +22,7 @@ def divider(driver: window.Window) -> float | None:
 
 def pressed(driver: window.Window, name: str, *, levels: int = 0, result: str = 'MESH') -> Generator[float, None, None]:
     """A panel after a press of Smooth Lines in Object Mode, with Compare on."""
-    ob = fresh_panel(driver, name)
-    prepare(driver, ob)
+    ob = striped_panel(driver, name)
     if levels:
         ob.modifiers.new("Subdivision", 'SUBSURF').levels = levels
     with driver.override():
@@ -131,8 +130,7 @@ def test_a_shape_key_is_compared_at_any_strength_but_none(driver: window.Window)
 
 
 def test_a_pulled_line_is_compared(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Pulled")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Pulled")
     stripes().before, stripes().side_by_side = True, True
     driver.redraw()
     yield 0.4
@@ -144,9 +142,3 @@ def test_a_pulled_line_is_compared(driver: window.Window) -> Steps:
     driver.redraw()
     yield 0.5
     assert divider(driver) is not None
-
-
-window.run(test_the_divider_is_dragged_over_the_panel, test_escape_puts_it_back_and_a_press_beside_it_selects,
-           test_it_stays_over_the_panel_as_the_view_moves,
-           test_undo_takes_the_divider_away_and_redo_brings_it_back,
-           test_a_shape_key_is_compared_at_any_strength_but_none, test_a_pulled_line_is_compared)

@@ -1,5 +1,4 @@
 """Disabling the add-on takes back what runs, and what Blender goes on to call afterwards raises nothing."""
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -10,8 +9,7 @@ import window
 from dragging import panel, shown
 from errors import read_errors
 from pulling import MIDDLE, UP, applied, pull, start
-
-Steps = Generator[float, None, None]
+from window import Steps
 
 
 def without_the_addon(driver: window.Window) -> Steps:
@@ -91,7 +89,3 @@ def test_a_bake_is_taken_back(driver: window.Window) -> Steps:
     written = yield from read_errors(without_the_addon(driver))
     assert ob.mode == 'EDIT' and scene.frame_current == 901 and scenes.fingerprint(ob) == before
     assert "Traceback" not in written, written
-
-
-window.run(test_the_cursor_of_fair_brush_is_not_drawn, test_a_swept_light_is_turned_back, test_a_stroke_is_taken_back,
-           test_a_bake_is_taken_back)

@@ -1,7 +1,6 @@
 """Tools under the mouse, in a window: a drag, typed numbers, the ways out of it, and what is left of it afterwards."""
 import re
 import sys
-from collections.abc import Generator
 
 import blf
 import bpy
@@ -10,27 +9,26 @@ import numpy as np
 import installation
 import scenes
 import window
-from dragging import adjust, ended, executed, panel, press, settled, shown, undone_and_redone
+from dragging import adjust, dragged_length, ended, executed, panel, press, settled, shown, undone_and_redone
+from window import Steps
 
-Steps = Generator[float, None, None]
+LEVELS = 3  # of cages: from here on a drag leaves samples out
 
 
 def test_a_drag_follows_and_escape_leaves_no_bit_changed(driver: window.Window) -> Steps:
-    ob = panel(driver)
-    before = scenes.fingerprint(ob)
-    yield from press(driver)
-    pressed = shown(driver)
-    driver.move(250, 300)
-    yield 0.1
-    yield from settled(driver)
-    halved = shown(driver)
-    assert not np.array_equal(pressed, halved)
-    move = np.abs(pressed - shown(driver)).max()
-    assert move > 1e-5
-    yield from window.take_picture(driver, "drag")
-    driver.key('ESC')
-    yield 0.3
-    assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
+    for levels in (0, LEVELS):
+        ob = panel(driver, levels=levels)
+        before = scenes.fingerprint(ob)
+        yield from press(driver)
+        pressed = shown(driver)
+        driver.move(250, 300)
+        yield 0.1
+        yield from settled(driver)
+        assert np.abs(pressed - shown(driver)).max() > 1e-5
+        yield from window.take_picture(driver, f"drag_{levels}")
+        driver.key('ESC')
+        yield 0.3
+        assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
 
 
 def kept_smoother() -> object:
@@ -111,6 +109,25 @@ def test_what_is_shown_and_kept_is_what_the_operator_makes_without_a_mouse(drive
         assert lengths or np.array_equal(kept, dragged)
 
 
+def test_of_a_cage_what_is_kept_is_the_whole_solve_and_what_was_shown_lay_beside_it(driver: window.Window) -> Steps:
+    panel(driver, levels=LEVELS)
+    bpy.context.scene.reflection_lines.length = 0.5  # with 0, the automatic press, what is shown is what is kept
+    start = shown(driver)
+    yield from press(driver)
+    for x in (380, 300, 500, 250):
+        driver.move(x, 300)
+        yield 0.1
+    yield from settled(driver)
+    followed = shown(driver)
+    driver.key('RET')
+    yield from ended(driver)
+    kept, length = shown(driver), dragged_length()
+    strength = bpy.context.window_manager.operators[-1].properties.strength
+    assert abs(strength - 0.5) < 1e-6
+    assert 0.0 < np.abs(followed - kept).max() < 0.03 * np.abs(kept - start).max()
+    assert np.array_equal(kept, executed(driver, levels=LEVELS, strength=strength, length=length))
+
+
 def test_a_drag_of_the_strength_finds_the_flaws_once(driver: window.Window) -> Steps:
     panel(driver, cells=60)
     yield from press(driver)
@@ -156,17 +173,17 @@ def test_a_typed_expression_with_a_unit_is_shown_with_its_value(driver: window.W
 
 
 def test_one_undo_takes_a_drag_back_and_redo_brings_it(driver: window.Window) -> Steps:
-    panel(driver)
-    before = shown(driver)
-    yield from press(driver)
-    driver.move(300, 300)
-    yield 0.3
-    driver.event('LEFTMOUSE', 'PRESS')
-    driver.event('LEFTMOUSE', 'RELEASE')
-    yield from ended(driver)
-    after = shown(driver)
-    assert not np.array_equal(after, before)
-    yield from undone_and_redone(driver, before, after)
+    for levels in (0, LEVELS):
+        panel(driver, levels=levels)
+        before = shown(driver)
+        yield from press(driver)
+        driver.move(300, 300)
+        yield 0.3
+        driver.key('LEFTMOUSE')
+        yield from ended(driver)
+        after = shown(driver)
+        assert not np.array_equal(after, before)
+        yield from undone_and_redone(driver, before, after)
 
 
 def test_the_redo_panel_starts_from_the_mesh_before_the_drag(driver: window.Window) -> Steps:
@@ -273,17 +290,3 @@ def test_disabling_the_add_on_takes_a_drag_back(driver: window.Window) -> Steps:
     with driver.override():
         installation.install()
     yield 0.3
-
-
-window.run(test_a_drag_follows_and_escape_leaves_no_bit_changed,
-           test_the_header_tells_the_gain_first_as_the_result_will,
-           test_the_header_of_another_tool_tells_how_far_lines_are_off_the_wanted_ones,
-           test_a_mouse_that_rests_asks_for_no_solve,
-           test_what_is_shown_and_kept_is_what_the_operator_makes_without_a_mouse,
-           test_a_drag_of_the_strength_finds_the_flaws_once, test_typed_numbers,
-           test_a_typed_expression_with_a_unit_is_shown_with_its_value,
-           test_one_undo_takes_a_drag_back_and_redo_brings_it,
-           test_the_redo_panel_starts_from_the_mesh_before_the_drag,
-           test_a_change_of_the_mode_by_a_script_ends_the_drag, test_escape_while_the_first_factorization_runs,
-           test_a_closed_path_ends_where_it_began, test_the_panel_moves_no_more_than_the_mouse_asks,
-           test_disabling_the_add_on_takes_a_drag_back)

@@ -11,8 +11,8 @@ import window
 from dragging import is_running, panel, press, settled, shown
 from errors import read_errors
 from pulling import MIDDLE, UP, move, pull, session, start
+from window import Steps
 
-Steps = Generator[float, None, None]
 CHANGED = "Panel was changed while it was dragged: it is left as it is now"
 
 
@@ -139,9 +139,3 @@ def test_the_other_panels_of_a_drag_are_restored(driver: window.Window) -> Steps
     raise_vertices(first)
     yield from move_on(driver)
     assert not is_running() and np.array_equal(scenes.positions(second), before)
-
-
-window.run(test_a_tool_whose_camera_is_removed_takes_all_back_and_says_so,
-           test_a_session_whose_camera_is_removed_takes_all_back_and_says_so,
-           test_an_error_in_a_drag_ends_it_in_order, test_a_change_by_something_else_ends_a_drag_at_rest,
-           test_the_other_panels_of_a_drag_are_restored)

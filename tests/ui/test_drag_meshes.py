@@ -1,6 +1,6 @@
 """Drags of meshes that are not plain: shape keys, hidden faces, several pieces; and of ones that change meanwhile."""
 import sys
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 
 import bmesh
 import bpy
@@ -9,8 +9,8 @@ import numpy as np
 import scenes
 import window
 from dragging import dragged_length, ended, panel, press, settled, shown
+from window import Steps
 
-Steps = Generator[float, None, None]
 Prepare = Callable[[bpy.types.Object], None]
 
 CELLS = 16
@@ -135,7 +135,3 @@ def test_new_topology_after_a_drag_is_taken_in(driver: window.Window) -> Steps:
         bpy.ops.ed.undo()
         assert scenes.smooth(length=0.9) == {'FINISHED'}
     assert np.array_equal(shown(driver), again)
-
-
-window.run(test_a_shape_key, test_hidden_faces, test_two_pieces, test_new_topology_ends_a_drag,
-           test_new_topology_after_a_drag_is_taken_in)

@@ -11,8 +11,7 @@ import installation
 import window
 from dragging import is_running, panel, press, settled, shown
 from pulling import MIDDLE, UP, begin, pull
-
-Steps = Generator[float, None, None]
+from window import Steps
 
 
 def press_half(driver: window.Window) -> Steps:
@@ -82,7 +81,3 @@ def test_the_lower_one_is_kept_after_the_upper_one_was_left(driver: window.Windo
     yield from press_half(driver)
     yield from keep(driver)
     assert np.abs(kept - shown(driver)).max() < 1e-6
-
-
-window.run(test_both_are_left_one_after_the_other, test_disabling_the_add_on_takes_both_back,
-           test_the_lower_one_is_kept_after_the_upper_one_was_left)

@@ -1,5 +1,4 @@
 """Every tool under the mouse, in a window: what is kept is what the operator makes with the values of the drag."""
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -7,8 +6,7 @@ import numpy as np
 import dragging
 import scenes
 import window
-
-Steps = Generator[float, None, None]
+from window import Steps
 
 
 def kept_equals_executed(driver: window.Window, operator: str, names: tuple[str, ...]) -> Steps:
@@ -124,7 +122,3 @@ def test_smooth_into_a_shape_key(driver: window.Window) -> Steps:
     assert ob.mode == 'EDIT' and scenes.fingerprint(ob) == before
     bpy.context.scene.reflection_lines.result = 'MESH'
     assert np.array_equal(kept, dragging.executed(driver, strength=0.5, length=length))
-
-
-window.run(test_turn_with_the_wheel_for_its_radius, test_density, test_pattern, test_warp_by_a_typed_amount,
-           test_smooth_into_a_shape_key)

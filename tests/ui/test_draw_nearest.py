@@ -57,8 +57,3 @@ def test_n_does_nothing_while_lines_are_pulled(driver: window.Window) -> Steps:
     yield 0.1
     assert not session().nearest and session().texts[1].startswith("Drag: pull a line"), session().texts
     yield from taken_back(driver)
-
-
-window.run(test_the_nearest_line_changes_those_below_the_stroke_less_than_the_one_at_its_start,
-           test_the_status_bar_says_which_line_is_taken,
-           test_n_does_nothing_while_lines_are_pulled)

@@ -194,11 +194,3 @@ def test_handles_come_back_with_the_file(driver: window.Window) -> Steps:
         yield from settled(driver)
     yield from applied(driver)
     assert np.abs(shown(driver) - before).max() < 1e-7
-
-
-window.run(test_a_stroke_becomes_the_course_of_the_line_at_its_start, test_a_dot_of_the_curve_is_moved_and_moved_back,
-           test_a_short_stroke_draws_nothing_and_d_pulls_again, test_the_line_under_the_mouse_becomes_straight,
-           test_the_line_under_the_mouse_follows_the_border, test_a_radius_is_typed,
-           test_escape_takes_a_typed_radius_back_and_nothing_else,
-           test_the_right_button_takes_a_stroke_back_and_no_other_handle,
-           test_handles_come_back_with_the_file)

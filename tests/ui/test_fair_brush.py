@@ -8,8 +8,8 @@ import numpy as np
 import scenes
 import window
 from dragging import panel, shown, undone_and_redone
+from window import Steps
 
-Steps = Generator[float, None, None]
 CELLS = 48
 LEFT, RIGHT = (250, 290), (390, 290)  # pixels
 
@@ -170,10 +170,3 @@ def test_the_button_takes_the_tool(driver: window.Window) -> Steps:
         tool = bpy.context.workspace.tools.from_space_view3d_mode('EDIT_MESH')
     assert tool.idname == "reflection_lines.fair_brush"
     end(driver)
-
-
-window.run(test_a_stroke_smooths_what_it_passes_over_in_one_undo_step, test_a_stroke_is_a_result,
-           test_strokes_add_up_and_shift_paints_with_less,
-           test_escape_restores_every_bit, test_f_changes_the_size,
-           test_a_stroke_beside_the_panel_changes_nothing,
-           test_a_stroke_on_a_cage_moves_it_and_escape_restores_every_bit, test_the_button_takes_the_tool)

@@ -7,8 +7,8 @@ import bpy
 import sidebar
 import window
 from recording import Stand
+from window import Steps
 
-Steps = Generator[float, None, None]
 CAR = Path(__file__).resolve().parents[2] / "blend_samples" / "car.blend"
 MOST = 9
 PARTS = ("draw", "draw_header", "draw_header_preset")
@@ -67,6 +67,3 @@ def test_the_car_begins_with_smooth_lines(_driver: window.Window) -> Steps:
     yield from window.take_picture(driver, "first_screen_car")
     assert controls[0] == "reflines.smooth" and len(controls) <= MOST, controls
     yield from all_is_seen(driver)
-
-
-window.run(test_a_new_scene_begins_with_the_set_up, test_the_car_begins_with_smooth_lines)

@@ -1,5 +1,4 @@
 """README's first use with the mouse, and the tools by F3's search, in a real window."""
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -7,8 +6,7 @@ import numpy as np
 import newcomer
 import window
 from dragging import ended, executed, panel, shown
-
-Steps = Generator[float, None, None]
+from window import Steps
 
 
 def search(driver: window.Window, text: str) -> Steps:
@@ -59,8 +57,3 @@ def test_the_newcomer_smooths_a_sample(_driver: window.Window) -> Steps:
 def test_from_an_imported_body_to_a_healed_bonnet_in_six_clicks_and_drags(_driver: window.Window) -> Steps:
     presses = yield from newcomer.use_own_model(noted)
     assert presses <= 6, presses
-
-
-window.run(test_search_finds_the_tools_and_solves_at_once, test_search_finds_stripes_by_the_trades_words,
-           test_the_newcomer_smooths_a_sample,
-           test_from_an_imported_body_to_a_healed_bonnet_in_six_clicks_and_drags)

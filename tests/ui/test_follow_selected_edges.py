@@ -89,7 +89,3 @@ def test_without_selected_edges_it_follows_the_border(driver: window.Window) -> 
     yield from settled(driver)
     assert abs(measure_slope(find_dots()[3:-3])) < 0.01, find_dots()
     yield from taken_back(driver)
-
-
-window.run(test_the_line_runs_parallel_to_the_selected_loop_and_keeps_its_place_under_the_mouse,
-           test_without_selected_edges_it_follows_the_border)

@@ -142,9 +142,3 @@ def test_handles_that_cannot_be_read_have_no_gizmos(driver: window.Window) -> St
     assert not session().handles
     yield from taken_back(driver)
     yield from take_tool(driver, SELECT)
-
-
-window.run(test_a_kept_handle_is_seen_while_a_tool_for_lines_is_active, test_a_kept_handle_is_dragged_by_its_gizmo,
-           test_escape_after_the_drag_of_a_gizmo_leaves_no_bit_changed,
-           test_each_dot_of_a_kept_curve_is_taken_and_the_session_goes_on_to_draw,
-           test_handles_that_cannot_be_read_have_no_gizmos)

@@ -4,7 +4,7 @@ prints of errors in drawing goes to the standard error.
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 
 import bpy
 
@@ -14,27 +14,22 @@ import scenes
 import sidebar
 import window
 from errors import read_errors
+from picture import drawn
+from window import Steps
 
-Steps = Generator[float, None, None]
-STILL = 0.1  # seconds for a drawing
 # Not drawn: what tools alone read, and a second value where there is one.
 UNSEEN = ("record", "run: ", "handles: ", "endless ", f"report with {-hostile_scenes.HUGE}")
-PATH = os.path.join(tempfile.mkdtemp(), "hostile.blend")
-
-
-def draw(driver: window.Window) -> Steps:
-    for _ in range(2):
-        driver.redraw()
-        yield STILL
+FOLDER = tempfile.mkdtemp()
+PATH, SOLVED = (os.path.join(FOLDER, name) for name in ("hostile.blend", "solved.blend"))
 
 
 def draw_modes(driver: window.Window) -> Steps:
     """As it is, and as a map of the last solve with the shape before."""
     stripes = bpy.context.scene.reflection_lines.stripes
     stripes.show = True
-    yield from draw(driver)
+    yield from drawn(driver)
     stripes.mode, stripes.before = 'DEVIATION', True
-    yield from draw(driver)
+    yield from drawn(driver)
 
 
 def draw_other_mode(driver: window.Window) -> Steps:
@@ -43,7 +38,7 @@ def draw_other_mode(driver: window.Window) -> Steps:
     with driver.override():
         bpy.ops.object.mode_set(mode='OBJECT' if mode == 'EDIT' else 'EDIT')
     bpy.context.scene.reflection_lines.stripes.mode = 'IMAGE'
-    yield from draw(driver)
+    yield from drawn(driver)
 
 
 def clear(driver: window.Window) -> None:
@@ -64,17 +59,13 @@ def show_scene(driver: window.Window, build: Callable[[], bpy.types.Object]) -> 
 
 def show_file(driver: window.Window, change: Callable[[bpy.types.Object], None]) -> Steps:
     with driver.override():
-        ob = scenes.panel()
-        scenes.look_from_above()
-        scenes.edit_inner(ob)
-        scenes.smooth()
-        scenes.object_mode()
-        sys.modules["reflection_lines.state.persistence"].save_solves()
-        bpy.context.scene.reflection_lines.stripes.show = True
-        change(ob)
+        bpy.ops.wm.open_mainfile(filepath=SOLVED, load_ui=False)
+    driver.window = bpy.context.window_manager.windows[0]
+    with driver.override():
+        change(bpy.data.objects["Panel"])
         hostile_files.save_past_the_addon(PATH)
         bpy.ops.wm.open_mainfile(filepath=PATH, load_ui=False)
-    yield STILL
+    yield 0.05
     driver.window = bpy.context.window_manager.windows[0]
     with driver.override():
         scenes.activate(next(ob for ob in bpy.data.objects if ob.type == 'MESH'))
@@ -98,8 +89,12 @@ def test_scenes_are_drawn(driver: window.Window) -> Steps:
 
 
 def test_files_are_drawn(driver: window.Window) -> Steps:
+    with driver.override():
+        scenes.edited_panel()
+        scenes.smooth()
+        scenes.object_mode()
+        sys.modules["reflection_lines.state.persistence"].save_solves()
+        scenes.settings().stripes.show = True
+        hostile_files.save_past_the_addon(SOLVED)
     yield from show_each(driver, show_file, {name: change for name, change in hostile_files.FILES.items()
                                              if not name.startswith(UNSEEN)})
-
-
-window.run(test_scenes_are_drawn, test_files_are_drawn)

@@ -10,8 +10,8 @@ import numpy as np
 
 import scenes
 import window
+from window import Steps
 
-Steps = Generator[float, None, None]
 CELLS = 100
 PATIENCE = 120.0  # seconds
 PLACE = (0.4, 0.3)
@@ -155,8 +155,3 @@ def test_a_sheet_is_written_beside_blender_and_escape_cancels_it(driver: window.
                     driver.key('ESC')
                 yield 0.01
             assert file.exists() != cancelled and (cancelled or steps > 12), steps
-
-
-if __name__ == "__main__":
-    window.run(test_blender_goes_on_and_a_spot_is_framed, test_escape_cancels, test_a_film_is_written_beside_blender,
-               test_escape_ends_a_film_early, test_a_sheet_is_written_beside_blender_and_escape_cancels_it)

@@ -1,5 +1,4 @@
 """Turning the light in a real window without leaving Edit Mode: by the sidebar, and by Sweep Light."""
-from collections.abc import Generator
 from math import radians
 
 import bpy
@@ -7,19 +6,14 @@ import numpy as np
 
 import scenes
 import window
-from picture import captured, fresh_panel, prepare
-
-Steps = Generator[float, None, None]
-
-
-def settings() -> bpy.types.PropertyGroup:
-    return bpy.context.scene.reflection_lines
+from picture import captured, striped_panel
+from scenes import settings
+from window import Steps
 
 
 def edited_panel(driver: window.Window, name: str) -> bpy.types.Object:
     """A panel with stripes, in Edit Mode; the light is at the turn 0 and the tilt 30 degrees."""
-    ob = fresh_panel(driver, name)
-    prepare(driver, ob)
+    ob = striped_panel(driver, name)
     with driver.override():
         scenes.edit(ob)
     return ob
@@ -142,8 +136,3 @@ def test_another_light_picked_meanwhile_ends_the_sweep_and_stays(driver: window.
         yield 0.3
         assert np.array_equal(np.array(swept.matrix_world), start)
         assert tuple(other.location) == (7.0, 8.0, 9.0) and not any(other.rotation_euler)
-
-
-window.run(test_the_sidebar_turns_the_light_in_edit_mode, test_sweep_light_in_edit_mode,
-           test_sweep_view_walks_around_the_panel, test_turn_and_tilt_can_be_typed_while_the_light_is_swept,
-           test_another_light_picked_meanwhile_ends_the_sweep_and_stays)

@@ -1,7 +1,6 @@
 """Live warp in a window: the panel follows while Blender's own tools edit the lattice, at undo, and after reload."""
 import os
 import tempfile
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -9,8 +8,8 @@ import numpy as np
 import dragging
 import scenes
 import window
+from window import Steps
 
-Steps = Generator[float, None, None]
 MIDDLE = 12  # of 5 x 5 control points
 
 
@@ -63,6 +62,22 @@ def warped(driver: window.Window) -> np.ndarray:
         bpy.context.view_layer.objects.active = bpy.data.objects["Panel"]
         bpy.ops.reflines.warp('EXEC_DEFAULT', True)
     return positions()
+
+
+def test_another_panel_of_the_same_name_is_followed_from_its_own_start(driver: window.Window) -> Steps:
+    """A script removes the panel and starts the live warp of a smaller one, before Blender has told of either."""
+    yield from started(driver)
+    yield from grab(driver, 40)
+    driver.key('RET')
+    yield from dragging.settled(driver)
+    yield from started(driver, cells=14)
+    before = positions()
+    yield from grab(driver, 40)
+    yield from dragging.settled(driver)
+    assert np.abs(positions() - before).max() > 1e-4 and not says()
+    driver.key('ESC')
+    yield from dragging.settled(driver)
+    assert np.array_equal(positions(), before)
 
 
 def test_the_panel_follows_while_the_lattice_is_dragged(driver: window.Window) -> Steps:
@@ -226,27 +241,3 @@ def test_changes_by_hand_are_told_and_not_written_over(driver: window.Window) ->
     with driver.override():
         bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='APPLY')
     assert np.array_equal(positions(), changed)
-
-
-def test_another_panel_of_the_same_name_is_followed_from_its_own_start(driver: window.Window) -> Steps:
-    """A script removes the panel and starts the live warp of a smaller one, before Blender has told of either."""
-    yield from started(driver)
-    yield from grab(driver, 40)
-    driver.key('RET')
-    yield from dragging.settled(driver)
-    yield from started(driver, cells=14)
-    before = positions()
-    yield from grab(driver, 40)
-    yield from dragging.settled(driver)
-    assert np.abs(positions() - before).max() > 1e-4 and not says()
-    driver.key('ESC')
-    yield from dragging.settled(driver)
-    assert np.array_equal(positions(), before)
-
-
-window.run(test_another_panel_of_the_same_name_is_followed_from_its_own_start,
-           test_the_panel_follows_while_the_lattice_is_dragged, test_what_follows_after_a_rest_is_near_what_is_kept,
-           test_undo_and_redo_of_the_lattice_take_the_panel_along,
-           test_proportional_editing_scaling_and_object_transforms, test_a_fold_over_is_told_and_the_panel_waits,
-           test_the_panel_follows_after_reload, test_apply_is_one_undo_step_and_the_panel_follows_on_after_it,
-           test_changes_by_hand_are_told_and_not_written_over)

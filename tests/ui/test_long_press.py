@@ -12,8 +12,8 @@ import scenes
 import window
 from dragging import at_rest, panel, shown, undone_and_redone
 from test_across_gap import bent, half, places, start_several
+from window import Steps
 
-Steps = Generator[float, None, None]
 CELLS = 80  # 6,084 selected faces
 PATIENCE = 120.0  # seconds
 
@@ -137,11 +137,3 @@ def test_panels_of_different_size_keep_their_own_lengths(driver: window.Window) 
         results.append([scenes.positions(each) for each in (ob, other)])
     for beside, blocking in zip(*results, strict=True):
         assert np.array_equal(beside, blocking)
-
-
-if __name__ == "__main__":
-    window.run(test_a_long_press_lets_blender_go_on_and_gives_the_result_of_the_operator,
-               test_escape_takes_a_long_press_back,
-               test_a_long_press_of_several_objects_gives_the_result_of_the_operator,
-               test_other_tools_press_beside_blender_too,
-               test_panels_of_different_size_keep_their_own_lengths)

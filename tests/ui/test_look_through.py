@@ -1,5 +1,4 @@
 """Look Through and Set Up from This View in a real window."""
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -7,13 +6,9 @@ from mathutils import Euler
 
 import scenes
 import window
-from picture import fresh_panel, prepare
-
-Steps = Generator[float, None, None]
-
-
-def settings() -> bpy.types.PropertyGroup:
-    return bpy.context.scene.reflection_lines
+from picture import striped_panel
+from scenes import settings
+from window import Steps
 
 
 def axes(driver: window.Window) -> np.ndarray:
@@ -27,7 +22,7 @@ def look(driver: window.Window) -> Steps:
 
 
 def test_through_the_camera_and_back(driver: window.Window) -> Steps:
-    prepare(driver, fresh_panel(driver, "Through"))
+    striped_panel(driver, "Through")
     space, region_3d = driver.area().spaces.active, driver.region_3d()
     region_3d.view_perspective, region_3d.view_rotation = 'PERSP', Euler((0.6, 0.1, 0.4)).to_quaternion()
     yield 0.3
@@ -54,7 +49,7 @@ def describe(driver: window.Window) -> tuple:
 
 def test_back_to_another_camera(driver: window.Window) -> Steps:
     """The scene's own, and one of this view alone, also where the view was turned away in between."""
-    prepare(driver, fresh_panel(driver, "Others"))
+    striped_panel(driver, "Others")
     space, region_3d, bpy.context.scene.camera = driver.area().spaces.active, driver.region_3d(), add_camera("Own")
     for local in (None, add_camera("Local")):
         space.use_local_camera = local is not None
@@ -78,8 +73,7 @@ def test_back_to_another_camera(driver: window.Window) -> Steps:
 
 
 def test_the_camera_takes_this_view_in_edit_mode(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "From View")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "From View")
     driver.region_3d().view_rotation = Euler((0.5, 0.0, 0.3)).to_quaternion()
     with driver.override():
         scenes.edit(ob)
@@ -89,7 +83,3 @@ def test_the_camera_takes_this_view_in_edit_mode(driver: window.Window) -> Steps
         bpy.context.view_layer.update()
     assert np.abs(axes(driver) - np.array(settings().camera.matrix_world)[:3, :3]).max() < 1e-5
     assert ob.mode == 'EDIT'
-
-
-window.run(test_through_the_camera_and_back, test_back_to_another_camera,
-           test_the_camera_takes_this_view_in_edit_mode)

@@ -1,7 +1,6 @@
 """Menus, pie and key in a real window."""
 import os
 import tempfile
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -9,8 +8,8 @@ import numpy as np
 import scenes
 import window
 from dragging import executed, panel, settled, shown
+from window import Steps
 
-Steps = Generator[float, None, None]
 MODIFIERS = ("ctrl", "alt", "shift", "oskey")
 
 
@@ -102,7 +101,3 @@ def test_the_second_pie_drags_what_the_first_presses(driver: window.Window) -> S
         driver.key('ESC')
         yield 0.3
         assert np.array_equal(shown(driver), whole if change else before)
-
-
-window.run(test_the_key_collides_with_nothing, test_menus_open_in_both_modes, test_the_key_opens_the_pie,
-           test_the_second_pie_drags_what_the_first_presses)

@@ -1,14 +1,12 @@
 """Every panel draws in every state of the work. Blender only prints what a panel raises."""
 import os
 import tempfile
-from collections.abc import Generator
 
 import bpy
 
 import scenes
 import window
-
-Steps = Generator[float, None, None]
+from window import Steps
 
 
 def panels() -> list[str]:
@@ -61,9 +59,7 @@ def test_panels_before_anything_is_there(driver: window.Window) -> Steps:
 
 def test_panels_with_view_light_and_result(driver: window.Window) -> Steps:
     with driver.override():
-        ob = scenes.panel()
-        scenes.look_from_above()
-        scenes.edit_inner(ob)
+        ob = scenes.edited_panel()
         bpy.ops.ed.undo_push(message="Start")
     yield from all_panels_draw(driver)
     with driver.override():
@@ -105,7 +101,3 @@ def test_panels_with_a_set_of_lights(driver: window.Window) -> Steps:
     yield 0.3
     yield from window.take_picture(driver, "light_set")
     driver.key('ESC')
-
-
-window.run(test_panels_before_anything_is_there, test_panels_with_view_light_and_result,
-           test_panels_with_a_perspective_camera_and_notes, test_panels_with_a_set_of_lights)

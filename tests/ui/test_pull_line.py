@@ -1,5 +1,4 @@
 """Pull Line in a real window: lines are pulled and pinned with the mouse, taken back, applied, and pulled again."""
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -8,8 +7,8 @@ import scenes
 import window
 from dragging import panel, settled, shown, undone_and_redone
 from pulling import MIDDLE, UP, applied, begin, missed, move, picture, pull, session, start, taken_back
+from window import Steps
 
-Steps = Generator[float, None, None]
 BESIDE = (330, 315)  # where a pull at MIDDLE still bends the lines; 20 pixels further the bend changes its sign
 
 
@@ -221,13 +220,3 @@ def test_a_press_with_the_tool_of_the_toolbar_pulls_at_once(driver: window.Windo
     assert np.array_equal(shown(driver), before)
     with driver.override():
         bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
-
-
-window.run(test_a_line_follows_the_mouse_and_escape_leaves_no_bit_changed, test_the_line_under_the_mouse_is_shown,
-           test_enter_applies_in_one_undo_step_what_the_operator_makes, test_undo_steps_from_handle_to_handle,
-           test_control_goes_back_to_the_old_line_and_shift_is_finer,
-           test_handles_are_taken_again_muted_and_deleted_and_the_wheel_changes_their_radius,
-           test_a_pinned_line_stays_beside_a_pull,
-           test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before,
-           test_a_handle_that_is_refused_says_why_and_loses_no_other, test_a_cage_follows,
-           test_a_large_panel_follows_without_a_solve, test_a_press_with_the_tool_of_the_toolbar_pulls_at_once)

@@ -1,5 +1,4 @@
 """Quad View: tools work with the view that the mouse is over."""
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -10,8 +9,8 @@ import scenes
 import window
 from dragging import panel, settled, shown
 from pulling import session
+from window import Steps
 
-Steps = Generator[float, None, None]
 POINT = (0.35, -0.2)  # of the panel
 
 
@@ -95,7 +94,3 @@ def test_fair_brush_paints_where_the_mouse_is_in_each_view(driver: window.Window
     with driver.override():
         bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
     yield from toggle(driver)
-
-
-window.run(test_a_line_is_pulled_where_the_mouse_is_in_each_view,
-           test_fair_brush_paints_where_the_mouse_is_in_each_view)

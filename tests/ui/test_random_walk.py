@@ -5,13 +5,13 @@
 import os
 import sys
 import tempfile
-from collections.abc import Generator
 from pathlib import Path
 
 import addon_utils
 
 import random_steps as steps
 import window
+from window import Steps
 
 LENGTH = int(os.environ.get("REFLINES_WALK", "80"))
 SEED = int(os.environ.get("REFLINES_SEED", "1"))
@@ -23,8 +23,6 @@ STEPS = {
     steps.load: 3, steps.new_panel: 8, steps.another_panel: 2, steps.pull_lattice: 12,
     steps.pull_lines: 10, steps.press_on_many_faces: 5,
 }
-
-Steps = Generator[float, None, None]
 
 
 class Listener:
@@ -57,6 +55,3 @@ def test_a_random_walk(driver: window.Window) -> Steps:
         yield from step(walker)
         assert not sys.stderr.heard, f"step {number} of seed {SEED}: {step.__name__}"
     sys.stderr = sys.stderr.stream
-
-
-window.run(test_a_random_walk)

@@ -1,6 +1,5 @@
 """Adjust Last Operation and undo, in a window, with the operator started by a key as an artist does."""
 import sys
-from collections.abc import Generator
 
 import bpy
 import numpy as np
@@ -8,8 +7,7 @@ import numpy as np
 import scenes
 import window
 from dragging import adjust, panel, shown, undone_and_redone
-
-Steps = Generator[float, None, None]
+from window import Steps
 
 
 def smoothed(driver: window.Window, **settings: object) -> np.ndarray:
@@ -84,9 +82,3 @@ def test_resolve_in_edit_mode_is_one_step_there(driver: window.Window) -> Steps:
     after = shown(driver)
     assert not np.array_equal(after, before)
     yield from undone_and_redone(driver, before, after)
-
-
-window.run(test_other_settings_start_from_the_mesh_before,
-           test_the_settings_of_the_automatic_length_can_be_changed,
-           test_another_strength_is_that_of_a_fresh_press, test_one_undo_takes_it_back_and_redo_brings_it,
-           test_resolve_in_edit_mode_is_one_step_there)

@@ -52,6 +52,3 @@ def test_over_itself_where_the_cache_cannot_be_written(driver: window.Window) ->
         cache.write_bytes(b"")
         Path(name, "tmp").mkdir()
         yield from goes_well(3, Path(name), XDG_CACHE_HOME=str(cache), TMPDIR=str(Path(name, "tmp")))
-
-
-window.run(test_over_itself_ten_times, test_over_itself_where_the_cache_cannot_be_written)

@@ -16,6 +16,3 @@ def test_every_sample_opens_on_the_tab(driver: window.Window) -> sidebar.Steps:
         bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=True)
         yield 1.0
         assert (yield from sidebar.shows_tab(window.Window())), path.name
-
-
-window.run(test_every_sample_opens_on_the_tab)

@@ -119,7 +119,3 @@ def test_a_panel_that_moves_meanwhile_keeps_its_last_check(driver: window.Window
     yield from wait()
     assert last_checks.find_check(ob.name) is drawn
     assert driver.read_last_report().endswith("Door was changed while it was checked: check it again")
-
-
-window.run(test_the_shut_line_is_green_within_the_mark_and_red_beyond, test_escape_leaves_the_last_check,
-           test_a_panel_that_moves_meanwhile_keeps_its_last_check)

@@ -11,8 +11,8 @@ import sidebar
 import window
 from dragging import ended, panel
 from recording import Stand
+from window import Steps
 
-Steps = Generator[float, None, None]
 
 ORDER = ("smooth", "result", "stripes", "setup", "region", "pull", "brush", "design")
 FOLDED = ("design", "smooth_settings", "stripes", "setup", "region", "direction", "warp", "pattern", "look",
@@ -99,35 +99,6 @@ def nothing_is_cut(driver: window.Window, *titles: str) -> Steps:
     assert not any(drawn.values()), {name: cut for name, cut in drawn.items() if cut}
 
 
-def test_nothing_is_cut_in_what_tools_leave_behind(driver: window.Window) -> Steps:
-    """What is offered after a pull, its handles, a table of a check, a cage, and a panel that follows a lattice."""
-    blf.size(0, POINTS)
-    ob = panel(driver, cells=32)
-    yield from sidebar.open_tab(driver)
-    driver.move(300, 300)
-    yield 0.2
-    pull(driver, 0.6, 0.8, limit=1.0)
-    with driver.override():
-        bpy.context.scene.reflection_lines.marks.angle = 0.0
-        bpy.ops.reflines.check('EXEC_DEFAULT', True)
-    ob.reflection_lines.report.merge_distance = 1e-4
-    other = bpy.data.objects.new("Other", ob.data)
-    yield from nothing_is_cut(driver, "Solve with Border", "reflines.delete_handles", "reflines.bake_handles",
-                              "reflines.export_table", "Make Single User", "Merge by Distance")
-    bpy.data.objects.remove(other)
-    pull(driver, 0.0, 0.1, limit=2e-3)
-    ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
-    yield from nothing_is_cut(driver, "Solve with Limit", "reflines.fit", "Curvature (G2)", "Tangent (G1)")
-    panel(driver)
-    with driver.override():
-        bpy.ops.reflines.add_warp_lattice()
-        bpy.ops.object.mode_set(mode='OBJECT')
-        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True)
-    yield from nothing_is_cut(driver, "Apply", "Discard")
-    with driver.override():
-        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='DISCARD')
-
-
 def test_the_panels_are_in_the_order_of_the_work_and_tools_are_folded(driver: window.Window) -> Steps:
     """Blender looks at a panel's functions when it is registered: headers that note their panels are there then."""
     addon, order = sys.modules["reflection_lines"], []
@@ -162,5 +133,30 @@ def test_a_result_does_not_move_the_button(driver: window.Window) -> Steps:
     assert (yield from sidebar.read_button(driver)) == "bpy.ops.reflines.smooth()"
 
 
-window.run(test_nothing_is_cut_at_the_default_width, test_the_panels_are_in_the_order_of_the_work_and_tools_are_folded,
-           test_a_result_does_not_move_the_button, test_nothing_is_cut_in_what_tools_leave_behind)
+def test_nothing_is_cut_in_what_tools_leave_behind(driver: window.Window) -> Steps:
+    """What is offered after a pull, its handles, a table of a check, a cage, and a panel that follows a lattice."""
+    blf.size(0, POINTS)
+    ob = panel(driver, cells=32)
+    yield from sidebar.open_tab(driver)
+    driver.move(300, 300)
+    yield 0.2
+    pull(driver, 0.6, 0.8, limit=1.0)
+    with driver.override():
+        bpy.context.scene.reflection_lines.marks.angle = 0.0
+        bpy.ops.reflines.check('EXEC_DEFAULT', True)
+    ob.reflection_lines.report.merge_distance = 1e-4
+    other = bpy.data.objects.new("Other", ob.data)
+    yield from nothing_is_cut(driver, "Solve with Border", "reflines.delete_handles", "reflines.bake_handles",
+                              "reflines.export_table", "Make Single User", "Merge by Distance")
+    bpy.data.objects.remove(other)
+    pull(driver, 0.0, 0.1, limit=2e-3)
+    ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
+    yield from nothing_is_cut(driver, "Solve with Limit", "reflines.fit", "Curvature (G2)", "Tangent (G1)")
+    panel(driver)
+    with driver.override():
+        bpy.ops.reflines.add_warp_lattice()
+        bpy.ops.object.mode_set(mode='OBJECT')
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True)
+    yield from nothing_is_cut(driver, "Apply", "Discard")
+    with driver.override():
+        bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='DISCARD')

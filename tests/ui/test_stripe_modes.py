@@ -9,7 +9,7 @@ from mathutils import Euler
 
 import scenes
 import window
-from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, triangles
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, striped_panel, triangles
 
 
 class Sample:
@@ -60,8 +60,7 @@ def stripes() -> bpy.types.PropertyGroup:
 
 
 def mode_agrees(driver: window.Window, mode: str, angle: Callable[[Sample], np.ndarray]) -> Steps:
-    ob = fresh_panel(driver, mode)
-    prepare(driver, ob)
+    ob = striped_panel(driver, mode)
     stripes().mode, stripes().count = mode, 60
     sample = yield from sampled(driver, ob)
     sample.agree(expected_light(angle(sample), 60))
@@ -95,8 +94,7 @@ def looked_up(values: np.ndarray, directions: np.ndarray, rotation: float) -> np
 
 
 def test_environment_image(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Image")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Image")
     values = equirectangular()
     image = bpy.data.images.new("Surroundings", values.shape[1], values.shape[0], float_buffer=True, is_data=True)
     image.pixels.foreach_set(np.repeat(values[:, :, None], 4, axis=2).astype(np.float32).ravel())
@@ -110,7 +108,7 @@ def test_environment_image(driver: window.Window) -> Steps:
 
 
 def test_no_image_is_no_error(driver: window.Window) -> Steps:
-    prepare(driver, fresh_panel(driver, "No Image"))
+    striped_panel(driver, "No Image")
     stripes().mode, stripes().image = 'IMAGE', None
     picture = yield from captured(driver)
     assert abs(np.median(picture) - 0.2) < 0.02
@@ -127,8 +125,7 @@ def perspective_view(driver: window.Window, ob: bpy.types.Object, tilt: float = 
 
 
 def test_this_view_in_perspective(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Perspective")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Perspective")
     stripes().eye = 'VIEWPORT'
     eye = perspective_view(driver, ob)
     sample = yield from sampled(driver, ob)
@@ -136,8 +133,7 @@ def test_this_view_in_perspective(driver: window.Window) -> Steps:
 
 
 def test_a_perspective_camera_is_one_direction(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Camera")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Camera")
     camera = bpy.context.scene.reflection_lines.camera
     camera.data.type, camera.location = 'PERSP', (0.3, 0.2, 2.5)
     with driver.override():
@@ -153,8 +149,7 @@ def test_a_perspective_camera_is_one_direction(driver: window.Window) -> Steps:
 
 
 def test_a_frozen_eye_stays_while_the_view_turns(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Frozen")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Frozen")
     eye = perspective_view(driver, ob)
     with driver.override():
         bpy.context.scene.reflection_lines.stripes.eye = 'FROZEN'
@@ -165,8 +160,7 @@ def test_a_frozen_eye_stays_while_the_view_turns(driver: window.Window) -> Steps
 
 def test_edges_are_soft_at_any_zoom(driver: window.Window) -> Steps:
     """Far away, where many lines share a pixel, the picture is their mean; near by, an edge is about a pixel wide."""
-    ob = fresh_panel(driver, "Zoom")
-    prepare(driver, ob)
+    striped_panel(driver, "Zoom")
     stripes().softness, stripes().count, stripes().width = 0.0, 2000, 0.3
     driver.region_3d().view_distance = 30.0
     far = yield from captured(driver)
@@ -187,8 +181,7 @@ def test_edges_are_soft_at_any_zoom(driver: window.Window) -> Steps:
 
 
 def test_only_the_selected_faces(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Part")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Part")
     stripes().mode, stripes().scope = 'IMAGE', 'SELECTION'
     stripes().image = None
     with driver.override():
@@ -208,8 +201,7 @@ def test_only_the_selected_faces(driver: window.Window) -> Steps:
 
 
 def test_a_part_has_the_normals_of_the_whole(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Part of the Whole")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Part of the Whole")
     with driver.override():
         scenes.edit(ob)
         scenes.select_faces(ob, lambda face: (face // CELLS) % 2 == 0)
@@ -224,8 +216,7 @@ def test_a_part_has_the_normals_of_the_whole(driver: window.Window) -> Steps:
 
 
 def test_a_collection(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "One")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "One")
     with driver.override():
         other = scenes.panel("Other", cells=8)
         other.location.x = 2.5
@@ -246,8 +237,7 @@ def test_a_collection(driver: window.Window) -> Steps:
 
 def solved_panel(driver: window.Window, name: str) -> Generator[float, None, tuple]:
     """A panel after a solve: (object, where its vertices were, the session's solution)."""
-    ob = fresh_panel(driver, name)
-    prepare(driver, ob)
+    ob = striped_panel(driver, name)
     with driver.override():
         scenes.edit_inner(ob, CELLS)
         before = scenes.world(ob)
@@ -408,12 +398,3 @@ def test_a_large_panel_is_drawn_at_once_and_then_better(driver: window.Window) -
     sample = yield from sampled(driver, ob)
     sample.agree(expected_light(sample.theta(sample.v[None])), share=0.99)
     assert draw.count_batch_builds() == builds + 2  # at once with what normals there are, then with better ones
-
-
-window.run(test_highlight_lines, test_isophotes, test_environment_image, test_no_image_is_no_error,
-           test_this_view_in_perspective, test_a_perspective_camera_is_one_direction,
-           test_a_frozen_eye_stays_while_the_view_turns, test_edges_are_soft_at_any_zoom, test_only_the_selected_faces,
-           test_a_part_has_the_normals_of_the_whole, test_a_collection,
-           test_deviation_map, test_residual_map, test_verdict_map,
-           test_a_map_of_a_changed_mesh_is_not_shown, test_before_the_last_solve, test_before_and_after_side_by_side,
-           test_the_legend_has_units_and_sign, test_a_large_panel_is_drawn_at_once_and_then_better)

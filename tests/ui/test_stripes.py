@@ -7,7 +7,7 @@ import numpy as np
 
 import scenes
 import window
-from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, triangles
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, striped_panel, triangles
 
 
 def theta_at_samples(driver: window.Window, ob: bpy.types.Object, picture: np.ndarray, corners: np.ndarray
@@ -35,8 +35,7 @@ def agrees_with_theta(driver: window.Window, ob: bpy.types.Object, share: float 
 
 
 def test_pixels_in_object_mode(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Object Mode")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Object Mode")
     yield from agrees_with_theta(driver, ob)
 
 
@@ -52,8 +51,7 @@ def test_pixels_of_a_turned_scaled_and_mirrored_object(driver: window.Window) ->
 
 # A fit across the crease would bend the lines within two rows of it.
 def test_each_side_of_a_crease_is_as_flat_as_it_is(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Folded")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Folded")
     with driver.override():
         middle = np.median([vertex.co.y for vertex in ob.data.vertices])
         for vertex in ob.data.vertices:
@@ -68,8 +66,7 @@ def test_each_side_of_a_crease_is_as_flat_as_it_is(driver: window.Window) -> Ste
 
 
 def test_pixels_in_edit_mode_while_the_mesh_changes(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Edit Mode")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Edit Mode")
     with driver.override():
         scenes.edit(ob)
         bpy.ops.mesh.select_all(action='SELECT')
@@ -82,8 +79,7 @@ def test_pixels_in_edit_mode_while_the_mesh_changes(driver: window.Window) -> St
 
 
 def test_pixels_over_the_edit_cage(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Cage")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Cage")
     with driver.override():
         scenes.edit(ob)
         bpy.ops.mesh.select_all(action='SELECT')
@@ -96,8 +92,7 @@ def builds() -> int:
 
 
 def test_settings_view_and_light_rebuild_no_batch(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Settings")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Settings")
     yield from captured(driver)
     before = builds()
     settings = bpy.context.scene.reflection_lines
@@ -116,8 +111,7 @@ def test_settings_view_and_light_rebuild_no_batch(driver: window.Window) -> Step
 
 
 def test_a_moved_vertex_rebuilds_one_batch(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Moved")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Moved")
     with driver.override():
         scenes.edit(ob)
     yield from captured(driver)
@@ -137,8 +131,7 @@ def same_picture(a: np.ndarray, b: np.ndarray) -> bool:
 
 
 def test_stripes_follow_a_drag_and_its_escape(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Dragged")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Dragged")
     with driver.override():
         scenes.edit(ob)
         scenes.select_faces(ob, lambda face: face == CELLS * CELLS // 2 + CELLS // 2)
@@ -160,8 +153,7 @@ def test_stripes_follow_a_drag_and_its_escape(driver: window.Window) -> Steps:
 
 
 def test_a_panel_that_is_hidden_wholly(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Hidden")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Hidden")
     with driver.override():
         scenes.edit_inner(ob, CELLS)
     before = yield from captured(driver)
@@ -178,8 +170,7 @@ def test_a_panel_that_is_hidden_wholly(driver: window.Window) -> Steps:
 
 
 def test_stripes_follow_undo_in_both_modes(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Undone")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Undone")
     for enter in (scenes.object_mode, lambda: scenes.edit_inner(bpy.context.object, CELLS)):
         with driver.override():
             scenes.edit_inner(ob, CELLS)
@@ -200,8 +191,7 @@ def test_stripes_follow_undo_in_both_modes(driver: window.Window) -> Steps:
 
 def test_what_is_gone_or_long_unseen_is_dropped(driver: window.Window) -> Steps:
     draw = sys.modules["reflection_lines"].overlay.draw
-    ob = fresh_panel(driver, "First")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "First")
     yield from captured(driver)
     assert draw.list_kept_names() == {"First"}  # and none of the tests before
     with driver.override():
@@ -222,7 +212,7 @@ def test_what_is_gone_or_long_unseen_is_dropped(driver: window.Window) -> Steps:
 
 def test_few_environment_images_are_kept(driver: window.Window) -> Steps:
     draw, stripes = sys.modules["reflection_lines"].overlay.draw, bpy.context.scene.reflection_lines.stripes
-    prepare(driver, fresh_panel(driver, "Surroundings"))
+    striped_panel(driver, "Surroundings")
     stripes.mode = 'IMAGE'
     for number in range(draw.KEPT_TEXTURES + 2):
         stripes.image = bpy.data.images.new(f"Surroundings {number}", 8, 4)
@@ -230,12 +220,3 @@ def test_few_environment_images_are_kept(driver: window.Window) -> Steps:
         yield 0.2
     assert draw.count_textures() == draw.KEPT_TEXTURES
     stripes.mode, stripes.image = 'REFLECTION', None
-
-
-window.run(test_pixels_in_object_mode, test_pixels_of_a_turned_scaled_and_mirrored_object,
-           test_each_side_of_a_crease_is_as_flat_as_it_is,
-           test_pixels_in_edit_mode_while_the_mesh_changes, test_pixels_over_the_edit_cage,
-           test_settings_view_and_light_rebuild_no_batch, test_a_moved_vertex_rebuilds_one_batch,
-           test_stripes_follow_a_drag_and_its_escape, test_a_panel_that_is_hidden_wholly,
-           test_stripes_follow_undo_in_both_modes, test_what_is_gone_or_long_unseen_is_dropped,
-           test_few_environment_images_are_kept)

@@ -8,7 +8,7 @@ import numpy as np
 
 import scenes
 import window
-from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples
+from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, striped_panel
 
 
 def limit_of(ob: bpy.types.Object) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -104,8 +104,7 @@ def test_before_the_last_solve_is_what_was_seen_before_it(driver: window.Window)
 
 
 def test_what_another_modifier_made_of_the_mesh_before_is_not_shown_as_a_coarse_one(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Split")
-    prepare(driver, ob)
+    ob = striped_panel(driver, "Split")
     ob.modifiers.new("Triangulate", 'TRIANGULATE')
     ob.modifiers.new("Simple", 'SUBSURF').subdivision_type = 'SIMPLE'
     with driver.override():
@@ -153,9 +152,3 @@ def test_a_file_with_an_edge_of_too_many_faces_shows_the_modifiers_surface(drive
         scenes.smooth()  # of two objects in Edit Mode the other is solved, and this one left
         assert scenes.fingerprint(bpy.data.objects["Book"]) == before
         scenes.object_mode()
-
-
-window.run(test_every_pixel_shows_the_limit, test_it_follows_the_cage_in_edit_mode,
-           test_before_the_last_solve_is_what_was_seen_before_it,
-           test_what_another_modifier_made_of_the_mesh_before_is_not_shown_as_a_coarse_one,
-           test_a_file_with_an_edge_of_too_many_faces_shows_the_modifiers_surface)

@@ -8,7 +8,7 @@ from mathutils import Euler
 
 import scenes
 import window
-from picture import Steps, captured, fresh_panel, prepare
+from picture import Steps, captured, striped_panel
 
 CELLS = 10
 CHOSEN = 33  # the face that is selected
@@ -18,8 +18,7 @@ VIEWS = {"steep": ('ORTHO', (1.0, 0.0, 0.5)), "perspective": ('PERSP', (0.9, 0.0
 
 def coarse_panel(driver: window.Window, light: tuple, view: str) -> bpy.types.Object:
     """A panel in Edit Mode, with one face selected, under stripes that are all of one colour."""
-    old = fresh_panel(driver, "Old")
-    prepare(driver, old)
+    old = striped_panel(driver, "Old")
     with driver.override():
         bpy.data.objects.remove(old)
         ob = scenes.panel("Coarse", cells=CELLS)
@@ -120,7 +119,3 @@ def test_a_dense_cage_leaves_the_stripes_to_see(driver: window.Window) -> Steps:
     print(f"away: {coarse[away].min():.3f} {dense[away].min():.3f}, middle {dense[middle].min():.3f}")
     assert dense[away].min() > 0.9 > coarse[away].min()
     assert dense[middle].min() < 0.5  # what is selected stays
-
-
-window.run(test_dots_are_whole_on_white_and_on_black, test_selected_vertices_edges_and_faces_are_seen,
-           test_off_hides_the_cage, test_a_dense_cage_leaves_the_stripes_to_see)

@@ -10,19 +10,15 @@ from mathutils import Matrix
 
 import scenes
 import window
-from picture import CELLS, Steps, captured, fresh_panel, prepare
+from picture import CELLS, Steps, captured, striped_panel
+from scenes import settings
 
 GREY = 0.2  # of the environment without an image: a flat colour that only stripes show
 
 
-def settings() -> bpy.types.PropertyGroup:
-    return bpy.context.scene.reflection_lines
-
-
 def flat_panel(driver: window.Window, name: str) -> bpy.types.Object:
     """A panel whose stripes are one grey, so that its pixels can be counted."""
-    ob = fresh_panel(driver, name)
-    prepare(driver, ob)
+    ob = striped_panel(driver, name)
     settings().stripes.mode, settings().stripes.image = 'IMAGE', None
     return ob
 
@@ -224,8 +220,7 @@ def stroke(driver: window.Window) -> Steps:
 
 
 def test_stripes_follow_a_stroke_in_sculpt_mode(driver: window.Window) -> Steps:
-    ob = fresh_panel(driver, "Sculpted")
-    prepare(driver, ob)
+    striped_panel(driver, "Sculpted")
     with driver.override():
         bpy.ops.object.mode_set(mode='SCULPT')
         ensure_brush()
@@ -244,12 +239,3 @@ def test_stripes_follow_a_stroke_in_sculpt_mode(driver: window.Window) -> Steps:
     assert changed[2] > 1000
     assert changed[0] > 0.5 * changed[2]
     assert (np.abs(after - left) > 0.1).mean() < 2e-3
-
-
-window.run(test_stripes_stay_while_light_camera_or_nothing_is_active,
-           test_after_opening_a_file_stripes_are_on_what_was_solved, test_a_map_of_a_mesh_that_has_changed_says_so,
-           test_stripes_follow_a_shape_key_that_is_played, test_all_visible_and_empty_scopes,
-           test_a_linked_object_of_the_same_name_has_its_own_stripes,
-           test_the_lattice_of_a_deleted_panel_shows_no_panel,
-           test_the_overlay_switch_hides_them, test_what_is_missing_is_said,
-           test_stripes_follow_a_stroke_in_sculpt_mode)

@@ -11,12 +11,8 @@ import picture
 import scenes
 import window
 from dragging import dragged_length, ended, executed, panel, settled, shown, undone_and_redone
-
-Steps = Generator[float, None, None]
-
-
-def settings() -> bpy.types.PropertyGroup:
-    return bpy.context.scene.reflection_lines
+from scenes import settings
+from window import Steps
 
 
 def take_tool(driver: window.Window) -> Steps:
@@ -194,11 +190,3 @@ def test_disabled_in_use_the_tool_leaves_no_entry_and_comes_back(driver: window.
     panel(driver)
     yield from take_tool(driver)
     assert len((yield from found(driver, gizmos().ARROW_COLOR))) > 100
-
-
-window.run(test_dragging_the_arrow_smooths_and_letting_go_keeps_it,
-           test_a_click_on_the_arrow_goes_on_as_a_drag_that_escape_takes_back,
-           test_the_ring_turns_the_light_in_edit_mode,
-           test_numpad_0_looks_through_the_view_camera_while_the_tool_is_active,
-           test_the_gizmos_stay_beside_the_sidebar, test_without_a_camera_and_light_there_is_nothing_to_grab,
-           test_disabled_in_use_the_tool_leaves_no_entry_and_comes_back)

@@ -9,10 +9,8 @@ import bpy
 
 import installation
 
-Test = Callable[["Window"], Generator[float, None, None]]
-
-
 Steps = Generator[float, None, None]
+Test = Callable[["Window"], Steps]
 
 
 class Window:
@@ -71,8 +69,14 @@ def take_picture(driver: Window, name: str) -> Steps:
         yield 0.3
 
 
+def find_tests(names: dict[str, object]) -> list[Test]:
+    """Returns the tests among the names of a file that was run as the main one, in its order."""
+    return [each for name, each in names.items()
+            if name.startswith("test_") and getattr(each, "__module__", None) == "__main__"]
+
+
 def run(*tests: Test) -> None:
-    """Runs the tests one after the other from a timer, prints the line of counts, and ends Blender."""
+    """Runs the tests from a timer."""
     bpy.context.preferences.system.viewport_aa = 'OFF'  # Blender draws a view at rest eight times for smooth edges
     start(all_steps(tests))
 
@@ -83,7 +87,7 @@ def rest() -> float:
     return 0.0
 
 
-def start(steps: Generator[float, None, None]) -> None:
+def start(steps: Steps) -> None:
     """From a timer, with the add-on enabled."""
     bpy.context.preferences.view.show_splash = False
     installation.install()
@@ -91,7 +95,8 @@ def start(steps: Generator[float, None, None]) -> None:
     bpy.app.timers.register(lambda: next(steps), first_interval=1.0, persistent=True)
 
 
-def all_steps(tests: tuple[Test, ...]) -> Generator[float, None, None]:
+def all_steps(tests: tuple[Test, ...]) -> Steps:
+    """Runs them one after the other, prints the line of counts, and ends Blender."""
     passed = 0
     for test in tests:
         start = time.monotonic()
