@@ -13,7 +13,4 @@ def empty_scene() -> None:
 @pytest.fixture
 def panel() -> bpy.types.Object:
     """Returns a rippled panel of 16 x 16 faces in Edit Mode, its inner faces selected, seen from above."""
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
-    return ob
+    return scenes.edited_panel()

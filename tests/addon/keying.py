@@ -14,10 +14,7 @@ LOW = {**UP, "end": (0.1, 0.0625, 0.0)}
 
 def fresh() -> bpy.types.Object:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    ob = scenes.panel(cells=32, height=scenes.crown)
-    scenes.look_from_above()
-    scenes.edit_inner(ob, 32)
-    return ob
+    return scenes.edited_panel(cells=32, height=scenes.crown)
 
 
 def mirror_half(ob: bpy.types.Object) -> None:

@@ -52,9 +52,13 @@ def look_from_above(light_degrees: float = 70.0) -> None:
     bpy.ops.reflines.set_up(part='LIGHT', direction=(np.sin(angle), 0.0, np.cos(angle)))
 
 
-def smooth(**settings: object) -> set[str]:
+def settings() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.reflection_lines
+
+
+def smooth(**given: object) -> set[str]:
     """Through the user's door, as one undo step."""
-    return bpy.ops.reflines.smooth('EXEC_DEFAULT', True, **settings)
+    return bpy.ops.reflines.smooth('EXEC_DEFAULT', True, **given)
 
 
 def edit(*objects: bpy.types.Object) -> None:
@@ -81,6 +85,15 @@ def inner(cells: int = 16, margin: int = 1) -> Callable[[int], bool]:
 def edit_inner(ob: bpy.types.Object, cells: int = 16, margin: int = 1) -> None:
     edit(ob)
     select_faces(ob, inner(cells, margin))
+
+
+def edited_panel(name: str = "Panel", height: Height = rippled, cells: int = 16, margin: int = 1,
+                 light_degrees: float = 70.0) -> bpy.types.Object:
+    """A panel seen from above, in Edit Mode with all but its outermost rings selected."""
+    ob = panel(name, height, cells)
+    look_from_above(light_degrees)
+    edit_inner(ob, cells, margin)
+    return ob
 
 
 def object_mode() -> None:

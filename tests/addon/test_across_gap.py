@@ -135,21 +135,6 @@ def test_halves_of_one_mesh_that_touch_are_smoothed_as_if_they_were_joined(borde
     assert "not joined" not in left.reflection_lines.report.notes
 
 
-@pytest.mark.parametrize("border", ["clamped", "free"])
-def test_halves_that_are_split_at_their_vertices_never_tear(border: str) -> None:
-    half("Right", 0.0, 1.0, dented)
-    left = half("Left", -1.0, 0.0, dented)
-    count = len(left.data.vertices)
-    scenes.activate(bpy.data.objects["Right"])
-    scenes.activate(left)
-    bpy.ops.object.join()
-    start(left)
-    assert scenes.smooth(border=border) == {'FINISHED'}
-    after = places(left)
-    (_, one), (_, other) = rim_heights(after[:count], 0.0), rim_heights(after[count:], 0.0)
-    assert np.array_equal(one, other) and np.abs(after[:, 2] - scenes.crown(after[:, 0], after[:, 1])).max() < 1.6e-3
-
-
 def over(x: float, y: float) -> float:
     return scenes.crown(x, y) + 0.003
 
@@ -247,15 +232,6 @@ def test_a_neighbour_is_followed_as_its_modifiers_leave_it() -> None:
     assert kink(places(left), other, 0.0) < 0.3
 
 
-def test_a_clean_half_moves_no_further_than_alone() -> None:
-    half("Right", 0.004, 1.0, scenes.crown, 17)
-    left = half("Left", -1.0, -0.004, scenes.crown)
-    start(left)
-    before = places(left)
-    scenes.smooth(border='follow')
-    assert np.abs(places(left) - before).max() < 2e-5
-
-
 def test_a_segment_follows_alone() -> None:
     """Where only the upper part of the rim is set to follow, the lower part keeps its kink."""
     right = half("Right", 0.0, 1.0, scenes.crown)
@@ -310,18 +286,6 @@ def test_two_objects_in_edit_mode_become_one_surface(kind: str, gap: float) -> N
 
 def dented(x: float, y: float) -> float:
     return scenes.crown(x, y) - 0.008 * np.exp(-(x**2 + y**2) / 0.1**2)
-
-
-def test_a_dent_across_a_gap_goes_and_the_gap_stays() -> None:
-    """Both rims move, and alike: one held border would keep the dent's depth."""
-    right, left = half("Right", 0.004, 1.0, dented, 33), half("Left", -1.0, -0.004, dented, 40)
-    start_several(left, right)
-    before = places(left), places(right)
-    assert scenes.smooth(border='follow') == {'FINISHED'}
-    after = places(left), places(right)
-    depth = [max(np.abs(V[:, 2] - scenes.crown(V[:, 0], V[:, 1])).max() for V in each) for each in (before, after)]
-    assert depth[0] > 0.0078 and depth[1] < 0.2 * depth[0]
-    assert np.abs(flush(*after, 0.008) - flush(*before, 0.008)).max() < 0.01 * depth[0]
 
 
 def test_several_objects_are_pressed_alike_whatever_their_order() -> None:

@@ -60,9 +60,7 @@ def test_deleted_camera_or_light(which, sentence) -> None:
 
 
 def test_light_parallel_to_the_view() -> None:
-    ob = scenes.panel()
-    scenes.look_from_above(light_degrees=0.0)
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel(light_degrees=0.0)
     refused(ob, "parallel to the view")
 
 

@@ -23,9 +23,7 @@ def check(ob: bpy.types.Object) -> dict[str, bpy.types.PropertyGroup]:
 
 
 def solved_panel(**settings: object) -> bpy.types.Object:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob, margin=2)
+    ob = scenes.edited_panel(margin=2)
     assert scenes.smooth(**settings) == {'FINISHED'}
     return ob
 
@@ -220,9 +218,7 @@ def test_what_cannot_be_changed_can_be_checked(tmp_path: Path, kind: str) -> Non
 
 
 def test_no_faces_are_refused_in_a_sentence() -> None:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel()
     scenes.smooth(strength=0.0)
     scenes.object_mode()
     ob.data.vertices[140].co.z += 0.01

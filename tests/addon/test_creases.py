@@ -11,9 +11,7 @@ COLUMN = [8 + 17 * k for k in range(17)]  # vertices of the panel's middle
 
 def marked_panel(mark: str) -> bpy.types.Object:
     """The rippled panel, its middle column marked, ready for a tool."""
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel()
     mesh = bmesh.from_edit_mesh(ob.data)
     crease = mesh.edges.layers.float.get("crease_edge") or getattr(mesh.edges.layers, "crease", None)
     if mark == 'CREASE' and not isinstance(crease, bmesh.types.BMLayerItem):
@@ -66,17 +64,3 @@ def test_another_rule_builds_another_optimizer() -> None:
     before = scenes.positions(ob)
     assert scenes.smooth() == {'FINISHED'}
     assert has_moved(ob, before)
-
-
-def test_blenders_default_cylinder_is_no_crease() -> None:
-    """32 sides: the outer half of them, seen from the side."""
-    bpy.ops.mesh.primitive_cylinder_add(end_fill_type='NOTHING', rotation=(np.pi / 2, 0.0, 0.0))
-    bpy.ops.object.transform_apply(rotation=True)
-    ob = bpy.context.view_layer.objects.active
-    bpy.ops.object.mode_set(mode='EDIT')
-    bpy.ops.mesh.select_all(action='SELECT')
-    scenes.look_from_above()
-    scenes.select_faces(ob, lambda face: ob.data.polygons[face].normal.z > 0.5)
-    bpy.context.scene.reflection_lines.border = 'free'
-    assert scenes.smooth() == {'FINISHED'}
-    assert "bend" not in ob.reflection_lines.report.kept

@@ -19,9 +19,7 @@ PRESSES = {
 @pytest.fixture
 def panel() -> bpy.types.Object:
     """A clean one, a region in its middle: no target but the tool's."""
-    ob = scenes.panel(height=scenes.crown, cells=CELLS)
-    scenes.look_from_above()
-    scenes.edit_inner(ob, CELLS, margin=8)
+    ob = scenes.edited_panel(height=scenes.crown, cells=CELLS, margin=8)
     bpy.ops.ed.undo_push(message="start")
     return ob
 
@@ -95,9 +93,7 @@ def test_a_border_in_the_way_is_named_and_the_remedy_does_it(panel, border, name
 
 
 def test_what_is_as_wanted_already_is_no_failure() -> None:
-    panel = scenes.panel(cells=CELLS)
-    scenes.look_from_above()
-    scenes.edit_inner(panel, CELLS)
+    panel = scenes.edited_panel(cells=CELLS)
     for _ in range(3):
         scenes.smooth()
         assert "of the target" not in panel.reflection_lines.report.notes

@@ -64,9 +64,7 @@ def test_one_undo_step_for_all() -> None:
 def test_a_result_that_was_undone_is_marked() -> None:
     """Undo in Edit Mode gives the mesh back, but not what the object's report was before."""
     shown = bpy.context.window_manager.reflection_lines
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel()
     bpy.ops.ed.undo_push(message="start")
     for length in (0.5, 0.8):
         scenes.smooth(length=length)

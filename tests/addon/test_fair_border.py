@@ -19,10 +19,7 @@ def noisy(x: float, y: float) -> float:
 
 
 def ready() -> bpy.types.Object:
-    ob = scenes.panel(height=noisy, cells=CELLS)
-    scenes.look_from_above()
-    scenes.edit_inner(ob, CELLS, MARGIN)
-    return ob
+    return scenes.edited_panel(height=noisy, cells=CELLS, margin=MARGIN)
 
 
 def rim() -> np.ndarray:
@@ -69,19 +66,6 @@ def test_all_faces_within_the_reach_are_read() -> None:
     assert np.abs(near[:, :2]).max() - np.abs(patch.V[:, :2]).max() == pytest.approx(4.0 * edge, rel=1e-3)
 
 
-def test_the_flaws_at_the_border_go() -> None:
-    left = []
-    for fair in (False, True):
-        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-        ob = ready()
-        assert scenes.smooth(fair_border=fair) == {'FINISHED'}
-        V = scenes.positions(ob)
-        clean = np.array([scenes.crown(x, y) for x, y in V[:, :2]])
-        left.append(float(np.std((V[:, 2] - clean)[rim()])))
-    print(f"{1e6 * left[0]:.0f} um are left at a held border, {1e6 * left[1]:.0f} um at a faired one")
-    assert left[1] < 0.8 * left[0]
-
-
 def test_segments_with_a_border_of_their_own_are_held() -> None:
     ob = scenes.panel(height=noisy, cells=CELLS)
     scenes.look_from_above()
@@ -95,15 +79,6 @@ def test_segments_with_a_border_of_their_own_are_held() -> None:
     others = rim()
     others[side] = False
     assert not moved[side].any() and moved[others].mean() > 0.9
-
-
-def test_without_faces_beside_it_is_said() -> None:
-    ob = scenes.panel(height=noisy, cells=CELLS)
-    scenes.look_from_above()
-    scenes.edit(ob)
-    bpy.ops.mesh.select_all(action='SELECT')
-    assert scenes.smooth(fair_border=True) == {'FINISHED'}
-    assert "There are no faces beside the region" in ob.reflection_lines.report.notes
 
 
 def test_with_a_length_it_makes_no_difference() -> None:

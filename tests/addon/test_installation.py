@@ -25,9 +25,7 @@ def disable(name: str = installation.NAME) -> None:
 
 
 def works() -> bool:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    scenes.edited_panel()
     return scenes.smooth() == {'FINISHED'}
 
 
@@ -98,9 +96,7 @@ def stays_enabled_and_says(problem: str, remedy: str) -> None:
     session = bpy.context.window_manager.reflection_lines
     assert problem in session.problem
     assert remedy in session.remedy
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    scenes.edited_panel()
     with pytest.raises(RuntimeError, match="The native solver"):
         scenes.smooth()
 

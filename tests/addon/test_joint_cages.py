@@ -9,7 +9,7 @@ from reflection_lines.read import gather
 
 import car_crossings
 import scenes
-from test_across_gap import CELLS, dented, half, places, rim_heights, start, start_several
+from test_across_gap import CELLS, dented, half, places, start, start_several
 
 GAP = 0.008
 SAMPLES = Path(__file__).resolve().parents[2] / "blend_samples"
@@ -21,42 +21,10 @@ def subdivide(ob: bpy.types.Object) -> None:
     bpy.context.view_layer.update()
 
 
-def shown(ob: bpy.types.Object) -> np.ndarray:
-    """The places of the evaluated surface: #V x 3, world space."""
-    evaluated = ob.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    values = np.empty(3 * len(evaluated.to_mesh().vertices), np.float32)
-    evaluated.to_mesh().vertices.foreach_get("co", values)
-    evaluated.to_mesh_clear()
-    return values.reshape(-1, 3).astype(float)
-
-
-def depth(V: np.ndarray) -> float:
-    return float(np.abs(V[:, 2] - scenes.crown(V[:, 0], V[:, 1])).max())
-
-
-def dented_pair() -> tuple[bpy.types.Object, bpy.types.Object]:
-    """A mesh and a cage beside each other, with a dent across the gap, in Edit Mode."""
+def test_one_undo_takes_back_mesh_and_cage() -> None:
     right, left = half("Right", 0.5 * GAP, 1.0, dented, 30), half("Left", -1.0, -0.5 * GAP, dented, 40)
     subdivide(right)
     start_several(left, right)
-    return left, right
-
-
-def test_a_dent_across_the_gap_to_a_cage_goes_and_the_gap_stays() -> None:
-    left, right = dented_pair()
-    before = places(left), shown(right)
-    assert scenes.smooth(border='follow') == {'FINISHED'}
-    after = places(left), shown(right)
-    assert all(depth(V) > 0.0075 for V in before) and all(depth(V) < 0.1 * 0.008 for V in after)
-    (y, _), (other_y, _) = rim_heights(before[0], -0.5 * GAP), rim_heights(before[1], 0.5 * GAP)
-    steps = [np.interp(y, other_y, rim_heights(cage, 0.5 * GAP)[1]) - rim_heights(mesh, -0.5 * GAP)[1]
-             for mesh, cage in (before, after)]
-    assert np.abs(steps[1] - steps[0]).max() < 0.01 * 0.008
-    assert [modifier.type for modifier in right.modifiers] == ['SUBSURF']
-
-
-def test_one_undo_takes_back_mesh_and_cage() -> None:
-    left, right = dented_pair()
     bpy.ops.ed.undo_push(message="before")
     before = places(left), places(right)
     assert scenes.smooth(border='follow') == {'FINISHED'}

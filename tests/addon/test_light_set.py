@@ -17,6 +17,7 @@ from reflection_lines.state import solve_history
 
 import scenes
 from keying import pull
+from scenes import settings
 
 CELLS, CAGE_CELLS = 40, 20
 
@@ -28,16 +29,10 @@ def dented(x: float, y: float) -> float:
 def make_panel(kind: str = "mesh") -> bpy.types.Object:
     """A cage has as many vertices as its surface needs."""
     cells = CAGE_CELLS if kind == "cage" else CELLS
-    ob = scenes.panel(height=dented, cells=cells)
-    scenes.look_from_above()
-    scenes.edit_inner(ob, cells)
+    ob = scenes.edited_panel(height=dented, cells=cells)
     if kind != "mesh":
         ob.modifiers.new("Modifier", {"cage": 'SUBSURF', "mirrored": 'MIRROR'}[kind])
     return ob
-
-
-def settings() -> bpy.types.PropertyGroup:
-    return bpy.context.scene.reflection_lines
 
 
 def press(**given: object) -> None:

@@ -79,12 +79,6 @@ def test_the_surface_of_a_cage_moves_one_way_only(cage: bpy.types.Object, tool: 
     assert 1e-5 < moves.max() <= LIMIT + ROUNDING
 
 
-@pytest.mark.parametrize("tool", ["smooth", "direction"])
-def test_the_limit_is_one_of_the_surface_of_a_cage(cage: bpy.types.Object, tool: str) -> None:
-    moves = solve_cage(tool, cage)
-    assert 0.9 * LIMIT < np.abs(moves).max() <= LIMIT + ROUNDING
-
-
 def test_large_cages_are_refused_one_way(cage: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(native.reflines, "MOST_BOUNDED_CAGE", 100)
     cage.reflection_lines.limit_side = 'OUTWARD'

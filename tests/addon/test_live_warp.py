@@ -13,9 +13,7 @@ import scenes
 
 @pytest.fixture
 def panel() -> bpy.types.Object:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel()
     bpy.ops.reflines.add_warp_lattice()
     scenes.object_mode()
     return ob

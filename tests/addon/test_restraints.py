@@ -12,9 +12,7 @@ import scenes
 def press(tool: str, **options: object) -> tuple[bpy.types.Object, np.ndarray, np.ndarray]:
     """A tool on a new panel: the panel, and its vertices before and after."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    panel = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(panel)
+    panel = scenes.edited_panel()
     before = scenes.positions(panel)
     assert getattr(bpy.ops.reflines, tool)(**options) == {'FINISHED'}
     return panel, before, scenes.positions(panel)

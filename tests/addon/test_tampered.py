@@ -19,9 +19,7 @@ solve_record = sys.modules["reflection_lines.write.solve_record"]
 def solved() -> bpy.types.Object:
     """A smoothed panel with its record as a saved file has it."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel()
     assert scenes.smooth() == {'FINISHED'}
     scenes.object_mode()
     persistence.save_solves()

@@ -25,9 +25,7 @@ def test_tooltips_are_short(name: str) -> None:
 
 
 def solved(**settings: object) -> bpy.types.PropertyGroup:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel()
     scenes.smooth(**settings)
     return ob.reflection_lines.report
 

@@ -7,16 +7,13 @@ import pytest
 from mathutils import Euler
 
 import scenes
+from scenes import settings
 
 
 def axis_z(ob: bpy.types.Object) -> np.ndarray:
     bpy.context.view_layer.update()
     z = np.array(ob.matrix_world)[:3, 2]
     return z / np.linalg.norm(z)
-
-
-def settings() -> bpy.types.PropertyGroup:
-    return bpy.context.scene.reflection_lines
 
 
 @pytest.mark.parametrize("angles", [(0.0, 0.0, 0.0), (0.5, 0.3, 2.0), (np.pi / 2, 0.0, 0.0)])

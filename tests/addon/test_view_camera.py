@@ -7,10 +7,7 @@ from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
 
 import scenes
-
-
-def settings() -> bpy.types.PropertyGroup:
-    return bpy.context.scene.reflection_lines
+from scenes import settings
 
 
 def axis_z(ob: bpy.types.Object) -> np.ndarray:
@@ -154,9 +151,7 @@ def has_other_view(ob: bpy.types.Object) -> bool:
 
 
 def test_a_panel_keeps_its_view() -> None:
-    one = scenes.panel("One")
-    scenes.look_from_above()
-    scenes.edit_inner(one)
+    one = scenes.edited_panel("One")
     scenes.smooth()
     scenes.object_mode()
     first = settings().camera, settings().light
