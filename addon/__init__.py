@@ -36,6 +36,7 @@ NAMES = (
     "read.unjoined_border", "read.viewport_cage",
     "view.view_and_light", "view.facing", "view.light_angles", "view.light_arrow", "view.view_region",
     "view.places_beside", "view.read_light_set", "view.screen_surface", "view.view_camera",
+    "write.keep_region", "write.result_key", "write.set_borders",
     "write.write_mesh", "write.live_warp_start", "write.png", "write.select_faces",
     "write.solve_record", "write.warp_lattice",
     "solver.panel_problem", "solver.build_native", "solver.read_solved", "solver.live_optimizer",

@@ -20,13 +20,13 @@ from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
 from ..overlay import falloff_circle
-from ..read import read_mesh, region_faces
+from ..read import read_mesh
 from ..solver import live_optimizer
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
 from ..view import view_and_light, view_region
-from ..write import write_mesh
+from ..write import keep_region, write_mesh
 from ..write.write_mesh import EditVertices
 from . import drag_input
 from .drag_handles import DragValues, Handle
@@ -196,7 +196,7 @@ class Drag:
             return
         self.restore()
         for ob, solution in zip(self.find_objects(), solutions, strict=True):
-            region_faces.keep_region(ob, solution.patch)
+            keep_region.keep_region(ob, solution.patch)
         for ob, solution in zip(self.find_objects(), solutions, strict=True):
             write_mesh.write_solution(ob, solution.patch, solution.positions)
         self.shown = [solution.patch.to_object_space(solution.positions) for solution in solutions]

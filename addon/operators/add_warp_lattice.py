@@ -3,11 +3,11 @@ import bpy
 
 from ..model import meeting
 from ..model.refusal import report_refusals
-from ..read import gather, region_faces, scene_objects
+from ..read import gather, scene_objects
 from ..solver import live_optimizer
 from ..ui.tool_properties import SPLINES
 from ..view import facing
-from ..write import warp_lattice
+from ..write import keep_region, warp_lattice
 from .solve_tool import is_ready
 
 
@@ -38,7 +38,7 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
         patch, *beside = [gather.gather_patch(each, as_mesh=True) for each in (ob, *others)]
         seen = facing.read_patch_view(context.scene, patch)
         frame = live_optimizer.compute_image_frame(patch, seen)
-        region_faces.keep_region(ob, patch)
+        keep_region.keep_region(ob, patch)
         added = warp_lattice.add_lattice(meeting.find_meeting(patch, beside), frame, columns=self.columns,
                                          rows=self.rows, kind=self.interpolation,
                                          collection=scene_objects.find_editable_collection(context))

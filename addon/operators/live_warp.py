@@ -7,10 +7,10 @@ from ..interactive.live_baseline import BaselineChanged
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution
-from ..read import gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys
+from ..read import gather, modifiers, read_mesh, scene_objects, shape_keys
 from ..state import optimizer_cache, solve_history
 from ..targets import warp
-from ..write import live_warp_start, warp_lattice, write_mesh
+from ..write import keep_region, live_warp_start, warp_lattice, write_mesh
 from .solve_tool import is_ready
 
 
@@ -143,7 +143,7 @@ shape, Discard takes it back; both can wait until the file is opened again"""
         if active.type == 'MESH' and active.mode == 'EDIT':
             ob = scene_objects.find_subjects(context)[0]
             refuse_keys(ob, settings.result)
-            region_faces.keep_region(ob, gather.gather_patch(ob, settings.result))
+            keep_region.keep_region(ob, gather.gather_patch(ob, settings.result))
         enter_object_mode(context)
         ob = ob or scene_objects.find_subjects(context)[0]
         refuse_keys(ob, settings.result)

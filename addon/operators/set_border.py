@@ -3,8 +3,9 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..model.refusal import report_refusals
-from ..read import border_segments, scene_objects
+from ..read import scene_objects
 from ..ui.tool_properties import BORDERS
+from ..write import set_borders
 
 UNSET = ('unset', "As the Tool", "The selected vertices have no border of their own: that of the tool holds")
 
@@ -32,7 +33,7 @@ of selected faces it is set at their rim"""
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:
         objects = [ob for ob in scene_objects.list_edited_meshes(context) if ob.data.total_vert_sel > 0]
-        counts = border_segments.set_selected_borders(objects, self.border)
+        counts = set_borders.set_selected_borders(objects, self.border)
         label = next(item[1] for item in (*BORDERS, UNSET) if item[0] == self.border)
         counted = (f"{ob.name}: {count} vertices" for ob, count in zip(objects, counts, strict=True) if count)
         self.report({'INFO'}, f"Border {label}, {'; '.join(counted)}")

@@ -21,7 +21,7 @@ from ..ui import automatic_values
 from ..ui.properties import result_property
 from ..ui.tool_properties import border_property
 from ..view import facing, read_light_set, view_and_light
-from ..write import write_mesh
+from ..write import keep_region, write_mesh
 
 # Settings of the scene for all tools that have none of their own.
 SHARED = {"border", "result", "lights", "limit"}
@@ -108,7 +108,7 @@ class SolveTool:
             optimizer_cache.drop_surplus({ob.name for ob in subjects})
             press_cache.keep_only({ob.name for ob in subjects})
         for solution in solutions:  # before writing: a result in a shape key ends Edit Mode for all objects
-            region_faces.keep_region(bpy.data.objects[solution.patch.name], solution.patch)
+            keep_region.keep_region(bpy.data.objects[solution.patch.name], solution.patch)
         for solution in solutions:
             ob = bpy.data.objects[solution.patch.name]
             write_mesh.write_solution(ob, solution.patch, solution.positions, edited=self.edited)
@@ -206,7 +206,7 @@ class SolveTool:
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
         """Records a solution beside its positions: region, history, report, and the run for Re-solve."""
-        region_faces.keep_region(ob, solution.patch)
+        keep_region.keep_region(ob, solution.patch)
         solve_history.remember_solve(solution.to_last_solve())
         stored = ob.reflection_lines
         stored.center = solution.patch.local_center

@@ -2,11 +2,8 @@
 
 The attribute is an integer, because Blender 3.4 has no boolean layers in Edit Mode.
 """
-import bmesh
 import bpy
 import numpy as np
-
-from ..model.patch import Patch
 
 ATTRIBUTE = "reflines_region"
 
@@ -52,21 +49,3 @@ def read_face_flags(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     values = np.empty(len(mesh.polygons), dtype=bool)
     mesh.polygons.foreach_get(name, values)
     return values
-
-
-def store_region(mesh: bpy.types.Mesh, faces: np.ndarray) -> None:
-    """Stores the region in Edit Mode.
-
-    A new layer invalidates references to elements of the edit mesh, so call this before taking any.
-    """
-    edit = bmesh.from_edit_mesh(mesh)
-    layers = edit.faces.layers.int
-    layer = layers.get(ATTRIBUTE) or layers.new(ATTRIBUTE)
-    for face, inside in zip(edit.faces, faces.tolist(), strict=True):
-        face[layer] = inside
-
-
-def keep_region(ob: bpy.types.Object, patch: Patch) -> None:
-    """Stores the faces of a patch gathered in Edit Mode, so that tools can run on them again in Object Mode."""
-    if ob.mode == 'EDIT':
-        store_region(ob.data, patch.faces)

@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 
 from ..model.patch import Patch
-from ..read import read_mesh, shape_keys
-from . import write_mesh
+from ..read import read_mesh
+from . import result_key, write_mesh
 
 ATTRIBUTE = "reflines_live_start"
 LEFT, SIZE, KEY, MADE = "reflines_live_left", "reflines_live_size", "reflines_live_key", "reflines_live_made"
@@ -22,7 +22,7 @@ def store_start(ob: bpy.types.Object, patch: Patch) -> None:
     values = np.full((len(ob.data.vertices), 3), np.nan, dtype=np.float32)
     values[patch.index] = patch.local
     remove_start(ob)
-    ob.data[KEY], ob.data[MADE] = patch.key, "\n".join(shape_keys.open_result_key(ob) if patch.key else ())
+    ob.data[KEY], ob.data[MADE] = patch.key, "\n".join(result_key.open_result_key(ob) if patch.key else ())
     ob.data.attributes.new(ATTRIBUTE, 'FLOAT_VECTOR', 'POINT').data.foreach_set("vector", values.ravel())
     ob.data[SIZE] = count_elements(ob)
     store_mark(ob)
@@ -90,7 +90,7 @@ def restore_start(ob: bpy.types.Object) -> None:
     """Restores the start to the last bit; vertices outside the region stay."""
     made = read_text(ob, MADE).splitlines()
     if made:
-        shape_keys.remove_keys(ob, made)
+        result_key.remove_keys(ob, made)
         return
     began = read_start(ob)
     index = np.flatnonzero(~np.isnan(began[:, 0]))

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..model.patch import Patch
 from ..read import read_mesh, shape_keys
+from . import result_key
 
 # Fraction of moved vertices below which updating their normals one by one is faster than all together.
 FEW = 0.03
@@ -40,7 +41,7 @@ def write_solution(ob: bpy.types.Object, patch: Patch, positions: np.ndarray, *,
     if patch.key and not shape_keys.is_result_key_edited(ob):
         if ob.mode == 'EDIT':
             bpy.ops.object.mode_set(mode='OBJECT')
-        shape_keys.open_result_key(ob)
+        result_key.open_result_key(ob)
     old = patch.round_start_positions() if ob.mode == 'EDIT' else read_mesh.read_patch_positions(ob, patch)
     write_positions(ob, patch, patch.to_object_space(positions), old)
 

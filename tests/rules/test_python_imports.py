@@ -1,5 +1,6 @@
 """Who may import whom in addon/, and what no Python file here does."""
 import ast
+import re
 from pathlib import Path
 
 from tree import ROOT, files, python_files
@@ -250,3 +251,11 @@ def test_numbers_and_optimizers_have_types() -> None:
                 annotations = [node.annotation] if isinstance(node, ast.AnnAssign) else []
             wrong += [f"{module}:{node.lineno}" for annotation in annotations if "object" in named_types(annotation)]
     assert not wrong, f"name the type: {wrong}"
+
+
+def test_vertices_are_moved_where_the_developers_page_says() -> None:
+    moves = re.compile(r"foreach_set\(\"co\"|\.co = ")
+    found = {file.as_posix() for file in python_files("addon/") if moves.search((ROOT / file).read_text())}
+    rows = (ROOT / "tests/README.md").read_text().splitlines()
+    row = next(row for row in rows if row.startswith("| what moves a vertex"))
+    assert found == set(re.findall(r"addon/[\w/]+\.py", row))
