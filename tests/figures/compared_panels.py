@@ -24,7 +24,7 @@ def list_samples() -> dict[str, Panel]:
     """Returns the clean positions of the samples that have flaws, by the names of their files."""
     spout = panel_shapes.faucet()[2]
     door, _, x = panel_shapes.door()
-    columns, rows = 136, 110  # of make_hood.py
+    columns, rows = 136, 110  # of make_panels.py
     return {"hood": {"clean": hood_shape.panel(columns, rows)[0]}, "faucet": {"clean": spout},
             "door": {"clean": np.column_stack([x, door[:, 1:]])}}
 
