@@ -101,6 +101,8 @@ class SolveTool:
         try:
             subjects = self.find_subjects(context)
             solutions = self.solve_all(context, subjects)
+            for solution in solutions:  # before any is written: what lies too far away to be stored is refused
+                solution.patch.to_object_space(solution.positions)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}

@@ -1,5 +1,7 @@
 """Small scenes to test on, built as an artist has them, and what can be read from them."""
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from math import radians
 
 import bmesh
@@ -129,6 +131,19 @@ def fingerprint(ob: bpy.types.Object) -> tuple:
     layers = sorted(layer.name for layer in bmesh.from_edit_mesh(mesh).faces.layers.int.values()) \
         if ob.mode == 'EDIT' else sorted(attribute.name for attribute in mesh.attributes)
     return positions(ob).tobytes(), corners, shapes, layers, [polygon.select for polygon in mesh.polygons]
+
+
+@contextmanager
+def refused(ob: bpy.types.Object, sentence: str) -> Iterator[None]:
+    """What is done within is refused with a sentence of this pattern, and leaves the object as it is."""
+    before = fingerprint(ob)
+    try:
+        yield
+    except RuntimeError as error:
+        assert re.search(sentence, str(error)) and "Traceback" not in str(error), error
+    else:
+        raise AssertionError(f"nothing was refused: {sentence}")
+    assert fingerprint(ob) == before
 
 
 def world(ob: bpy.types.Object) -> np.ndarray:

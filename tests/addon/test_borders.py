@@ -222,10 +222,8 @@ def test_values_that_are_no_borders_are_refused(value: int) -> None:
     scenes.object_mode()
     ob.data.attributes["reflines_border"].data[side(1)[0]].value = value
     scenes.edit_inner(ob)
-    before = scenes.fingerprint(ob)
-    with pytest.raises(RuntimeError, match="1 vertices have a border that is none of Free, Position, Tangent, Curv"):
+    with scenes.refused(ob, "1 vertices have a border that is none of Free, Position, Tangent, Curv"):
         scenes.smooth()
-    assert scenes.fingerprint(ob) == before
     set_border(ob, [side(1)[0]], 'fixed')
     scenes.select_faces(ob, scenes.inner())
     assert scenes.smooth(length=0.6) == {'FINISHED'}

@@ -128,10 +128,8 @@ def test_shape_keys_ask_for_the_result_shape_key(panel, mode) -> None:
 def test_a_lattice_that_folds_over_is_not_applied(panel) -> None:
     start()
     pull(3.0)
-    before = scenes.fingerprint(panel)
-    with pytest.raises(RuntimeError, match="The lattice folds over itself"):
+    with scenes.refused(panel, "The lattice folds over itself"):
         end("apply")
-    assert scenes.fingerprint(panel) == before
     end("discard")
 
 

@@ -97,10 +97,8 @@ BAD = ("[", "{}", "[1]", "[{}]", text({**UP, "radius": "x"}), text({**UP, "start
 
 @pytest.mark.parametrize("bad", BAD, ids=range(len(BAD)))
 def test_texts_of_another_origin_are_refused(panel, bad: str) -> None:
-    before = scenes.fingerprint(panel)
-    with pytest.raises(RuntimeError, match="stored handles cannot be used"):
+    with scenes.refused(panel, "stored handles cannot be used"):
         bpy.ops.reflines.pull_line('EXEC_DEFAULT', handles=bad)
-    assert scenes.fingerprint(panel) == before
     stored = panel.reflection_lines.handles
     stored.text, stored.vertices, stored.faces = bad, len(panel.data.vertices), len(panel.data.polygons)
     with pytest.raises(Exception, match="stored handles cannot be used"):
@@ -111,10 +109,8 @@ def test_texts_of_another_origin_are_refused(panel, bad: str) -> None:
                                                (dict(UP, radius=-1.0), "covers 0|no radius"),
                                                (dict(UP, start=(5.0, 0.0, 0.0)), "off the region")))
 def test_handles_that_cannot_be_met_are_refused(panel, handle: dict, words: str) -> None:
-    before = scenes.fingerprint(panel)
-    with pytest.raises(RuntimeError, match=words):
+    with scenes.refused(panel, words):
         pull(dict(handle, end=handle["start"]))
-    assert scenes.fingerprint(panel) == before
 
 
 def test_without_a_handle_the_tool_says_what_to_do(panel) -> None:
@@ -179,10 +175,8 @@ def test_a_group_of_1_changes_no_bit_and_one_that_is_missing_is_told(panel) -> N
     assert pull(UP) == {'FINISHED'}
     assert scenes.positions(panel).tobytes() == plain.tobytes()
     panel.reflection_lines.follow_group = "Nobody"
-    before = scenes.fingerprint(panel)
-    with pytest.raises(RuntimeError, match="no vertex group Nobody: pick another one for the handles"):
+    with scenes.refused(panel, "no vertex group Nobody: pick another one for the handles"):
         pull(UP)
-    assert scenes.fingerprint(panel) == before
 
 
 @pytest.mark.parametrize("mirrored", ("no", "Mirror X", "modifier"))

@@ -126,10 +126,8 @@ def test_the_key_is_edited_in_place(panel) -> None:
 
 def test_a_refused_run_makes_no_key(panel) -> None:
     bpy.context.scene.reflection_lines.light.rotation_euler = (0.0, 0.0, 0.0)
-    before = scenes.fingerprint(panel)
-    with pytest.raises(RuntimeError, match="parallel"):
+    with scenes.refused(panel, "parallel"):
         into_key()
-    assert scenes.fingerprint(panel) == before
 
 
 def test_absolute_keys_are_refused(panel) -> None:
@@ -161,10 +159,8 @@ def edits_the_basis(ob: bpy.types.Object) -> None:
 def test_another_key_is_never_mixed_into_the_results(panel) -> None:
     into_key()
     edits_the_basis(panel)
-    before = scenes.fingerprint(panel)
-    with pytest.raises(RuntimeError, match="Basis, but the result would go into Reflection Lines"):
+    with scenes.refused(panel, "Basis, but the result would go into Reflection Lines"):
         into_key(length=0.8)
-    assert scenes.fingerprint(panel) == before
     assert panel.mode == 'EDIT' and panel.active_shape_key.name == "Basis"
 
 

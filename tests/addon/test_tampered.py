@@ -89,10 +89,8 @@ def test_a_lattice_whose_scale_is_no_number(solved) -> None:
     lattice.scale = (float("nan"), 1.0, 1.0)
     bpy.context.view_layer.update()
     scenes.activate(solved)
-    before = scenes.fingerprint(solved)
-    with pytest.raises(RuntimeError, match="not finite numbers"):
+    with scenes.refused(solved, "not finite numbers"):
         bpy.ops.reflines.warp()
-    assert scenes.fingerprint(solved) == before
 
 
 @pytest.mark.parametrize("size", [(65536, 16), (16, 65536), (4096, 2048), (1, 1)])
@@ -120,8 +118,6 @@ def test_a_runaway_result_is_not_written(solved, factor, monkeypatch) -> None:
 
     monkeypatch.setattr(module, "solve_with_cache", far)
     scenes.edit_inner(solved)
-    before = scenes.fingerprint(solved)
-    with pytest.raises(RuntimeError, match="so nothing was changed"):
+    with scenes.refused(solved, "so nothing was changed"):
         scenes.smooth(length=0.5)
-    assert scenes.fingerprint(solved) == before
     scenes.object_mode()

@@ -103,10 +103,8 @@ def test_warp_from_the_lattice_in_object_mode(panel) -> None:
 def test_a_folded_lattice_is_refused_in_words(panel) -> None:
     ob = added(panel)
     ob.data.points[12].co_deform.x += 3.0
-    before = scenes.fingerprint(panel)
-    with pytest.raises(RuntimeError, match="The lattice folds over itself"):
+    with scenes.refused(panel, "The lattice folds over itself"):
         bpy.ops.reflines.warp()
-    assert scenes.fingerprint(panel) == before
 
 
 def test_a_missing_lattice_is_refused(panel) -> None:

@@ -83,6 +83,19 @@ def settled(driver: window.Window) -> Steps:
     raise AssertionError("the mesh does not come to rest")
 
 
+def moved(driver: window.Window, x: float, y: float) -> Steps:
+    """Moves the mouse, and waits until the mesh has followed."""
+    driver.move(x, y)
+    yield 0.1
+    yield from settled(driver)
+
+
+def struck(driver: window.Window, key: str, **modifiers: bool) -> Steps:
+    """Presses a key, and waits until the mesh has followed."""
+    driver.key(key, **modifiers)
+    yield from settled(driver)
+
+
 def comes_to(driver: window.Window, expected: np.ndarray) -> Steps:
     """Waits until the mesh is this to the last bit."""
     for _ in range(int(PATIENCE / 0.05)):
@@ -107,6 +120,18 @@ def ended(driver: window.Window) -> Steps:
             break
         yield 0.1
     yield from settled(driver)
+
+
+def applied(driver: window.Window) -> Steps:
+    """Keeps what is dragged."""
+    driver.key('RET')
+    yield from ended(driver)
+
+
+def taken_back(driver: window.Window) -> Steps:
+    """Ends what is dragged by Escape."""
+    driver.key('ESC')
+    yield 0.3
 
 
 def adjust(driver: window.Window, **settings: object) -> Steps:

@@ -9,7 +9,7 @@ from bpy_extras import view3d_utils
 
 import sidebar
 import window
-from dragging import ended, settled, shown
+from dragging import ended, shown, struck
 from window import Steps
 
 Note = Callable[[str], Steps]  # what is done after a step, with its name
@@ -58,8 +58,7 @@ def use_sample(note: Note) -> Steps:
     assert headline().startswith("Flaws healed on ") and ", moved at most 2." in headline(), headline()
     driver.move(300, 300)
     yield from note("smoothed")
-    driver.key('Z', ctrl=True)
-    yield from settled(driver)
+    yield from struck(driver, 'Z', ctrl=True)
     assert np.array_equal(shown(driver), before)
 
 

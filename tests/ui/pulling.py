@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 import window
-from dragging import ended, panel, settled, shown
+from dragging import panel, settled, shown
 from window import Steps
 
 MIDDLE, UP = (330, 290), (330, 312)  # pixels; the lines run from left to right
@@ -74,15 +74,3 @@ def picture(name: str) -> Steps:
 def missed() -> float:
     """How far the line of the handle in hand passes beside it, as a share of the spacing of the lines."""
     return float(session().texts[0].split("Line ")[1].split("%")[0]) / 100.0
-
-
-def applied(driver: window.Window) -> Steps:
-    """Applies the session."""
-    driver.key('RET')
-    yield from ended(driver)
-
-
-def taken_back(driver: window.Window) -> Steps:
-    """Ends the session by Escape."""
-    driver.key('ESC')
-    yield 0.3

@@ -9,8 +9,8 @@ import pytest
 import scenes
 import sidebar
 import window
-from dragging import settled, shown
-from pulling import MIDDLE, UP, applied, picture, pull, start
+from dragging import applied, settled, shown
+from pulling import MIDDLE, UP, picture, pull, start
 from window import Steps
 
 

@@ -7,7 +7,8 @@ import numpy as np
 
 import sidebar
 import window
-from dragging import adjust, dragged_length, ended, executed, panel, settled, shown, undone_and_redone
+from dragging import (adjust, dragged_length, ended, executed, moved, panel, settled, shown, taken_back,
+                      undone_and_redone)
 from window import Steps
 
 HANDLE = "bpy.ops.reflines.smooth(follow_mouse=True)"
@@ -73,8 +74,7 @@ def test_the_handle_drags_from_the_present_value_wherever_the_mouse_is(driver: w
     yield from window.take_picture(driver, "handle")
     middle = sys.modules["reflection_lines"].view.view_region.find_view_middle(driver.area())[0] - driver.region().x
     assert 100 < middle < driver.region('UI').x - driver.region().x - 100
-    driver.move(middle - 150, 300)
-    yield from settled(driver)
+    yield from moved(driver, middle - 150, 300)
     driver.key('LEFTMOUSE')
     yield from ended(driver)
     assert abs(bpy.context.scene.reflection_lines.strength - 0.3) < 1e-6
@@ -91,8 +91,6 @@ def test_escape_leaves_the_settings_too(driver: window.Window) -> Steps:
     with driver.override():
         assert bpy.ops.reflines.smooth('INVOKE_DEFAULT', True, follow_mouse=True) == {'RUNNING_MODAL'}
     yield from settled(driver)
-    driver.move(250, 300)
-    yield from settled(driver)
-    driver.key('ESC')
-    yield 0.3
+    yield from moved(driver, 250, 300)
+    yield from taken_back(driver)
     assert abs(bpy.context.scene.reflection_lines.strength - 0.7) < 1e-6

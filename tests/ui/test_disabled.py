@@ -6,9 +6,9 @@ import numpy as np
 import installation
 import scenes
 import window
-from dragging import panel, shown
+from dragging import applied, panel, shown
 from errors import read_errors
-from pulling import MIDDLE, UP, applied, pull, start
+from pulling import MIDDLE, UP, pull, start
 from window import Steps
 
 

@@ -9,7 +9,8 @@ import numpy as np
 import installation
 import scenes
 import window
-from dragging import adjust, dragged_length, ended, executed, panel, press, settled, shown, undone_and_redone
+from dragging import (adjust, applied, dragged_length, ended, executed, moved, panel, press, settled, shown, struck,
+                      taken_back, undone_and_redone)
 from window import Steps
 
 LEVELS = 3  # of cages: from here on a drag leaves samples out
@@ -21,13 +22,10 @@ def test_a_drag_follows_and_escape_leaves_no_bit_changed(driver: window.Window) 
         before = scenes.fingerprint(ob)
         yield from press(driver)
         pressed = shown(driver)
-        driver.move(250, 300)
-        yield 0.1
-        yield from settled(driver)
+        yield from moved(driver, 250, 300)
         assert np.abs(pressed - shown(driver)).max() > 1e-5
         yield from window.take_picture(driver, f"drag_{levels}")
-        driver.key('ESC')
-        yield 0.3
+        yield from taken_back(driver)
         assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
 
 
@@ -44,14 +42,11 @@ def test_the_header_tells_the_gain_first_as_the_result_will(driver: window.Windo
     for cells in (16, 100):
         panel(driver, cells=cells)
         yield from press(driver)
-        driver.move(300, 300)
-        yield 0.1
-        yield from settled(driver)
+        yield from moved(driver, 300, 300)
         header, status = running_drag().texts
         for text, most in ((header, driver.area().width), (status, 0.75 * driver.window.width)):
             assert blf.dimensions(0, text)[0] < most, text
-        driver.key('RET')
-        yield from ended(driver)
+        yield from applied(driver)
         told = bpy.context.view_layer.objects.active.reflection_lines.report.headline()
         degrees = told[told.index(": worst ") + len(": worst "):told.index(", moved")]
         assert header.startswith(f"Lines off by {degrees} at worst")
@@ -63,8 +58,7 @@ def test_the_header_of_another_tool_tells_how_far_lines_are_off_the_wanted_ones(
     settings.border, settings.direction.angle = 'free', 0.2  # of a clamped border a few per cent are within reach
     yield from press(driver, "direction")
     header = running_drag().texts[0]
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     settings.property_unset("border")
     report = bpy.context.view_layer.objects.active.reflection_lines.report
     shown, told = (list(map(float, re.match(r"Off the wanted lines by (\S+)\u00b0 \u2192 (\S+)\u00b0,", text).groups()))
@@ -76,9 +70,7 @@ def test_a_mouse_that_rests_asks_for_no_solve(driver: window.Window) -> Steps:
     """Blender sends moves to the same place after redraws; solving at each would keep the gain from being measured."""
     panel(driver)
     yield from press(driver)
-    driver.move(300, 300)
-    yield 0.1
-    yield from settled(driver)
+    yield from moved(driver, 300, 300)
     request = running_drag().request
     for _ in range(3):
         driver.move(300, 300)
@@ -87,8 +79,7 @@ def test_a_mouse_that_rests_asks_for_no_solve(driver: window.Window) -> Steps:
     driver.move(310, 300)
     yield 0.2
     assert running_drag().request is not request
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
 
 
 def test_what_is_shown_and_kept_is_what_the_operator_makes_without_a_mouse(driver: window.Window) -> Steps:
@@ -101,8 +92,7 @@ def test_what_is_shown_and_kept_is_what_the_operator_makes_without_a_mouse(drive
             yield 0.1
         yield from settled(driver)
         dragged = shown(driver)
-        driver.key('RET')
-        yield from ended(driver)
+        yield from applied(driver)
         kept, properties = shown(driver), bpy.context.window_manager.operators[-1].properties
         assert abs(properties.strength - 0.5) < 1e-6 and abs(properties.length - lengths.get("length", 0.0)) < 1e-6
         assert np.array_equal(kept, executed(driver, strength=properties.strength, **lengths))
@@ -119,8 +109,7 @@ def test_of_a_cage_what_is_kept_is_the_whole_solve_and_what_was_shown_lay_beside
         yield 0.1
     yield from settled(driver)
     followed = shown(driver)
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     kept, length = shown(driver), dragged_length()
     strength = bpy.context.window_manager.operators[-1].properties.strength
     assert abs(strength - 0.5) < 1e-6
@@ -133,11 +122,9 @@ def test_a_drag_of_the_strength_finds_the_flaws_once(driver: window.Window) -> S
     yield from press(driver)
     kept = kept_smoother()
     for x in (300, 350):
-        driver.move(x, 300)
-        yield from settled(driver)
+        yield from moved(driver, x, 300)
     assert kept_smoother() is kept
-    driver.key('ESC')
-    yield from settled(driver)
+    yield from struck(driver, 'ESC')
 
 
 def test_typed_numbers(driver: window.Window) -> Steps:
@@ -167,8 +154,7 @@ def test_a_typed_expression_with_a_unit_is_shown_with_its_value(driver: window.W
     assert "Strength: [3|] = 1.000" in header and "> Length: [2*25cm|] = 50 cm" in header, header
     assert blf.dimensions(0, header)[0] < driver.area().width
     yield from window.take_picture(driver, "typed")
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     assert np.array_equal(shown(driver), expected)
 
 
@@ -192,8 +178,7 @@ def test_the_redo_panel_starts_from_the_mesh_before_the_drag(driver: window.Wind
     yield from press(driver)
     driver.move(300, 300)
     yield 0.3
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     yield from adjust(driver, length=0.9, strength=0.5)
     assert np.array_equal(shown(driver), expected)
 
@@ -225,12 +210,10 @@ def test_escape_while_the_first_factorization_runs(driver: window.Window) -> Ste
     with driver.override():
         bpy.ops.reflines.smooth('INVOKE_DEFAULT', True, follow_mouse=True)
     yield 0.1
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
     yield from press(driver)
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     kept = shown(driver)
     panel(driver, cells=100)
     with driver.override():
@@ -242,8 +225,7 @@ def test_a_closed_path_ends_where_it_began(driver: window.Window) -> Steps:
     """Hysteresis: to 1e-6 of the panel's size, which is what the mesh's single precision resolves."""
     panel(driver, cells=40)
     yield from press(driver)
-    driver.move(250, 300)
-    yield from settled(driver)
+    yield from moved(driver, 250, 300)
     first = shown(driver)
     for x in (260, 600, 150, 20, 430, 250):
         driver.move(x, 300 + x // 7)
@@ -252,8 +234,7 @@ def test_a_closed_path_ends_where_it_began(driver: window.Window) -> Steps:
     hysteresis = np.abs(shown(driver) - first).max() / 2.0
     print(f"hysteresis {hysteresis:.2e} of the panel's size")
     assert hysteresis < 1e-6
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
 
 
 def test_the_panel_moves_no_more_than_the_mouse_asks(driver: window.Window) -> Steps:
@@ -262,16 +243,13 @@ def test_the_panel_moves_no_more_than_the_mouse_asks(driver: window.Window) -> S
     yield from press(driver)
     last, moves = shown(driver), []
     for step in range(1, 8):
-        driver.move(400 - 30 * step, 300)
-        yield 0.1
-        yield from settled(driver)
+        yield from moved(driver, 400 - 30 * step, 300)
         now = shown(driver)
         moves.append(np.abs(now - last).max())
         last = now
     print(f"kick: steps of {min(moves):.2e} to {max(moves):.2e}")
     assert max(moves) < 1.5 * min(moves)
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
 
 
 def test_disabling_the_add_on_takes_a_drag_back(driver: window.Window) -> Steps:

@@ -8,7 +8,7 @@ from mathutils import Matrix
 
 import scenes
 import window
-from dragging import is_running, panel, press, settled, shown
+from dragging import is_running, moved, panel, press, settled, shown, taken_back
 from errors import read_errors
 from pulling import MIDDLE, UP, move, pull, session, start
 from window import Steps
@@ -34,8 +34,7 @@ def press_direction(driver: window.Window) -> Steps:
 
 def fresh(driver: window.Window) -> Generator[float, None, bpy.types.Object]:
     """A panel; a drag that a failed test left is ended."""
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     return panel(driver)
 
 
@@ -50,9 +49,7 @@ def test_a_tool_whose_camera_is_removed_takes_all_back_and_says_so(driver: windo
         yield from fresh(driver)
         before = shown(driver)
         yield from begin(driver)
-        driver.move(380, 300)
-        yield 0.1
-        yield from settled(driver)
+        yield from moved(driver, 380, 300)
         assert is_running() and not np.array_equal(shown(driver), before)
         remove_camera()
         yield from move_on(driver)

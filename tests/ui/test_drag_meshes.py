@@ -8,7 +8,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import dragged_length, ended, panel, press, settled, shown
+from dragging import applied, dragged_length, ended, moved, panel, press, shown
 from window import Steps
 
 Prepare = Callable[[bpy.types.Object], None]
@@ -30,9 +30,7 @@ def is_dragged_well(driver: window.Window, prepare: Prepare) -> Steps:
     before, start = scenes.fingerprint(ob), shown(driver).copy()
     for way_out in ('ESC', 'RET'):
         yield from press(driver)
-        driver.move(250, 300)
-        yield 0.1
-        yield from settled(driver)
+        yield from moved(driver, 250, 300)
         assert np.abs(shown(driver) - start).max() > 1e-5
         driver.key(way_out)
         yield 0.3
@@ -123,8 +121,7 @@ def test_new_topology_after_a_drag_is_taken_in(driver: window.Window) -> Steps:
     """The optimizer that the drag kept does not serve the new mesh."""
     ob = panel(driver, CELLS)
     yield from press(driver)
-    driver.key('RET')
-    yield from ended(driver)
+    yield from applied(driver)
     split(ob)
     with driver.override():
         bpy.ops.ed.undo_push(message="Split")

@@ -11,8 +11,7 @@ from window import Steps
 
 def kept_equals_executed(driver: window.Window, operator: str, names: tuple[str, ...]) -> Steps:
     """To 1e-6 of the panel's size: the final solve takes its centre from the mesh as it was dragged."""
-    driver.key('RET')
-    yield from dragging.ended(driver)
+    yield from dragging.applied(driver)
     done = bpy.context.window_manager.operators[-1]
     assert done.bl_idname == "REFLINES_OT_" + operator
     kept, values = dragging.shown(driver), {name: getattr(done.properties, name) for name in names}
@@ -47,8 +46,7 @@ def test_density(driver: window.Window) -> Steps:
     bpy.context.scene.reflection_lines.direction.radius = 0.5
     yield from dragging.press(driver, "direction")
     driver.key('TAB')
-    driver.move(425, 300)
-    yield from dragging.settled(driver)
+    yield from dragging.moved(driver, 425, 300)
     yield from kept_equals_executed(driver, "direction", ("angle", "density"))
     operator = bpy.context.window_manager.operators[-1].properties
     assert operator.density > 1.1 and operator.angle == 0.0
@@ -61,8 +59,7 @@ def test_pattern(driver: window.Window) -> Steps:
     image.pixels.foreach_set(np.repeat(rows, 4).astype(np.float32))
     bpy.context.scene.reflection_lines.pattern.image = image
     yield from dragging.press(driver, "pattern")
-    driver.move(380, 300)
-    yield from dragging.settled(driver)
+    yield from dragging.moved(driver, 380, 300)
     yield from kept_equals_executed(driver, "pattern", ("strength",))
 
 
@@ -84,8 +81,7 @@ def test_warp_by_a_typed_amount(driver: window.Window) -> Steps:
         yield 0.05
     yield from dragging.settled(driver)
     assert 0.3 * whole < np.abs(dragging.shown(driver) - before).max() < 0.7 * whole
-    driver.key('RET')
-    yield from dragging.ended(driver)
+    yield from dragging.applied(driver)
     kept = dragging.shown(driver)
     assert bpy.context.window_manager.operators[-1].properties.amount == 50.0
     driver.key('Z', ctrl=True)
@@ -102,8 +98,7 @@ def test_smooth_into_a_shape_key(driver: window.Window) -> Steps:
     before = scenes.fingerprint(ob)
     for key in ('ESC', 'RET'):
         yield from dragging.press(driver)
-        driver.move(250, 300)
-        yield from dragging.settled(driver)
+        yield from dragging.moved(driver, 250, 300)
         assert scenes.fingerprint(bpy.data.objects["Panel"]) != before
         driver.key(key)
         yield from dragging.ended(driver)

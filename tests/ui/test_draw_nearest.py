@@ -2,7 +2,8 @@
 import numpy as np
 
 import window
-from pulling import Steps, draw, missed, picture, session, start, taken_back
+from dragging import taken_back
+from pulling import Steps, draw, missed, picture, session, start
 
 STROKE = [(270 + 10 * k, 280 + 2 * k) for k in range(13)]  # pixels; it crosses lines, which run from left to right
 

@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 
 import window
-from dragging import settled, shown, undone_and_redone
-from pulling import MIDDLE, UP, Steps, applied, begin, draw, missed, move, picture, pull, session, start, taken_back
+from dragging import applied, settled, shown, struck, taken_back, undone_and_redone
+from pulling import MIDDLE, UP, Steps, begin, draw, missed, move, picture, pull, session, start
 
 STROKE = ((270, 290), (290, 294), (310, 299), (330, 302), (350, 299), (370, 294), (390, 290))  # pixels
 
@@ -127,11 +127,9 @@ def test_a_radius_is_typed(driver: window.Window) -> Steps:
     driver.key('BACK_SPACE')
     yield 0.1
     assert abs(session().handles[0].radius - 0.3) < 1e-6
-    driver.key('RET')
-    yield from settled(driver)
+    yield from struck(driver, 'RET')
     assert session().typed == "" and len(session().handles) == 1
-    driver.key('Z', ctrl=True)
-    yield from settled(driver)
+    yield from struck(driver, 'Z', ctrl=True)
     assert session().handles[0].radius != 0.3
     yield from taken_back(driver)
 
@@ -144,8 +142,7 @@ def test_escape_takes_a_typed_radius_back_and_nothing_else(driver: window.Window
         driver.key(key)
         yield 0.1
     assert session().handles != handles
-    driver.key('ESC')
-    yield from settled(driver)
+    yield from struck(driver, 'ESC')
     assert session().handles == handles and session().typed == ""
     yield from taken_back(driver)
 
@@ -190,7 +187,6 @@ def test_handles_come_back_with_the_file(driver: window.Window) -> Steps:
     yield from begin(driver)
     assert places() == handles and np.abs(shown(driver) - kept).max() < 3e-6
     for _ in handles:
-        driver.key('X')
-        yield from settled(driver)
+        yield from struck(driver, 'X')
     yield from applied(driver)
     assert np.abs(shown(driver) - before).max() < 1e-7

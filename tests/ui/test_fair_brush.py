@@ -7,7 +7,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import panel, shown, undone_and_redone
+from dragging import panel, shown, taken_back, undone_and_redone
 from window import Steps
 
 CELLS = 48
@@ -115,8 +115,7 @@ def escape_restores_every_bit(driver: window.Window) -> Steps:
     before = scenes.fingerprint(bpy.data.objects["Panel"])
     yield from paint(driver, LEFT, RIGHT, hold=True)
     assert scenes.fingerprint(bpy.data.objects["Panel"]) != before
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     driver.event('LEFTMOUSE', 'RELEASE')
     yield 0.2
     assert scenes.fingerprint(bpy.data.objects["Panel"]) == before

@@ -4,8 +4,8 @@ import bpy
 import numpy as np
 
 import window
-from dragging import is_running, panel, settled, shown, undone_and_redone
-from pulling import Steps, applied, begin, missed, move, picture, session, taken_back
+from dragging import applied, is_running, panel, settled, shown, taken_back, undone_and_redone
+from pulling import Steps, begin, missed, move, picture, session
 
 CELLS, MARGIN, ROW = 48, 6, 45  # of the panel; rings of faces around its region; the loop, beyond the region
 SLOPE = 0.12  # of the loop against the border

@@ -68,15 +68,13 @@ def test_another_panel_of_the_same_name_is_followed_from_its_own_start(driver: w
     """A script removes the panel and starts the live warp of a smaller one, before Blender has told of either."""
     yield from started(driver)
     yield from grab(driver, 40)
-    driver.key('RET')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'RET')
     yield from started(driver, cells=14)
     before = positions()
     yield from grab(driver, 40)
     yield from dragging.settled(driver)
     assert np.abs(positions() - before).max() > 1e-4 and not says()
-    driver.key('ESC')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'ESC')
     assert np.array_equal(positions(), before)
 
 
@@ -88,12 +86,10 @@ def test_the_panel_follows_while_the_lattice_is_dragged(driver: window.Window) -
     held = positions()
     assert np.abs(held - before).max() > 1e-4
     yield from window.take_picture(driver, "live")
-    driver.key('ESC')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'ESC')
     assert np.array_equal(positions(), before)
     yield from grab(driver, 40)
-    driver.key('RET')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'RET')
     assert np.array_equal(positions(), held)
     assert np.array_equal(warped(driver), held)
 
@@ -113,8 +109,7 @@ def test_what_follows_after_a_rest_is_near_what_is_kept(driver: window.Window) -
     move = np.abs(positions() - before).max()
     assert np.abs(positions() - rest).max() > 0.2 * move
     assert np.abs(positions() - first).max() < 0.05 * move
-    driver.key('ESC')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'ESC')
 
 
 def test_undo_and_redo_of_the_lattice_take_the_panel_along(driver: window.Window) -> Steps:
@@ -122,16 +117,13 @@ def test_undo_and_redo_of_the_lattice_take_the_panel_along(driver: window.Window
     shapes = [positions()]
     for way in (40, -25):
         yield from grab(driver, way)
-        driver.key('RET')
-        yield from dragging.settled(driver)
+        yield from dragging.struck(driver, 'RET')
         shapes.append(positions())
     assert not np.array_equal(shapes[0], shapes[1]) and not np.array_equal(shapes[1], shapes[2])
     for expected in (shapes[1], shapes[0]):
-        driver.key('Z', ctrl=True)
-        yield from dragging.settled(driver)
+        yield from dragging.struck(driver, 'Z', ctrl=True)
         assert np.array_equal(positions(), expected)
-    driver.key('Z', ctrl=True, shift=True)
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'Z', ctrl=True, shift=True)
     assert np.array_equal(positions(), shapes[1])
 
 
@@ -139,8 +131,7 @@ def test_proportional_editing_scaling_and_object_transforms(driver: window.Windo
     yield from started(driver)
     bpy.context.scene.tool_settings.use_proportional_edit = True
     yield from grab(driver, 30)
-    driver.key('RET')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'RET')
     bpy.context.scene.tool_settings.use_proportional_edit = False
     shapes = [positions()]
     with driver.override():
@@ -151,12 +142,10 @@ def test_proportional_editing_scaling_and_object_transforms(driver: window.Windo
     driver.key('TAB')
     yield 0.3
     yield from grab(driver, 20)
-    driver.key('RET')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'RET')
     shapes.append(positions())
     assert len({shape.tobytes() for shape in shapes}) == 3
-    driver.key('Z', ctrl=True)
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'Z', ctrl=True)
     assert np.array_equal(positions(), shapes[1])
 
 
@@ -168,8 +157,7 @@ def test_a_fold_over_is_told_and_the_panel_waits(driver: window.Window) -> Steps
     waits = positions()
     yield 0.5
     assert np.array_equal(positions(), waits)
-    driver.key('ESC')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'ESC')
     assert says() == ""
 
 
@@ -177,8 +165,7 @@ def test_the_panel_follows_after_reload(driver: window.Window) -> Steps:
     yield from started(driver)
     before = positions()
     yield from grab(driver, 40)
-    driver.key('RET')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'RET')
     saved = positions()
     path = os.path.join(tempfile.mkdtemp(), "live.blend")
     with driver.override():
@@ -189,8 +176,7 @@ def test_the_panel_follows_after_reload(driver: window.Window) -> Steps:
     yield from dragging.settled(driver)
     assert np.array_equal(positions(), saved)
     yield from grab(driver, 30)
-    driver.key('RET')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'RET')
     assert not np.array_equal(positions(), saved)
     with driver.override():
         bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='DISCARD')
@@ -200,16 +186,14 @@ def test_the_panel_follows_after_reload(driver: window.Window) -> Steps:
 def test_apply_is_one_undo_step_and_the_panel_follows_on_after_it(driver: window.Window) -> Steps:
     yield from started(driver)
     yield from grab(driver, 40)
-    driver.key('RET')
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'RET')
     held = positions()
     with driver.override():
         bpy.ops.reflines.live_warp('EXEC_DEFAULT', True, action='APPLY')
     yield from dragging.settled(driver)
     assert np.array_equal(positions(), held)
     assert bpy.context.mode == 'OBJECT' and bpy.context.scene.reflection_lines.live.panel is None
-    driver.key('Z', ctrl=True)
-    yield from dragging.settled(driver)
+    yield from dragging.struck(driver, 'Z', ctrl=True)
     assert bpy.context.scene.reflection_lines.live.panel == bpy.data.objects["Panel"]
     assert np.array_equal(positions(), held)
     with driver.override():

@@ -10,7 +10,7 @@ from mathutils import Matrix
 
 import scenes
 import window
-from dragging import at_rest, panel, shown, undone_and_redone
+from dragging import at_rest, panel, shown, taken_back, undone_and_redone
 from test_across_gap import bent, half, places, start_several
 from window import Steps
 
@@ -73,8 +73,7 @@ def test_escape_takes_a_long_press_back(driver: window.Window) -> Steps:
     prepare(driver)
     before = scenes.fingerprint(bpy.data.objects["Panel"])
     yield from press(driver)
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     yield from wait()
     assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
     assert bpy.data.objects["Panel"].reflection_lines.report.termination == ""

@@ -7,7 +7,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import executed, panel, settled, shown
+from dragging import executed, panel, shown, struck, taken_back
 from window import Steps
 
 MODIFIERS = ("ctrl", "alt", "shift", "oskey")
@@ -95,9 +95,7 @@ def test_the_second_pie_drags_what_the_first_presses(driver: window.Window) -> S
         yield 0.4
         driver.move(300, 300)
         yield 0.2
-        driver.key('LEFTMOUSE')
-        yield from settled(driver)
+        yield from struck(driver, 'LEFTMOUSE')
         assert np.abs(shown(driver) - whole).max() < 1e-5
-        driver.key('ESC')
-        yield 0.3
+        yield from taken_back(driver)
         assert np.array_equal(shown(driver), whole if change else before)

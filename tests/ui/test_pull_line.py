@@ -5,8 +5,8 @@ import numpy as np
 
 import scenes
 import window
-from dragging import panel, settled, shown, undone_and_redone
-from pulling import MIDDLE, UP, applied, begin, missed, move, picture, pull, session, start, taken_back
+from dragging import applied, panel, settled, shown, struck, taken_back, undone_and_redone
+from pulling import MIDDLE, UP, begin, missed, move, picture, pull, session, start
 from window import Steps
 
 BESIDE = (330, 315)  # where a pull at MIDDLE still bends the lines; 20 pixels further the bend changes its sign
@@ -140,8 +140,7 @@ def test_a_pinned_line_stays_beside_a_pull(driver: window.Window) -> Steps:
         theta = [line.surface.read_theta(place, state) for state in (line.surface.start, line.state)]
         changes.append(abs(theta[1] - theta[0]) / (2.0 * np.pi / bpy.context.scene.reflection_lines.stripes.count))
         yield from picture("pin_line")
-        driver.key('ESC')
-        yield 0.3
+        yield from taken_back(driver)
     assert changes[1] < 0.02 and changes[1] < 0.2 * changes[0], changes
 
 
@@ -158,8 +157,7 @@ def test_a_second_session_shows_the_handles_and_goes_on_from_the_shape_before(dr
     assert np.array_equal(shown(driver), kept)
     yield from begin(driver)
     yield from move(driver, *UP)
-    driver.key('X')
-    yield from settled(driver)
+    yield from struck(driver, 'X')
     yield from applied(driver)
     assert np.abs(shown(driver) - before).max() < 1e-7
 

@@ -10,7 +10,7 @@ import installation
 import picture
 import scenes
 import window
-from dragging import dragged_length, ended, executed, panel, settled, shown, undone_and_redone
+from dragging import dragged_length, ended, executed, moved, panel, settled, shown, taken_back, undone_and_redone
 from scenes import settings
 from window import Steps
 
@@ -98,12 +98,9 @@ def test_a_click_on_the_arrow_goes_on_as_a_drag_that_escape_takes_back(driver: w
     yield from grab(driver, place)
     driver.event('LEFTMOUSE', 'RELEASE')
     yield from settled(driver)
-    driver.move(*(place - (100, 0)))
-    yield 0.1
-    yield from settled(driver)
+    yield from moved(driver, *(place - (100, 0)))
     assert scenes.fingerprint(ob) != before
-    driver.key('ESC')
-    yield 0.3
+    yield from taken_back(driver)
     assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
     assert settings().strength == 1.0
 

@@ -36,9 +36,6 @@ constexpr int kManyPeaks = 16;
 constexpr int kFirstSweeps = 32, kSweeps = 16;
 constexpr double kManyChanges = 0.2;
 
-// The part of the projected gradient that the unknowns between their bounds may keep.
-constexpr double kLostDigits = 0.1;
-
 // Finds that active sets follow each other in a ring, by Brent's method (BIT 20, 1980): each is compared with that of
 // the last round whose number is a power of two. There are no rings for an M-matrix, which that of a bent surface is
 // not.
@@ -205,21 +202,10 @@ void BoundedQuadratic::hold(const Sides& held) {
   counts_.solves += solves.value_or(0);
 }
 
-// Minimizes with the held unknowns at their bounds, and keeps the nearest point within the bounds if it is the best. A
-// bordered factor may lose all digits, as on a free border where nearly all unknowns were held: it is replaced where
-// the unknowns between their bounds keep a gradient that is a part of the projected one.
+// Minimizes with the held unknowns at their bounds.
 BoundedQuadratic::Trial BoundedQuadratic::minimize_held(const Sides& held) {
   hold(held);
   Trial trial = solve_held(held);
-  const double norm = keep_if_best(trial);
-  if (factor_.leaves_out(held) || norm <= wanted_) return trial;
-  double squared = 0.0;
-  for (int k = 0; k < trial.d.size(); ++k) {
-    if (held[k] == Side::kBetween) squared += trial.gradient(k) * trial.gradient(k);
-  }
-  if (std::sqrt(squared) < kLostDigits * norm) return trial;
-  factorize(held);
-  trial = solve_held(held);
   keep_if_best(trial);
   return trial;
 }
@@ -257,15 +243,13 @@ BoundedQuadratic::Trial BoundedQuadratic::solve_held(const Sides& held) {
   return {d, model_.gradient_at(d)};
 }
 
-// Returns the norm of the projected gradient at the nearest point within the bounds.
-double BoundedQuadratic::keep_if_best(const Trial& trial) {
+// Keeps the nearest point within the bounds if its projected gradient is the smallest.
+void BoundedQuadratic::keep_if_best(const Trial& trial) {
   const Vector inside = bounds_.nearest(trial.d);
   const double norm = bounds_.projected_norm(inside, inside == trial.d ? trial.gradient : model_.gradient_at(inside));
-  if (norm < best_norm_) {
-    best_norm_ = norm;
-    best_ = inside;
-  }
-  return norm;
+  if (!(norm < best_norm_)) return;
+  best_norm_ = norm;
+  best_ = inside;
 }
 
 Sides BoundedQuadratic::estimate_from_inside(double reach) {

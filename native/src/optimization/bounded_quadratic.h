@@ -48,7 +48,7 @@ class BoundedQuadratic {
   };
   Trial minimize_held(const Sides& held);
   Trial solve_held(const Sides& held);
-  double keep_if_best(const Trial& trial);
+  void keep_if_best(const Trial& trial);
   Sides release_pulling(Sides held);
   Sides estimate_from_inside(double reach);
   void factorize(const Sides& held);
