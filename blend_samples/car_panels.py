@@ -56,13 +56,6 @@ def from_end(y0: float, way: float) -> Chart:
 AHEAD, ASTERN = from_end(-1.25, -1.0), from_end(1.20, 1.0)
 
 
-def polyline(points: np.ndarray) -> Path:
-    """The way along points at an even pace."""
-    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    at = np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
-    return lambda share: stack(*(np.interp(share, at, points[:, k]) for k in range(2)))
-
-
 def run(chart: Chart, start: float, end: float, place: Callable[[np.ndarray], tuple]) -> np.ndarray:
     """Points of the body along a curve of a chart, as `place` gives it for numbers from start to end."""
     return chart.cast(stack(*place(np.linspace(start, end, 161))))

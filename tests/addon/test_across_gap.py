@@ -135,46 +135,6 @@ def test_halves_of_one_mesh_that_touch_are_smoothed_as_if_they_were_joined(borde
     assert "not joined" not in left.reflection_lines.report.notes
 
 
-def over(x: float, y: float) -> float:
-    return scenes.crown(x, y) + 0.003
-
-
-def hide(right: bpy.types.Object) -> None:
-    right.hide_set(True)
-
-
-def turn_away(right: bpy.types.Object) -> None:
-    right.data.flip_normals()
-
-
-def move_back(right: bpy.types.Object) -> None:
-    right.location.z = -0.05
-
-
-def move_away(right: bpy.types.Object) -> None:
-    right.location.x = 0.1
-
-
-def draw_as_wire(right: bpy.types.Object) -> None:
-    right.display_type = 'WIRE'
-
-
-def flatten(right: bpy.types.Object) -> None:
-    right.scale.z = 0.0
-
-
-def slide_under(right: bpy.types.Object) -> None:
-    right.location = (-0.3, 0.0, -0.003)
-
-
-def tilt(right: bpy.types.Object) -> None:
-    right.rotation_euler.y = 0.5
-
-
-def overlap(right: bpy.types.Object) -> None:
-    right.location.x = -0.1
-
-
 def hide_faces(right: bpy.types.Object) -> None:
     for face in right.data.polygons:
         face.hide = True
@@ -185,11 +145,22 @@ def break_vertices(right: bpy.types.Object) -> None:
     right.data.update()
 
 
-NO_NEIGHBOURS = [hide, turn_away, move_back, move_away, draw_as_wire, flatten, slide_under, tilt, overlap, hide_faces,
-                 break_vertices]
+NO_NEIGHBOURS = {
+    "hidden": lambda ob: ob.hide_set(True),
+    "turned away": lambda ob: ob.data.flip_normals(),
+    "moved back": lambda ob: setattr(ob, "location", (0.0, 0.0, -0.05)),
+    "moved away": lambda ob: setattr(ob, "location", (0.1, 0.0, 0.0)),
+    "slid under": lambda ob: setattr(ob, "location", (-0.3, 0.0, -0.003)),
+    "tilted": lambda ob: setattr(ob, "rotation_euler", (0.0, 0.5, 0.0)),
+    "flat": lambda ob: setattr(ob, "scale", (1.0, 1.0, 0.0)),
+    "drawn as wire": lambda ob: setattr(ob, "display_type", 'WIRE'),
+    "overlapping": lambda ob: setattr(ob, "location", (-0.1, 0.0, 0.0)),
+    "with hidden faces": hide_faces,
+    "no numbers": break_vertices,
+}
 
 
-@pytest.mark.parametrize("change", NO_NEIGHBOURS, ids=lambda change: change.__name__)
+@pytest.mark.parametrize("change", NO_NEIGHBOURS.values(), ids=NO_NEIGHBOURS)
 def test_what_is_no_neighbour_changes_no_bit(change: Callable) -> None:
     results = []
     for alone in (True, False):

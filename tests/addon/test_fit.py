@@ -103,20 +103,10 @@ def test_one_undo_step() -> None:
     assert scenes.fingerprint(bpy.data.objects["Cage"]) == before
 
 
-def far_away(dense: bpy.types.Object, _: bpy.types.Object) -> None:
-    dense.location.x += 1.9
-
-
-def deselected(dense: bpy.types.Object, _: bpy.types.Object) -> None:
-    dense.select_set(False)
-
-
-def unsubdivided(_: bpy.types.Object, ob: bpy.types.Object) -> None:
-    ob.modifiers.clear()
-
-
 @pytest.mark.parametrize(("change", "said"), [
-    (far_away, "covers [0-9]+% of the panel"), (deselected, "0 other meshes"), (unsubdivided, "is no cage")])
+    (lambda dense, _: setattr(dense.location, "x", dense.location.x + 1.9), "covers [0-9]+% of the panel"),
+    (lambda dense, _: dense.select_set(False), "0 other meshes"),
+    (lambda _, ob: ob.modifiers.clear(), "is no cage")])
 def test_what_cannot_be_fitted_is_refused_in_words(change: object, said: str) -> None:
     noisy, _ = scene()
     change(bpy.data.objects["Dense"], noisy)

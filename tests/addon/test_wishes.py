@@ -7,8 +7,6 @@ from reflection_lines.read import image_pixels
 from reflection_lines.native import reflines
 from reflection_lines.targets import direction, falloff
 
-TURN = 2.0 * np.pi
-
 
 @pytest.fixture
 def surface() -> "reflines.ShapeOptimizer":

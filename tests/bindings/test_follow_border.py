@@ -104,32 +104,17 @@ def test_a_step_stays_and_its_tangents_run_on() -> None:
     assert np.abs(found.V[:, 2] - cylinder(*found.V.T[:2])).max() < 1e-4
 
 
-def no_surface(V: Array, G: Array) -> tuple[Array, Array]:
-    return V[:0], G[:0]
+NO_NEIGHBOURS = {  # what is made of a half and its triangles
+    "no surface": lambda V, G: (V[:0], G[:0]),
+    "faces away": lambda V, G: (V, G[:, ::-1]),
+    "lies behind": lambda V, G: (V - [0.0, 0.0, 0.02], G),
+    "overlaps": lambda V, G: (V - [0.2, 0.0, 0.001], G),
+    "bends off": lambda V, G: (np.column_stack([V[:, :2], V[:, 2] + 0.3 * (V[:, 0] - cut(V[:, 1]))]), G),
+    "no numbers": lambda V, G: (np.full_like(V, np.nan), G),
+}
 
 
-def face_away(V: Array, G: Array) -> tuple[Array, Array]:
-    return V, G[:, ::-1]
-
-
-def lie_behind(V: Array, G: Array) -> tuple[Array, Array]:
-    return V - [0.0, 0.0, 0.02], G
-
-
-def overlap(V: Array, G: Array) -> tuple[Array, Array]:
-    return V - [0.2, 0.0, 0.001], G
-
-
-def bend_off(V: Array, G: Array) -> tuple[Array, Array]:
-    return np.column_stack([V[:, :2], V[:, 2] + 0.3 * (V[:, 0] - cut(V[:, 1]))]), G
-
-
-def be_no_numbers(V: Array, G: Array) -> tuple[Array, Array]:
-    return np.full_like(V, np.nan), G
-
-
-@pytest.mark.parametrize("change", [no_surface, face_away, lie_behind, overlap, bend_off, be_no_numbers],
-                         ids=lambda change: change.__name__)
+@pytest.mark.parametrize("change", NO_NEIGHBOURS.values(), ids=NO_NEIGHBOURS)
 def test_what_is_no_neighbour_is_not_followed(change: object) -> None:
     V, F = half(-1, 0.004, "regular", 40)
     found = reflines.continue_over_gap(V, F, *change(*half(1, 0.004, "regular", 40)), reach=REACH)

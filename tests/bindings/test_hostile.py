@@ -9,7 +9,6 @@ import reflines
 from sample_panels import LINE, VIEW, panel
 
 SLOWER = float(os.environ.get("REFLINES_SLOWER", "1"))  # times that the module is slower, as under sanitizers
-FLOAT32 = float(np.finfo(np.float32).max)
 
 
 @pytest.fixture

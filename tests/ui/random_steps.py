@@ -1,7 +1,6 @@
 """Steps of a random walk: what an artist may do at any moment, well considered or not. Each waits as it needs."""
 import random
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -12,8 +11,6 @@ import packages
 import scenes
 import window
 from window import Steps
-
-Act = Callable[["Walker"], Steps]
 
 CELLS = 14
 DRAG_KEYS = ('ONE', 'PERIOD', 'FIVE', 'BACK_SPACE', 'MINUS', 'TAB', 'X', 'A', 'WHEELUPMOUSE', 'WHEELDOWNMOUSE')

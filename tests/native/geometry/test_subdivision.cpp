@@ -251,15 +251,5 @@ TEST(Subdivision, WhereTheTangentsAreParallelTheNormalIsZ) {
   EXPECT_EQ((normals.rowwise() - Eigen::RowVector3d(0, 0, 1)).norm(), 0);
 }
 
-TEST(Subdivision, SameInputSameBits) {
-  PlacedCage placed = star(5, 3);
-  add_crease(&placed.cage, 0, 1, 2.5);
-  const Subdivision first = subdivide(placed.cage, with(3, true)), second = subdivide(placed.cage, with(3, true));
-  EXPECT_EQ(largest(first.positions - second.positions), 0);
-  EXPECT_EQ(largest(first.tangent_u - second.tangent_u), 0);
-  EXPECT_EQ(largest(first.tangent_v - second.tangent_v), 0);
-  EXPECT_EQ(first.faces, second.faces);
-}
-
 }  // namespace
 }  // namespace reflines

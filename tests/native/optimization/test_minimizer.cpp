@@ -105,17 +105,6 @@ TEST_P(StrategyTest, StopsWhereRoundingDoes) {
   EXPECT_TRUE(x == found);
 }
 
-TEST_P(StrategyTest, RepeatsBitForBit) {
-  Vector results[2];
-  for (Vector& x : results) {
-    Rosenbrock problem(30);
-    x = problem.start();
-    Minimizer minimizer;
-    minimizer.minimize(problem, x, with(GetParam(), 1e-9, 30));
-  }
-  EXPECT_TRUE(results[0] == results[1]);
-}
-
 TEST_P(StrategyTest, CancellingLeavesTheUnknownsAlone) {
   Rosenbrock problem(5);
   const Vector start = problem.start();
