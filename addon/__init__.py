@@ -52,7 +52,7 @@ NAMES = (
     "background_work", "interactive.check_job", "interactive.inspection_job", "interactive.drag_handles",
     "interactive.solve_job",
     "interactive.running_operators", "interactive.beside_blender", "interactive.read_picture",
-    "overlay.brush_circle", "overlay.falloff_circle", "overlay.handle_marks",
+    "overlay.handle_marks", "overlay.tool_circle",
     "interactive.brush_stroke", "interactive.drag_input", "interactive.sweep", "interactive.drag",
     "interactive.drawn_lines",
     "interactive.line_build", "interactive.handle_history", "interactive.handle_tracing", "interactive.handle_texts",

@@ -19,7 +19,7 @@ from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
-from ..overlay import falloff_circle
+from ..overlay import tool_circle
 from ..read import read_mesh
 from ..solver import live_optimizer
 from ..solver.automatic_smooth import AutomaticSmooth
@@ -72,7 +72,7 @@ class Drag:
         self.frame = live_optimizer.compute_image_frame(self.patches[0], views[0])
         self.update_request(context, final=final)  # refuses before anything is started
         self.job = SolveJob(self.patches, views, tool.border)
-        self.circle = falloff_circle.add_circle(lambda: self.circle_points)
+        self.circle = tool_circle.add_circle(lambda: self.circle_points)
         self.work = BackgroundWork(self.job.run, self.job.cancel)
         self.work.submit(self.request)
         self.keeping, self.busy_since, self.problem, self.texts = final, time.monotonic(), "", ("", "")
@@ -141,7 +141,7 @@ class Drag:
             settings = tuple(replace(each, judges=judges) for each in settings)
         self.request = SolveRequest(builds, settings, final, press=self.tool.choose_press())
         falloff = self.tool.read_falloff(context, objects[0], self.patches[0])
-        self.circle_points = (falloff_circle.sample_circle(falloff.centre, falloff.radius, self.frame)
+        self.circle_points = (tool_circle.sample_circle(falloff.centre, falloff.radius, self.frame)
                               if falloff is not None else None)
 
     def submit_request(self, context: bpy.types.Context, *, final: bool = False) -> None:
@@ -241,7 +241,7 @@ class Drag:
         if self.work.is_idle():
             self.job.return_optimizers()
         self.work.stop()
-        falloff_circle.remove_circle(self.circle)
+        tool_circle.remove_circle(self.circle)
         self.area.header_text_set(None)
         context.workspace.status_text_set(None)
 

@@ -3,7 +3,7 @@ Object Mode.
 """
 import bpy
 
-from ..overlay import brush_circle
+from ..overlay import tool_circle
 from . import automatic_values, gizmos, handle_gizmos
 
 LOOK_THROUGH = ("reflines.look_through", {"type": 'NUMPAD_0', "value": 'PRESS'}, None)  # of all tools
@@ -87,7 +87,7 @@ class FairBrushTool:
         """Draws the brush around the mouse; nothing once the add-on is disabled, which Blender goes on to call."""
         settings = getattr(context.scene, "reflection_lines", None)
         if settings is not None:
-            brush_circle.draw_brush(place, settings.brush.size)
+            tool_circle.draw_brush(place, settings.brush.size)
 
 
 def add_modes(tool: type) -> list[type]:

@@ -24,11 +24,10 @@ MAY_IMPORT = {
     "solver": {"native", "native_call", "model", "targets"},
     "state": {"native", "native_call", *SCENE, "model", "solver"},
     "interactive": {"native", "native_call", "background_work", "model", "targets", *SCENE, "solver", "state",
-                    "overlay.falloff_circle", "overlay.handle_marks"},
+                    "overlay.handle_marks", "overlay.tool_circle"},
     "operators": {"native_call", "background_work", "model", "targets", *SCENE, "solver", "state", "interactive",
                   "ui.properties", "ui.automatic_values", "ui.tool_properties"},
-    "overlay.brush_circle": set(),
-    "overlay.falloff_circle": set(),
+    "overlay.tool_circle": set(),
     "overlay.handle_marks": set(),
     "overlay.stripes": set(),
     "overlay.shader": {"overlay.stripes"},
@@ -71,7 +70,7 @@ MAY_IMPORT = {
     "ui.menus": {"ui.rows"},
     "ui.keymaps": set(),
     "ui.manual_links": set(),
-    "ui.toolbar": {"ui.automatic_values", "ui.gizmos", "ui.handle_gizmos", "overlay.brush_circle"},
+    "ui.toolbar": {"ui.automatic_values", "ui.gizmos", "ui.handle_gizmos", "overlay.tool_circle"},
     "ui.preferences": {"bl_info", "native", "ui.keymaps", "ui.manual_links"},
 }
 # Registration sees everything.

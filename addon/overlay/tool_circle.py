@@ -1,4 +1,4 @@
-"""A circle in space that shows the radius of a dragged tool."""
+"""Circles around what a tool changes: of a dragged one in space, of a brush in pixels."""
 from collections.abc import Callable
 
 import bpy
@@ -6,14 +6,15 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-COLOR = (1.0, 1.0, 1.0, 0.8)
+COLOR, BRUSH_COLOR = (1.0, 1.0, 1.0, 0.8), (1.0, 0.75, 0.1, 0.9)
 WIDTH = 1.5  # pixels
 TURN = np.linspace(0.0, 2.0 * np.pi, 97)
+ROUND = np.stack([np.cos(TURN), np.sin(TURN)], axis=1)
 
 
 def sample_circle(centre: np.ndarray, radius: float, frame: np.ndarray) -> np.ndarray:
     """Samples a circle along the first two rows of `frame`: #P x 3."""
-    return centre + radius * np.stack([np.cos(TURN), np.sin(TURN)], axis=1) @ frame[:2]
+    return centre + radius * ROUND @ frame[:2]
 
 
 def add_circle(points: Callable[[], np.ndarray | None]) -> object:
@@ -27,13 +28,22 @@ def remove_circle(handle: object) -> None:
 
 def draw_circle(points: Callable[[], np.ndarray | None]) -> None:
     positions = points()
-    if positions is None:
-        return
+    if positions is not None:
+        draw_strip(positions, COLOR)
+
+
+def draw_brush(place: tuple[int, int], radius: float) -> None:
+    """Draws a circle around a place, in pixels."""
+    draw_strip(sample_circle(np.array([*place, 0.0]), radius, np.eye(3)), BRUSH_COLOR)
+
+
+def draw_strip(points: np.ndarray, color: tuple[float, float, float, float]) -> None:
+    """Draws a line through points (#P x 3)."""
     shader = gpu.shader.from_builtin('UNIFORM_COLOR')
     gpu.state.blend_set('ALPHA')
     gpu.state.line_width_set(WIDTH)
     shader.bind()
-    shader.uniform_float("color", COLOR)
-    batch_for_shader(shader, 'LINE_STRIP', {"pos": positions.astype(np.float32).tolist()}).draw(shader)
+    shader.uniform_float("color", color)
+    batch_for_shader(shader, 'LINE_STRIP', {"pos": points.astype(np.float32).tolist()}).draw(shader)
     gpu.state.line_width_set(1.0)
     gpu.state.blend_set('NONE')
