@@ -20,6 +20,8 @@ def shape(kind: str, V: Array) -> Array:
         result[:, 2] -= np.maximum(x + 0.3 * y - 0.2, 0.0)
     elif kind == "fillet":
         result[:, 2] -= 0.018 * np.log1p(np.exp((x - 0.24) / 0.012))
+    elif kind == "steep dent":
+        result = flawed("dent", V) * [1, 1, 5]
     elif kind == "bulge":  # position and tangent of the region are those around, but not its curvature
         share = np.clip(1.0 - (V[:, :2] / (HALF - 1.0 / CELLS)) ** 2, 0.0, None).prod(axis=1)
         result[:, 2] = V[:, 2] + 0.003 * share**2
@@ -69,7 +71,7 @@ def test_no_light_ends_less_even_or_it_is_clamped_to_the_bit(border: str, kind: 
 @pytest.mark.parametrize("diagonals", DIAGONALS)
 @pytest.mark.parametrize("border", CONTINUED)
 def test_what_is_less_even_is_clamped_and_said_and_what_is_good_is_kept(border: str, diagonals: str) -> None:
-    assert is_said(press(make_panel("fillet", "jittered"), border)[1])
+    assert is_said(press(make_panel("steep dent", "jittered"), border)[1])
     panel = make_panel("dent", diagonals)
     positions, told = press(panel, border)
     assert not is_said(told) and not np.array_equal(positions, press(panel, "clamped")[0])

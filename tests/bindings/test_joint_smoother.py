@@ -72,8 +72,8 @@ def sheet(low: tuple[float, float], high: tuple[float, float], kind: str, cells:
 
 
 def test_clean_halves_move_no_further_than_the_uncut_sheet() -> None:
-    whole, F = sheet((-0.5, -0.5), (0.5, 0.5), "regular", 40)
-    most = np.abs(reflines.smooth_panel(whole, F, **DIRECTIONS)[0] - whole).max()
+    sheets = [sheet((-0.5, -0.5), (0.5, 0.5), kind, 40) for kind in ("regular", "irregular")]
+    most = max(np.abs(reflines.smooth_panel(V, F, **DIRECTIONS)[0] - V).max() for V, F in sheets)
     meshes = halves(0.004)
     for (positions, _), (start, _) in zip(press(*meshes), meshes, strict=True):
         assert np.abs(positions - start).max() < 1.2 * most + 1e-6

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <numbers>
 
+#include "restoration/mean_plane.h"
+
 namespace reflines {
 namespace {
 
@@ -55,11 +57,25 @@ CurvatureVariation::CurvatureVariation(const HeightField& field)
       entries_(stencils_, field.vertex_count()),
       shape_(measure_edges(field)),
       average_(field),
+      form_(make_forms()),
       slope_(field.triangle_count(), 6) {
   for (int t = 0; t < field.triangle_count(); ++t) {
     const Eigen::Matrix<double, 2, 3> slope = fit_slope(field, t);
     slope_.row(t) = Eigen::Map<const Eigen::Matrix<double, 1, 6>>(slope.data());
   }
+}
+
+// The slopes are averaged, lest noise of the vertices change the forms from triangle to triangle.
+std::vector<Eigen::Matrix3d> CurvatureVariation::make_forms() const {
+  PlaneVectors slope(field_.triangle_count(), 2);
+  for (int t = 0; t < slope.rows(); ++t) slope.row(t) = apply_stencil(stencils_, t, field_.z).head<2>();
+  slope = average_.of(slope, Mask::Constant(slope.rows(), true));
+  std::vector<Eigen::Matrix3d> result;
+  for (const auto& own : slope.rowwise()) {
+    const TangentMap map = find_tangent_map(own);
+    result.emplace_back(map.lift * substitute(map.stretch.inverse()));
+  }
+  return result;
 }
 
 TriangleFields CurvatureVariation::read_hessians(const Vector& z) const {
@@ -88,15 +104,17 @@ Eigen::MatrixXd CurvatureVariation::read_tensors(const TriangleFields& hessian) 
 }
 
 Vector CurvatureVariation::differentiate(const Vector& z, const EdgeWeights& scaled) const {
-  const TriangleFields hessian = read_hessians(z);
+  TriangleFields form = read_hessians(z);
+  for (int t = 0; t < form.rows(); ++t) form.row(t) *= form_[t];
   Vector products(static_cast<Eigen::Index>(stencils_.vertex.size())), result;
 #pragma omp parallel for schedule(static) if (field_.triangle_count() > kWorthThreads)
   for (int t = 0; t < field_.triangle_count(); ++t) {
     Vector3 change = Vector3::Zero();
     for (int i = 0; i < 3; ++i) {
       const int other = field_.neighbors(t, i);
-      if (other >= 0) change += scaled(t, i) * (hessian.row(t) - hessian.row(other)).transpose();
+      if (other >= 0) change += scaled(t, i) * (form.row(t) - form.row(other)).transpose();
     }
+    change = form_[t] * change;
     for (int e = stencils_.offset[t]; e < stencils_.offset[t + 1]; ++e)
       products(e) = stencils_.hessian.row(e).dot(change);
   }

@@ -51,7 +51,7 @@ struct FairingSystem::Workspace {
     vertices.clear();
   }
 
-  TriangleFields change;  // #T x 3: what multiplies the Hessian weights of each triangle
+  TriangleFields change;  // #T x 3: what multiplies the form of each triangle
   std::vector<char> seen_triangle;
   Vector sum;  // #V: entries of the column
   std::vector<char> seen_vertex;
@@ -69,28 +69,30 @@ FairingSystem::FairingSystem(const CurvatureVariation& variation)
   }
 }
 
-// Adds the products of v's Hessian weights, through the edges of the triangles that have v in their stencil, with the
-// weights of all vertices: the column of D^T W D, D being the changes of the Hessians across edges.
+// Adds the products of the weights of v in the forms, through the edges of the triangles that have v in their stencil,
+// with the weights of all vertices: the column of D^T W D, D being the changes of the forms across edges.
 void FairingSystem::add_vertex(int v, Workspace& space) const {
   const Stencils& stencils = variation_.stencils();
   const StencilEntries& entries = variation_.entries();
   for (int k = entries.entries_of_vertex.begin(v); k < entries.entries_of_vertex.end(v); ++k) {
     const int e = entries.entries_of_vertex.items[k], t = entries.triangle[e];
+    const Eigen::RowVector3d form = stencils.hessian.row(e) * variation_.form(t);
     space.touch_triangle(t);
     for (int i = 0; i < 3; ++i) {
       const int other = variation_.field().neighbors(t, i);
       if (other < 0) continue;
       space.touch_triangle(other);
-      space.change.row(t) += scaled_(t, i) * stencils.hessian.row(e);
-      space.change.row(other) -= scaled_(t, i) * stencils.hessian.row(e);
+      space.change.row(t) += scaled_(t, i) * form;
+      space.change.row(other) -= scaled_(t, i) * form;
     }
   }
   for (const int t : space.triangles) {
+    const Vector3 change = variation_.form(t) * space.change.row(t).transpose();
     for (int e = stencils.offset[t]; e < stencils.offset[t + 1]; ++e) {
       const int other = stencils.vertex[e];
       if (column_[other] < column_[v]) continue;
       space.touch_vertex(other);
-      space.sum(other) += stencils.hessian.row(e).dot(space.change.row(t));
+      space.sum(other) += stencils.hessian.row(e).dot(change);
     }
   }
 }

@@ -42,6 +42,8 @@ TangentMap MeanPlane::map_to_tangent(const Vector2& slope) const {
   return {find_stretch(in_view) * stretch_.inverse(), find_lift(in_view) / lift_};
 }
 
+TangentMap find_tangent_map(const Vector2& slope) { return {find_stretch(slope), find_lift(slope)}; }
+
 Eigen::Matrix3d substitute(const Eigen::Matrix2d& A) {
   constexpr double kRoot = std::numbers::sqrt2;
   Eigen::Matrix3d result;

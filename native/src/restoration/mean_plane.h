@@ -41,6 +41,10 @@ class MeanPlane {
   double lift_;
 };
 
+// Returns the map to the tangent plane of a surface that has this slope over a plane, whose points move across that
+// plane.
+TangentMap find_tangent_map(const Vector2& slope);
+
 // Returns the matrix that turns Hessians (f_xx, sqrt(2) f_xy, f_yy), as rows from the left, into those of f(A q).
 Eigen::Matrix3d substitute(const Eigen::Matrix2d& A);
 
