@@ -222,11 +222,3 @@ def test_check_measures_and_draws_both(driver: window.Window) -> Steps:
         shown, = bpy.data.objects[name].reflection_lines.check.list_shut_lines()
         assert shown.describe().startswith(f"Shut line 1, {other}: gap 1.6 cm to 1.6 cm"), shown.describe()
     assert driver.read_last_report().startswith("Door: ")  # the active one
-
-
-window.run(test_a_stroke_smooths_what_it_passes_over_on_both_sides_of_the_gap,
-           test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone,
-           test_a_panel_that_cannot_be_brushed_is_named_and_the_other_is_brushed,
-           test_a_press_pulls_or_draws_the_line_of_the_panel_that_it_lies_on,
-           test_a_session_says_that_the_lines_of_another_panel_are_not_its_own,
-           test_a_drag_of_direction_moves_both_and_escape_takes_both_back, test_check_measures_and_draws_both)

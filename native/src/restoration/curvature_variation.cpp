@@ -65,7 +65,7 @@ CurvatureVariation::CurvatureVariation(const HeightField& field)
   }
 }
 
-// The slopes are averaged, lest noise of the vertices change the forms from triangle to triangle.
+// Returns the matrices by averaged slopes, lest noise of the vertices change the forms from triangle to triangle.
 std::vector<Eigen::Matrix3d> CurvatureVariation::make_forms() const {
   PlaneVectors slope(field_.triangle_count(), 2);
   for (int t = 0; t < slope.rows(); ++t) slope.row(t) = apply_stencil(stencils_, t, field_.z).head<2>();

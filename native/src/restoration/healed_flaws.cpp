@@ -49,20 +49,21 @@ WorsePlace find_worse(const Eigen::MatrixXd& before, const Eigen::MatrixXd& afte
 
 // Sums deviations (#F) up; `area` (#F) is that of the triangles.
 HealedPlaces sum_up(const Vector& before, const Vector& after, const Vector& area) {
-  Vector share(area.size());
+  Vector healed(area.size());
   for (Eigen::Index t = 0; t < area.size(); ++t) {
     const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
-    share(t) = smoothstep(kRules.verdict.seen, kRules.verdict.seen_whole, before(t)) *
-               smoothstep(kRules.verdict.healed, kRules.verdict.healed_whole, gone);
+    healed(t) = smoothstep(kRules.verdict.seen, kRules.verdict.seen_whole, before(t)) *
+                smoothstep(kRules.verdict.healed, kRules.verdict.healed_whole, gone);
   }
-  const Vector weight = area.cwiseProduct(share);
+  const Vector weight = area.cwiseProduct(healed);
   return {{weight.sum() / area.sum(),
            before.maxCoeff(),
            after.maxCoeff(),
            mean_of(before, weight),
            mean_of(after, weight),
+           {},
            {}},
-          share};
+          healed};
 }
 
 WorsePlace judge(ControlledSurface& surface, const Vector& before, const Vector& after, const Vector& course,

@@ -293,7 +293,9 @@ SmoothPanelResult Restoration::refuse(const Note& reason) {
     report_.stray = measure_start().stray;
     report_.verdict = tell_places(Vector::Zero(surface_.triangles().rows()));
   }
-  report_.healed = {.worst_before = report_.healed.worst_before, .worst_after = report_.healed.worst_before};
+  const double worst = report_.healed.worst_before;
+  report_.healed = {};
+  report_.healed.worst_before = report_.healed.worst_after = worst;
   report_.notes.push_back(reason);
   report_.work = take_work();
   return {surface_.control_positions(), report_};
