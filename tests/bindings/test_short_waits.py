@@ -11,20 +11,20 @@ import reflines
 from dented_dome import clean, grid
 V, F = grid(clean)
 fit = reflines.NormalFit(V, F)
-spent = 0.0
+spent = []
 for _ in range(20):
     fit.normals(V)  # ends with a parallel loop, after which the threads wait for the next one
     start = time.process_time()
     time.sleep(0.03)
-    spent += time.process_time() - start
-print(spent)
+    spent.append(time.process_time() - start)
+print(sorted(spent)[10])
 """
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux" or os.cpu_count() == 1, reason="no thread waits for another")
 
 
 def measure_idle_time(policy: str | None = None) -> float:
-    """Measures the seconds of processors that 20 pauses of 0.03 s after a parallel loop take."""
+    """Measures the seconds of processors that a pause of 0.03 s after a parallel loop takes, the median of 20."""
     environment = {name: value for name, value in os.environ.items()
                    if name not in {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT"}}
     environment |= {"OMP_NUM_THREADS": str(os.cpu_count()), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
@@ -34,8 +34,8 @@ def measure_idle_time(policy: str | None = None) -> float:
 
 
 def test_waiting_threads_take_no_time() -> None:
-    assert measure_idle_time() < 0.01
+    assert measure_idle_time() < 0.0005
 
 
 def test_the_user_may_want_them_to_spin() -> None:
-    assert measure_idle_time("active") > 0.05
+    assert measure_idle_time("active") > 0.0025

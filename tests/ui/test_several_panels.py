@@ -157,7 +157,7 @@ def pulled(driver: window.Window, tool: str, stroke: tuple[tuple[int, int], ...]
     yield from dragging.settled(driver)
     assert len(pulling.session().handles) == 1 and bpy.context.view_layer.objects.active.name == "Wing"
     yield from window.take_picture(driver, tool)
-    yield from pulling.applied(driver)
+    yield from dragging.applied(driver)
     assert not drag_module()._running
     moved = find_moved(before)
     yield from comes_back(driver, before)
