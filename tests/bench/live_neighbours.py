@@ -48,10 +48,12 @@ def measure() -> dict[str, list[float]]:
         build_panel(name, x, y)
     scenes.activate(ob)
     bpy.context.view_layer.update()
-    patch = read.gather.gather_patch(ob, or_all=True, purpose=read.mesh_checks.Purpose.READ)
+    purpose = read.mesh_checks.Purpose.READ
+    patch = read.gather.gather_patch(ob, or_all=True, purpose=purpose)
+    snapshot = read.read_snapshot.read_snapshot(ob, "", None, or_all=True, purpose=purpose)
     crossing = model.beside.Crossing(everywhere=True)
     return {name: [milliseconds(work) for _ in range(REPETITIONS)] for name, work in {
-        "beside": lambda: read.read_beside.read_beside(ob, patch, patch.V, crossing),
+        "beside": lambda: read.read_beside.read_beside(ob, snapshot, patch, crossing),
         "unjoined": lambda: read.unjoined_border.find_unjoined(bpy.context.scene, ob, patch, within=False),
         "check": lambda: model.steps.finish(read.read_beside.read_neighbors(ob, patch.V)),
     }.items()}
