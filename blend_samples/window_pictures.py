@@ -58,10 +58,15 @@ def join(names: tuple[str, ...]) -> np.ndarray:
     return joined
 
 
-def drag_by_the_arrow(driver: window.Window) -> Steps:
-    """Takes the toolbar's tool with its gizmos, and a drag of the strength."""
-    driver.key('Z', ctrl=True)  # the dents again
-    yield from dragging.settled(driver)
+def open_sample(name: str) -> Steps:
+    bpy.ops.wm.open_mainfile(filepath=str(newcomer.SAMPLE.with_name(name)), load_ui=True)
+    yield 1.5
+
+
+def drag_by_the_arrow() -> Steps:
+    """Takes the toolbar's tool with its gizmos, and a drag of the strength, on the car."""
+    yield from open_sample("car.blend")
+    driver = window.Window()
     with driver.override():
         bpy.ops.wm.tool_set_by_id(name="reflection_lines.tool")
     yield from view_picture("toolbar")
@@ -74,11 +79,6 @@ def drag_by_the_arrow(driver: window.Window) -> Steps:
     yield from view_picture("drag")
     driver.key('ESC')
     yield 0.3
-
-
-def open_sample(name: str) -> Steps:
-    bpy.ops.wm.open_mainfile(filepath=str(newcomer.SAMPLE.with_name(name)), load_ui=True)
-    yield 1.5
 
 
 def paint_a_stroke() -> Steps:
@@ -103,7 +103,7 @@ def take_all(_: window.Window) -> Steps:
     yield from paint_a_stroke()
     yield from newcomer.use_sample(view_picture)
     yield from newcomer.use_own_model(view_picture)
-    yield from drag_by_the_arrow(window.Window())
+    yield from drag_by_the_arrow()
     save(join(STRIP), FOLDER / "first_use.png")
     for name, source, width in (("first_use", "first_use", STRIP_WIDTH), ("toolbar", "toolbar", WIDTH),
                                 ("drag", "drag", WIDTH), ("sidebar", "smoothed", WIDTH),

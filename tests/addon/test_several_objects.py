@@ -104,7 +104,8 @@ def test_a_warp_moves_both_and_one_undo_takes_both_back() -> None:
     pair = start()
     assert bpy.ops.reflines.add_warp_lattice() == {'FINISHED'}
     lattice = bpy.context.scene.reflection_lines.warp.lattice
-    assert np.allclose([lattice.dimensions.x, lattice.dimensions.y], 2.0, atol=1e-3)  # over both
+    extent = np.ptp([lattice.matrix_world @ point.co_deform for point in lattice.data.points], axis=0)
+    assert np.allclose(extent[:2], 2.0, atol=1e-3)  # over both
     lattice.data.points[12].co_deform.y += 0.5  # the middle one, over the gap
     bpy.ops.ed.undo_push(message="Lattice")
     before = [places(ob) for ob in pair]
