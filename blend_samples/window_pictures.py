@@ -82,13 +82,13 @@ def drag_by_the_arrow() -> Steps:
 
 
 def paint_a_stroke() -> Steps:
-    """Takes a stroke of the brush across half of the car's bonnet."""
+    """Takes strokes of the brush over half of the car's bonnet, each twice."""
     yield from open_sample("car.blend")
     driver = window.Window()
     with driver.override():
         bpy.ops.wm.tool_set_by_id(name="reflection_lines.fair_brush")
     bpy.context.scene.reflection_lines.brush.strength = 1.0
-    for y in (-1.75, -1.45, -1.15):
+    for y in (-1.75, -1.6, -1.45, -1.3, -1.15) * 2:
         newcomer.move_over(driver, (-0.5, y, newcomer.ON_BONNET[2]))
         driver.event('LEFTMOUSE', 'PRESS')
         for x in np.linspace(-0.5, 0.1, 13):
