@@ -67,10 +67,11 @@ CurvatureVariation::CurvatureVariation(const HeightField& field)
 
 // Returns the matrices by averaged slopes, lest noise of the vertices change the forms from triangle to triangle.
 std::vector<Eigen::Matrix3d> CurvatureVariation::make_forms() const {
-  PlaneVectors slope(field_.triangle_count(), 2);
-  for (int t = 0; t < slope.rows(); ++t) slope.row(t) = apply_stencil(stencils_, t, field_.z).head<2>();
-  slope = average_.of(slope, Mask::Constant(slope.rows(), true));
+  TriangleDerivatives u;
+  apply_stencils(stencils_, field_.z, u);
+  const PlaneVectors slope = average_.of(u.leftCols<2>(), Mask::Constant(u.rows(), true));
   std::vector<Eigen::Matrix3d> result;
+  result.reserve(u.rows());
   for (const auto& own : slope.rowwise()) {
     const TangentMap map = find_tangent_map(own);
     result.emplace_back(map.lift * substitute(map.stretch.inverse()));
