@@ -9,9 +9,10 @@ from .patch import Patch, compute_bounds
 
 def find_meeting(patch: Patch, panels: Sequence[Patch]) -> list[Patch]:
     """Returns a patch and all panels that its box, or that of one of them, comes as near to as a gap is wide."""
-    met, left = [patch], [each for each in panels if each.name != patch.name]
-    for own in met:  # which grows
-        beside = [each for each in left if are_near(own, each)]
+    own = {each.name for each in patch.panels}
+    met, left = [patch], [each for each in panels if each.name not in own]
+    for one in met:  # which grows
+        beside = [each for each in left if are_near(one, each)]
         left = [each for each in left if each.name not in {found.name for found in beside}]
         met += beside
     return met

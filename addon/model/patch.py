@@ -31,6 +31,11 @@ class Patch:
     beside: Beside | None = field(default=None, kw_only=True)  # what the border can follow, where it is to
 
     @property
+    def panels(self) -> "tuple[Patch, ...]":
+        """The patches of single objects that this one stands for."""
+        return (self,)
+
+    @property
     def center(self) -> np.ndarray:
         """The centre of the bounding box, with the image that a Mirror modifier adds.
 

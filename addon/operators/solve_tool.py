@@ -6,15 +6,19 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty
 
+from ..blender.triangulate import triangulate_points
 from ..model import meeting
 from ..model.beside import Crossing
+from ..model.joined_patch import split_solution
 from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
+from ..native_call import run_now
 from ..read import gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, shown_surface, unjoined_border
 from ..read.mesh_checks import Purpose
+from ..solver.join_panels import join_panels
 from ..solver.live_optimizer import BuildTarget
 from ..state import optimizer_cache, press_cache, solve_history
 from ..ui import automatic_values
@@ -120,8 +124,32 @@ class SolveTool:
 
     def solve_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[Solution]:
         """Solves the objects before any is written; refuses all of them where one cannot be solved."""
-        self.panels = [self.gather_patch(ob) for ob in subjects]
-        return [self.solve_patch(context, ob, patch) for ob, patch in zip(subjects, self.panels, strict=True)]
+        gathered = self.gather_all(context, subjects)
+        solutions = []
+        for patch, _ in self.join_panels(gathered):
+            solution = self.solve_patch(context, self.find_owner(context, patch), patch)
+            solutions += split_solution(solution, self.read_solve_settings(context.scene).limit)
+        return solutions
+
+    def join_panels(self, gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]:
+        """Returns what is solved: panels that face each other, where the border follows its neighbours and all are seen
+        alike, as one patch.
+        """
+        views = [seen for _, seen in gathered]
+        if not self.joins_panels() or not all(views[0].same(seen) for seen in views[1:]):
+            return gathered
+        patches = run_now(join_panels([patch for patch, _ in gathered], views[0], self.border, triangulate_points))
+        return [(patch, views[0]) for patch in patches]
+
+    def joins_panels(self) -> bool:
+        """Returns whether panels that face each other are solved as one."""
+        return len(self.panels) > 1 and not self.is_automatic()
+
+    def find_owner(self, context: bpy.types.Context, patch: Patch) -> bpy.types.Object:
+        """Returns the object whose settings hold for a patch: of several the active one."""
+        names = [each.name for each in patch.panels]
+        active = scene_objects.find_active_object(context).name
+        return bpy.data.objects[active if active in names else names[0]]
 
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
         """Gathers the patches of the objects, each with its view."""

@@ -41,9 +41,10 @@ def drop_surplus(names: Collection[str]) -> None:
 
     Those named stay, however many: the redo panel may repeat the operation on all of them.
     """
-    for gone in [name for name in _optimizers if bpy.data.objects.get(name) is None]:
-        del _optimizers[gone]
-    others = [name for name in _optimizers if name not in names]
+    owners = {name: {panel.name for panel in live.patch.panels} for name, live in _optimizers.items()}
+    for gone in [name for name, own in owners.items() if any(bpy.data.objects.get(each) is None for each in own)]:
+        del _optimizers[gone], owners[gone]
+    others = [name for name, own in owners.items() if not own & set(names)]
     for name in others[:max(len(_optimizers) - max(KEPT_OPTIMIZERS, len(names)), 0)]:
         del _optimizers[name]
 

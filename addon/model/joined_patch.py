@@ -1,0 +1,90 @@
+"""Panels that meet over gaps as one patch, and the way back to each of them.
+
+The rows of triangles at the gap are left out, and a strip of triangles takes their place, which lies between the rows
+of vertices behind both rims: no sliver as narrow as the gap is among them. What moves the rims is a smooth function
+through the moves on both sides, the same for both: so it adds neither step nor kink.
+"""
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .patch import Patch
+from .solution import Solution
+
+
+@dataclass(frozen=True)
+class SeamMoves:
+    """The moves of a panel's vertices at the gap as sums of moves of the joined patch."""
+    vertex: np.ndarray  # #S, vertices of the panel
+    first: np.ndarray   # #S: where the terms of each begin
+    source: np.ndarray  # #terms, vertices of the joined patch
+    weight: np.ndarray  # #terms
+
+    def sum(self, move: np.ndarray) -> np.ndarray:
+        """Returns the moves (#S x 3) from those of the joined patch's vertices (#V x 3)."""
+        if not len(self.vertex):
+            return np.zeros((0, 3))
+        return np.add.reduceat(self.weight[:, None] * move[self.source], self.first)
+
+
+@dataclass(frozen=True)
+class PanelPart:
+    """What one panel has of the joined patch."""
+    panel: Patch
+    vertex: np.ndarray    # #V of the panel: vertex of the joined patch, -1 where there is none
+    triangle: np.ndarray  # #F of the panel: triangle of the joined patch, or the nearest one
+    seam: SeamMoves
+
+
+@dataclass(frozen=True)
+class JoinedPatch(Patch):
+    """A patch that stands for several, in world space; its heights are those of the panels without steps."""
+    parts: tuple[PanelPart, ...]
+
+    @property
+    def panels(self) -> tuple[Patch, ...]:
+        return tuple(part.panel for part in self.parts)
+
+
+def split_positions(patch: Patch, positions: np.ndarray, limit: float = np.inf) -> list[np.ndarray]:
+    """Returns the positions of each panel (#V x 3, world space) from those of a patch, which may be a joined one.
+
+    No vertex at the gap moves further than the limit, or its own range of it.
+    """
+    if not isinstance(patch, JoinedPatch):
+        return [positions]
+    move = positions - patch.V
+    return [move_panel(part, move, limit) for part in patch.parts]
+
+
+def move_panel(part: PanelPart, move: np.ndarray, limit: float) -> np.ndarray:
+    """Returns a panel's positions after moves of the joined patch (#V x 3)."""
+    V = part.panel.V.copy()
+    own = part.vertex >= 0
+    V[own] += move[part.vertex[own]]
+    V[part.seam.vertex] += cut_moves(part, part.seam.sum(move), move, limit)
+    return V
+
+
+def cut_moves(part: PanelPart, seam: np.ndarray, move: np.ndarray, limit: float) -> np.ndarray:
+    """Cuts the moves at the gap (#S x 3) to the limit; all moves lie along one axis."""
+    largest = move[np.abs(move).sum(axis=1).argmax()] if len(move) else np.zeros(3)
+    size = float(np.linalg.norm(largest))
+    if not np.isfinite(limit) or size == 0.0:
+        return seam
+    ranges = part.panel.limit_range
+    axis, along = largest / size, seam @ (largest / size)
+    low, high = (-limit, limit) if ranges is None else limit * ranges[part.seam.vertex].T
+    return seam + (np.clip(along, low, high) - along)[:, None] * axis
+
+
+def split_solution(solution: Solution, limit: float) -> list[Solution]:
+    """Returns the solution of each panel from that of a patch, which may be a joined one; the limit 0 is the automatic
+    one.
+    """
+    patch = solution.patch
+    if not isinstance(patch, JoinedPatch):
+        return [solution]
+    positions = split_positions(patch, solution.positions, limit or solution.automatic_limit or np.inf)
+    return [replace(solution, patch=part.panel, positions=own, residual=solution.residual[part.triangle])
+            for part, own in zip(patch.parts, positions, strict=True)]

@@ -1,0 +1,138 @@
+"""The strip of triangles between the rims of panels that meet over a gap, in the image plane."""
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+# Takes points (#P x 2) and edges (#E x 2) of a plane, and returns Delaunay triangles (#F x 3) that keep the edges,
+# counter-clockwise; None where there are none.
+Triangulate = Callable[[np.ndarray, np.ndarray], "np.ndarray | None"]
+
+FLAT = 1e-4    # area over the square of the longest side of a triangle that is none
+WIDEST = 2.0  # length of a strip's edge over that of the widest row and gap
+
+
+@dataclass(frozen=True)
+class Rim:
+    """A panel without the row of triangles at its rim."""
+    xy: np.ndarray      # #V x 2, of the panel
+    F: np.ndarray       # #F x 3, likewise
+    vertex: np.ndarray  # #R: vertices of the rim
+    stays: np.ndarray   # #F, bool: triangles without those
+    edges: np.ndarray   # #E x 2: edges between what stays and what is left out
+    depth: float        # of the row
+
+    def is_used(self) -> np.ndarray:
+        """Returns which vertices have triangles that stay: #V, bool."""
+        used = np.zeros(len(self.xy), dtype=bool)
+        used[self.F[self.stays]] = True
+        return used
+
+
+@dataclass(frozen=True)
+class Strip:
+    """The triangles between rims."""
+    corners: list[list[tuple[int, int]]]  # of each triangle, a panel's number and its vertex
+    meeting: frozenset[int]               # the panels that have such triangles with another one
+    span: float                           # widest row and gap
+
+
+def list_edges(F: np.ndarray) -> np.ndarray:
+    """Returns the edges of triangles (#F x 3), each as often as there are triangles at it: 3 #F x 2, sorted ends."""
+    return np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
+
+
+def list_border(F: np.ndarray) -> np.ndarray:
+    """Returns the edges of one triangle alone: #E x 2."""
+    edges, count = np.unique(list_edges(F), axis=0, return_counts=True)
+    return edges[count == 1]
+
+
+def cut_rim(xy: np.ndarray, F: np.ndarray, vertex: np.ndarray) -> Rim:
+    """Leaves the triangles at a rim out, with those at the vertices where its border goes on."""
+    border = list_border(F)
+    gone = np.zeros(len(xy), dtype=bool)
+    gone[vertex] = True
+    gone[border[gone[border].any(axis=1)]] = True
+    stays = ~gone[F].any(axis=1)
+    edges = list_border(F[stays]) if stays.any() else np.zeros((0, 2), dtype=np.int64)
+    outer = {tuple(each) for each in border.tolist()}
+    edges = np.array([each for each in edges.tolist() if tuple(each) not in outer], dtype=np.int64).reshape(-1, 2)
+    return Rim(xy, F, vertex, stays, edges, measure_depth(xy, vertex, np.unique(edges)))
+
+
+def measure_depth(xy: np.ndarray, vertex: np.ndarray, row: np.ndarray) -> float:
+    """Measures how far the row behind a rim is from it: nine vertices of ten lie nearer."""
+    if not len(row):
+        return 0.0
+    return float(np.quantile([np.linalg.norm(xy[row] - xy[v], axis=1).min() for v in vertex], 0.9))
+
+
+def build_strip(rims: list[Rim], gap: float, triangulate: Triangulate) -> Strip | None:
+    """Builds the triangles between the rows behind the rims; None where that fails, as for panels that overlap."""
+    chains = [np.unique(rim.edges) for rim in rims]
+    if not all(len(chain) for chain in chains):
+        return None
+    starts = np.cumsum([0, *(len(chain) for chain in chains)])
+    points = np.concatenate([rim.xy[chain] for rim, chain in zip(rims, chains, strict=True)])
+    edges = np.concatenate([start + np.searchsorted(chain, rim.edges)
+                            for rim, chain, start in zip(rims, chains, starts[:-1], strict=True)])
+    F = triangulate(points, edges)
+    if F is None or not len(F):
+        return None
+    panel = np.repeat(np.arange(len(rims)), np.diff(starts))
+    span = 2.0 * max(rim.depth for rim in rims) + gap
+    along = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).max()
+    F = F[choose_between(rims, points, panel, F, WIDEST * span + along)]
+    mixed = F[(panel[F] != panel[F[:, :1]]).any(axis=1)]
+    if not len(mixed):
+        return None
+    vertex = np.concatenate(chains)
+    corners = [[(int(panel[p]), int(vertex[p])) for p in row] for row in F]
+    return Strip(corners, frozenset(panel[mixed].ravel().tolist()), span)
+
+
+def choose_between(rims: list[Rim], points: np.ndarray, panel: np.ndarray, F: np.ndarray, widest: float) -> np.ndarray:
+    """Chooses the triangles between the panels (#F, bool): those of one panel only where it had triangles."""
+    alone = (panel[F] == panel[F[:, :1]]).all(axis=1)
+    sides = points[F] - points[np.roll(F, 1, axis=1)]
+    longest = np.linalg.norm(sides, axis=2).max(axis=1)
+    short = longest <= widest
+    flat = find_areas(points, F) < FLAT * longest**2  # of points on one line, beside the strip
+    centre = points[F].mean(axis=1)
+    chosen = np.zeros(len(F), dtype=bool)
+    for which, rim in enumerate(rims):
+        near = is_near(rim, centre, widest)
+        own = alone & ~flat & (panel[F[:, 0]] == which)
+        chosen[own] = find_covered(rim.xy, rim.F[~rim.stays & near], centre[own])
+    between = ~alone & short & ~flat
+    for rim in rims:
+        inside = find_covered(rim.xy, rim.F[rim.stays & is_near(rim, centre[between], 0.0)], centre[between])
+        between[np.flatnonzero(between)[inside]] = False
+    return chosen | between
+
+
+def find_areas(points: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """Returns the areas of triangles (#F x 3) that run counter-clockwise: #F."""
+    u, v = points[F[:, 1]] - points[F[:, 0]], points[F[:, 2]] - points[F[:, 0]]
+    return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+
+
+def is_near(rim: Rim, points: np.ndarray, margin: float) -> np.ndarray:
+    """Returns which triangles of a panel overlap the box around points: #F, bool."""
+    if not len(points):
+        return np.zeros(len(rim.F), dtype=bool)
+    corners = rim.xy[rim.F]
+    low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return (corners.max(axis=1) >= low).all(axis=1) & (corners.min(axis=1) <= high).all(axis=1)
+
+
+def find_covered(xy: np.ndarray, F: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Finds the points (#P, bool) that lie in one of the triangles."""
+    result = np.zeros(len(points), dtype=bool)
+    a, b, c = (xy[F[:, k]] for k in range(3))
+    for number, p in enumerate(points):
+        sides = [(v[:, 0] - u[:, 0]) * (p[1] - u[:, 1]) - (v[:, 1] - u[:, 1]) * (p[0] - u[:, 0])
+                 for u, v in ((a, b), (b, c), (c, a))]
+        result[number] = bool(((sides[0] > 0) & (sides[1] > 0) & (sides[2] > 0)).any())
+    return result
