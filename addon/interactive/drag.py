@@ -47,6 +47,8 @@ class DraggedOperator(Protocol):
     def build_handles(self) -> tuple[Handle, ...]: ...
     def choose_automatic(self, name: str, patch: Patch) -> float: ...
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]: ...
+    def join_panels(self, gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]: ...
+    def find_owner(self, context: bpy.types.Context, patch: Patch) -> bpy.types.Object: ...
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings: ...
     def read_judges(self, context: bpy.types.Context) -> LightSet | None: ...
     def read_falloff(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Falloff | None: ...
@@ -61,8 +63,9 @@ class Drag:
         """Begins with the solve that is kept where that is asked for at once: a press of the tool."""
         scene = context.scene
         self.tool, self.area, self.is_press = tool, context.area, final
-        gathered = tool.gather_all(context, tool.find_subjects(context))
-        self.patches, views = [patch for patch, _ in gathered], [seen for _, seen in gathered]
+        solved = tool.join_panels(tool.gather_all(context, tool.find_subjects(context)))
+        self.solved, views = [patch for patch, _ in solved], [seen for _, seen in solved]
+        self.patches = [panel for patch in self.solved for panel in patch.panels]
         subjects = [bpy.data.objects[patch.name] for patch in self.patches]
         self.counts = [read_mesh.count_elements(ob) for ob in subjects]
         self.before = [self.read_shown(ob, patch) for ob, patch in zip(subjects, self.patches, strict=True)]
@@ -71,7 +74,7 @@ class Drag:
         self.values = self.read_values(scene)
         self.frame = live_optimizer.compute_image_frame(self.patches[0], views[0])
         self.update_request(context, final=final)  # refuses before anything is started
-        self.job = SolveJob(self.patches, views, tool.border)
+        self.job = SolveJob(self.solved, views, tool.border)
         self.circle = tool_circle.add_circle(lambda: self.circle_points)
         self.work = BackgroundWork(self.job.run, self.job.cancel)
         self.work.submit(self.request)
@@ -132,15 +135,16 @@ class Drag:
             if self.values.is_touched(index):
                 setattr(self.tool, handle.name, self.values.value(index))
         # The settings are read after each target, since a panel's size sets its length.
-        objects = self.find_objects()
+        self.find_objects()
+        owners = [self.tool.find_owner(context, patch) for patch in self.solved]
         wanted = [(self.tool.build_target(context, ob, patch), self.tool.read_solve_settings(context.scene))
-                  for ob, patch in zip(objects, self.patches, strict=True)]
+                  for ob, patch in zip(owners, self.solved, strict=True)]
         builds, settings = zip(*wanted, strict=True)
         if final:
             judges = self.tool.read_judges(context)
             settings = tuple(replace(each, judges=judges) for each in settings)
         self.request = SolveRequest(builds, settings, final, press=self.tool.choose_press())
-        falloff = self.tool.read_falloff(context, objects[0], self.patches[0])
+        falloff = self.tool.read_falloff(context, owners[0], self.solved[0])
         self.circle_points = (tool_circle.sample_circle(falloff.centre, falloff.radius, self.frame)
                               if falloff is not None else None)
 

@@ -59,9 +59,9 @@ def follow_edge(session: Session, handle: LineHandle, place: Place) -> LineHandl
     if len(line) < FEWEST:
         return None
     at = plane @ session.surface.read_point(place, session.state)
-    edges = read_edges.read_selected_edges(session.patches[0]) @ plane.T
+    edges = read_edges.read_selected_edges(session.own) @ plane.T
     if not len(edges):
-        edges = read_edges.read_bounding_edges(session.patches[0]) @ plane.T
+        edges = read_edges.read_bounding_edges(session.own) @ plane.T
         edges = line_curve.choose_loop(edges, at, plane @ (line[-1] - line[0]))
     if not len(edges):
         return None

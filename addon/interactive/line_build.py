@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 
 from ..model import line_handle
+from ..model.joined_patch import gather_values
 from ..model.line_handle import Handles
 from ..model.patch import Patch
 from ..model.view import View
@@ -35,7 +36,8 @@ class LineBuild:
                            for sign in (problem.sign, problem.image_sign))
         if not self.is_begun:
             self.builder.spread_falloff, self.is_begun = read_spread_falloff(ob, problem), True
-        return HandleBuild(self.builder, handles, images, patch.matrix)
+        owner = next(panel for panel in patch.panels if panel.name == ob.name)
+        return HandleBuild(self.builder, handles, images, owner.matrix)
 
 
 def read_spread_falloff(ob: bpy.types.Object, problem: PanelProblem) -> SpreadFalloff | None:
@@ -43,5 +45,5 @@ def read_spread_falloff(ob: bpy.types.Object, problem: PanelProblem) -> SpreadFa
     name = ob.reflection_lines.follow_group
     if not name:
         return None
-    weights = group_weights.read_group_weights(ob, name, "the handles")[problem.patch.index]
-    return partial(spread_weights, problem, weights=weights)
+    weights = {ob.name: group_weights.read_group_weights(ob, name, "the handles")}
+    return partial(spread_weights, problem, weights=gather_values(problem.patch, weights, 1.0))

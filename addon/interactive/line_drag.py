@@ -57,6 +57,8 @@ class LineDrag(Drag):
         self.mouse = self.last = (0.0, 0.0)  # pixels of the window: of the pull, and of the mouse itself
         self.looked = False  # whether the place under the mouse is known
         super().__init__(tool, context)
+        owner = tool.find_owner(context, self.solved[0]).name
+        self.own = next(patch for patch in self.patches if patch.name == owner)  # that the handles belong to
         self.marks = Marks()
         self.marks_drawn = handle_marks.add_marks(self.area, lambda: self.marks)
 
@@ -98,7 +100,7 @@ class LineDrag(Drag):
 
     def to_local(self, point: np.ndarray) -> tuple[float, float, float]:
         """Returns a point in object space, in single precision: so it is kept with the object."""
-        local = np.linalg.solve(self.patches[0].matrix, np.append(point, 1.0))[:3]
+        local = np.linalg.solve(self.own.matrix, np.append(point, 1.0))[:3]
         return tuple(local.astype(np.float32).tolist())
 
     def can_follow(self, points: np.ndarray) -> np.ndarray:
@@ -107,7 +109,7 @@ class LineDrag(Drag):
 
     def find_place(self, point: tuple[float, float, float]) -> Place | None:
         """Returns the place of a point in object space."""
-        return self.surface.find_place(self.patches[0].to_world(np.array(point)))
+        return self.surface.find_place(self.own.to_world(np.array(point)))
 
     def move_to(self, x: float, y: float, *, precise: bool, back: bool) -> None:
         """Moves the mouse: the handle that is held follows it, `back` to the old line where that is wanted."""
@@ -206,7 +208,7 @@ class LineDrag(Drag):
         return LineHandle(start, start, self.choose_radius(), tuple(self.to_local(point) for point in inner))
 
     def choose_radius(self) -> float:
-        return self.tool.radius or self.tool.choose_automatic("radius", self.patches[0])
+        return self.tool.radius or self.tool.choose_automatic("radius", self.own)
 
     def release(self) -> None:
         """Lets the held handle go; a press that changed nothing leaves no step of history."""
@@ -345,7 +347,7 @@ class LineDrag(Drag):
         """Returns where a dot of object space is shown, in world space."""
         place = self.find_place(dot)
         return (self.surface.read_point(place, self.state) if place is not None
-                else self.patches[0].to_world(np.array(dot)))
+                else self.own.to_world(np.array(dot)))
 
     def refresh_marks(self) -> None:
         """Finds what is under the mouse where it has moved, and draws it."""
@@ -359,7 +361,7 @@ class LineDrag(Drag):
         self.refresh_marks()
         index = self.find_active()
         conflicts = self.tool.builder.conflicts
-        other = handle_texts.describe_other(self.patches[0].name, self.beside) if self.beside else ""
+        other = handle_texts.describe_other(self.own.name, self.beside) if self.beside else ""
         first = other or self.problem or (conflicts[0] if conflicts else self.describe_gain(context))
         about = f"   {self.describe_handle(context, index)}" if index is not None and self.surface is not None else ""
         count = handle_texts.count_handles(self.handles)

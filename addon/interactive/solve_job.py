@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import native
 from ..model.gain import Gain, Healed, join_healed
+from ..model.joined_patch import split_positions, split_solution
 from ..model.line_surface import LineState
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -51,7 +52,7 @@ class SolveRequest:
 class SolveOutcome:
     """The positions that solve a request, or the reason why there are none."""
     request: SolveRequest
-    positions: tuple[np.ndarray, ...] = ()  # #V x 3 of each panel, world space
+    positions: tuple[np.ndarray, ...] = ()  # #V x 3 of each panel, world space, those of joined patches after another
     solutions: tuple[Solution, ...] = ()    # results of a final request
     refusal: str = ""                       # why there are none, as a sentence
     gain: "Gain | Healed | None" = None     # of all panels together, where it was measured
@@ -168,7 +169,8 @@ class SolveJob:
                         await wanted.measure(follower)  # for the numbers of each handle
                 shown = read_positions(start.problem, follower)
                 limit = choose_limit(patch, request.settings[which])
-                positions.append(clip_to_ranges(patch, start.problem.view, shown, limit))
+                shown = clip_to_ranges(patch, start.problem.view, shown, limit)
+                positions += split_positions(patch, shown, limit)
         if request.lines:
             return SolveOutcome(request, tuple(positions), lines=await self.read_lines())
         gain = await self.measure(request) if self.measure_seconds < MEASURE_BUDGET else None
@@ -220,7 +222,8 @@ class SolveJob:
             start.optimizer.reset()
             try:
                 with live_optimizer.convert_native_errors(start.patch):
-                    solutions.append(await solve.solve_patch(start, build, settings, self.progress))
+                    solution = await solve.solve_patch(start, build, settings, self.progress)
+                    solutions += split_solution(solution, settings.limit)
             finally:
                 start.optimizer.reset()  # the next target is built from the start's lines too, even after a failure
         return SolveOutcome(request, tuple(solution.positions for solution in solutions), tuple(solutions))
@@ -230,5 +233,6 @@ class SolveJob:
         for start in self.starts:
             if start is not None:
                 optimizer_cache.return_optimizer(start)
-        optimizer_cache.drop_surplus({patch.name for patch in self.patches})
-        press_cache.keep_only({patch.name for patch in self.patches})
+        names = {panel.name for patch in self.patches for panel in patch.panels}
+        optimizer_cache.drop_surplus(names)
+        press_cache.keep_only(names)

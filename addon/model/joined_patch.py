@@ -4,6 +4,7 @@ The rows of triangles at the gap are left out, and a strip of triangles takes th
 of vertices behind both rims: no sliver as narrow as the gap is among them. What moves the rims is a smooth function
 through the moves on both sides, the same for both: so it adds neither step nor kink.
 """
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -44,6 +45,20 @@ class JoinedPatch(Patch):
     @property
     def panels(self) -> tuple[Patch, ...]:
         return tuple(part.panel for part in self.parts)
+
+
+def gather_values(patch: Patch, values: Mapping[str, np.ndarray], otherwise: float) -> np.ndarray:
+    """Returns values of meshes' vertices, by the objects' names, for the vertices (#V) of a patch, which may be a joined
+    one; another one for the panels without values.
+    """
+    if not isinstance(patch, JoinedPatch):
+        return values[patch.name][patch.index]
+    result = np.full(len(patch.V), otherwise)
+    for part in patch.parts:
+        if part.panel.name in values:
+            own = part.vertex >= 0
+            result[part.vertex[own]] = values[part.panel.name][part.panel.index[own]]
+    return result
 
 
 def split_positions(patch: Patch, positions: np.ndarray, limit: float = np.inf) -> list[np.ndarray]:

@@ -16,6 +16,7 @@ from ..model.line_handle import Handles
 from ..model.patch import Patch
 from ..model.refusal import Refusal, report_refusals
 from ..model.solution import Solution
+from ..model.view import View
 from ..read import scene_objects
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
@@ -58,21 +59,47 @@ where a line was pulled to; Enter applies them all"""
         return scene.reflection_lines.pull
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Returns the active object alone: handles belong to one."""
-        scene_objects.find_subjects(context)  # refuses where no face is selected
-        return [scene_objects.find_active_object(context)]
+        """Returns the active object, to which handles belong, and after it those that may follow it over a gap."""
+        found = scene_objects.find_subjects(context)  # refuses where no face is selected
+        active = scene_objects.find_active_object(context)
+        return [active, *(ob for ob in found if self.border == 'follow' and ob != active)]
+
+    def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
+        """Gathers the patches; one that cannot be solved does not follow."""
+        beside: list[tuple[Patch, View]] = []
+        for ob in subjects[1:]:
+            with suppress(Refusal):
+                beside += super().gather_all(context, [ob])
+        gathered = [*super().gather_all(context, subjects[:1]), *beside]
+        self.panels = [patch for patch, _ in gathered]
+        return gathered
+
+    def join_panels(self, gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]:
+        """Returns the patch of the active object alone, which may be one with those that it meets."""
+        own = gathered[0][0].name
+        alike = [(patch, seen) for patch, seen in gathered if gathered[0][1].same(seen)]
+        return [(patch, seen) for patch, seen in super().join_panels(alike)
+                if own in {panel.name for panel in patch.panels}]
+
+    def begin_run(self, ob: bpy.types.Object) -> np.ndarray | None:
+        """Returns the shape to begin with; of an object that follows another one that before its last run only where
+        that was such a run, too.
+        """
+        if ob != scene_objects.find_active_object(bpy.context) and ob.reflection_lines.run.operator != self.bl_idname:
+            return None
+        return super().begin_run(ob)
 
     def build_handles(self) -> tuple[Handle, ...]:
         return ()
 
-    def read_falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, patch: Patch) -> Falloff | None:
+    def read_falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, _patch: Patch) -> Falloff | None:
         """Returns the circle around the handle that the mouse works on, in a drag."""
         drag = getattr(self, "drag", None)
         index = drag.find_active() if drag is not None else None
         if index is None or drag.handles[index].is_pin:
             return None
         own = drag.handles[index]
-        return Falloff(patch.to_world(np.array(own.start)), own.radius, np.zeros(2))
+        return Falloff(drag.own.to_world(np.array(own.start)), own.radius, np.zeros(2))
 
     def build_target(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> BuildTarget:
         if self.anew and not self.handles and not self.in_session:
@@ -232,10 +259,15 @@ where a line was pulled to; Enter applies them all"""
         elif event.type == 'Z' and (event.ctrl or event.oskey):
             (drag.step_forward if event.shift else drag.step_back)()
 
-    def describe_solution(self, _solution: Solution) -> tuple[str, ...]:
+    def describe_solution(self, solution: Solution) -> tuple[str, ...]:
+        if solution.patch.name != scene_objects.find_active_object(bpy.context).name:  # one that followed
+            return ()
         return self.builder.conflicts + self.builder.missed + self.key_notes
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
+        if ob != scene_objects.find_active_object(bpy.context):  # one that followed
+            super().record_solution(ob, solution)
+            return
         held = self.builder.missed and not solution.report.limited and self.border != 'free'
         if not self.are_kept:
             self.keep_handles(ob)

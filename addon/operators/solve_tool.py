@@ -1,5 +1,5 @@
 """The base of operators that solve: when they can run, gathering, applying, and reporting to the artist."""
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import bpy
@@ -52,6 +52,7 @@ class SolveTool:
     # Whether the buttons are grey where there are no faces to work on. A press in the view would go unheard then.
     needs_faces = True
     panels: Sequence[Patch] = ()  # of the run
+    joined: Collection[str] = ()  # names of those that are solved as one
     known_set: tuple[LightSet | None, ...] = ()  # once it was read
 
     border: border_property()
@@ -135,10 +136,11 @@ class SolveTool:
         """Returns what is solved: panels that face each other, where the border follows its neighbours and all are seen
         alike, as one patch.
         """
-        views = [seen for _, seen in gathered]
+        views, self.joined = [seen for _, seen in gathered], frozenset()
         if not self.joins_panels() or not all(views[0].same(seen) for seen in views[1:]):
             return gathered
         patches = run_now(join_panels([patch for patch, _ in gathered], views[0], self.border, triangulate_points))
+        self.joined = frozenset(each.name for patch in patches if len(patch.panels) > 1 for each in patch.panels)
         return [(patch, views[0]) for patch in patches]
 
     def joins_panels(self) -> bool:
@@ -275,9 +277,10 @@ class SolveTool:
     def describe_apart(self, patch: Patch) -> tuple[str, ...]:
         """Says where panels that meet are solved one by one what the border does between them."""
         beside = [each.name for each in self.find_meeting(patch)[1:]]
-        if self.border == "follow" and not self.is_automatic():
-            return ("The border Neighbours is for Smooth Lines with the automatic length: here it was Tangent",)
+        if self.border == "follow" and not self.is_automatic() and patch.name not in self.joined:
+            return ("The border Neighbours follows panels in Edit Mode that face each other and, in Smooth Lines with the "
+                    "automatic length, all that lies beside: here it was Tangent",)
         if self.border == "free" and beside:
             return (f"The border Free moves each panel by itself: gap and step towards {', '.join(beside)} change, "
-                    "Tangent keeps them",)
+                    "Neighbours moves them as one",)
         return ()

@@ -57,9 +57,9 @@ LIGHTS = (
 SAVED = {'options': {'SKIP_SAVE'}}
 # With the numbers that files hold: a new border gets a new one.
 BORDERS = (
-    ('follow', NAMES["follow"], "Border vertices stay, and the slope becomes that of what lies beside across a gap: "
-     "other objects, and faces that are not joined. Tangent where nothing does, and in all tools but Smooth with the "
-     "automatic length", 'NONE', 5),
+    ('follow', NAMES["follow"], "Panels in Edit Mode that face each other over a gap move as one. Smooth with the "
+     "automatic length: border vertices beside what stays keep their place, and take its slope: of other objects, and "
+     "of faces that are not joined. Tangent elsewhere", 'NONE', 5),
     ('flow', NAMES["flow"], "As Curvature, and the curvature changes across the border as it does in the faces beside "
      "the region, where they tell it", 'NONE', 4),
     ('curvature', NAMES["curvature"], "As Tangent, and the lines run on from the faces beside the region without a "
