@@ -16,7 +16,7 @@ from ..model.surroundings import Surroundings
 from ..model.view import View
 from ..native_call import call
 from .seam_moves import SeamPlace, find_node_areas, weigh_moves
-from .seam_strip import Rim, Strip, Triangulate, build_strip, cut_rim, list_border
+from .seam_strip import Rim, Strip, Triangulate, build_strip, cut_rim, list_border, mark
 
 FACING = 0.2  # least cosine between view and normal of the triangles at a rim that moves
 HOLDING = [CODES["clamped"], CODES["curvature"], CODES["flow"], CODES["follow"]]
@@ -25,6 +25,7 @@ HOLDING = [CODES["clamped"], CODES["curvature"], CODES["flow"], CODES["follow"]]
 @dataclass(frozen=True)
 class Facing:
     """Where a panel faces the others over a gap."""
+    border: np.ndarray   # #B x 2: edges of one triangle alone
     vertex: np.ndarray   # #R: vertices of its rim
     flush: np.ndarray    # #R: by how much the others are higher along the view
     across: np.ndarray   # #R: the panel that lies there
@@ -55,13 +56,15 @@ async def join_able(panels: list[Patch], view: View, border: str, triangulate: T
         return None
     try:
         frame = native.reflines.image_plane(view.view_direction, view.line_direction)
-        facings = [await find_facing(panels, which, frame, border) for which in range(len(panels))]
+        borders = [list_border(each.F) for each in panels]
+        facings = [await find_facing(panels, borders, which, frame[2], border) for which in range(len(panels))]
     except native.InvalidInput:  # the solve of each panel by itself tells what is wrong
         return None
     meeting = [which for which, each in enumerate(facings) if len(each.vertex)]
     if len(meeting) < len(panels):
         return await join_able([panels[which] for which in meeting], view, border, triangulate)
-    rims = [cut_rim(panel.V @ frame[:2].T, panel.F, facing.vertex) for panel, facing in zip(panels, facings, strict=True)]
+    rims = [cut_rim(panel.V @ frame[:2].T, panel.F, facing.border, facing.vertex)
+            for panel, facing in zip(panels, facings, strict=True)]
     strip = build_strip(rims, max(each.gap for each in facings), triangulate)
     if strip is None:
         return None
@@ -72,27 +75,29 @@ async def join_able(panels: list[Patch], view: View, border: str, triangulate: T
     return put_together(panels, rims, strip, find_steps(facings, len(panels))[:, None] * frame[2], border)
 
 
-async def find_facing(panels: list[Patch], which: int, frame: np.ndarray, border: str) -> Facing:
+async def find_facing(panels: list[Patch], borders: list[np.ndarray], which: int, towards: np.ndarray,
+                      border: str) -> Facing:
     """Finds where a panel's border faces the others and follows them."""
-    own = panels[which]
-    others = [each for each in panels if each is not own]
-    V, F = join_soups([(each.V, each.F) for each in others])
+    own, others = panels[which], [k for k in range(len(panels)) if k != which]
+    V, F = join_soups([(panels[k].V, panels[k].F) for k in others])
     found = await call(native.reflines.continue_over_gap, own.V, own.F, V, F, around=(own.around.V, own.around.F))
-    rim = np.flatnonzero(found.followed & find_movable(own, frame[2], border))
-    nearest = np.array([np.linalg.norm(V - own.V[v], axis=1).argmin() for v in rim], dtype=np.int64)
-    ends = np.cumsum([len(each.V) for each in others])
-    number = np.array([k for k in range(len(panels)) if k != which])
-    upright = np.abs(compute_normals(own)[rim] @ frame[2])
-    return Facing(rim, found.flush[rim] / np.maximum(upright, FACING),
-                  number[np.searchsorted(ends, nearest, side='right')], found.gap)
+    rim = np.flatnonzero(found.followed & find_movable(own, borders[which], towards, border))
+    upright = np.abs(compute_normals(own)[rim] @ towards)
+    return Facing(borders[which], rim, found.flush[rim] / np.maximum(upright, FACING),
+                  find_across(own.V[rim], [panels[k].V[np.unique(borders[k])] for k in others], others), found.gap)
 
 
-def find_movable(patch: Patch, towards: np.ndarray, border: str) -> np.ndarray:
+def find_across(points: np.ndarray, rims: list[np.ndarray], numbers: list[int]) -> np.ndarray:
+    """Returns for each point the number of the panel whose border lies nearest."""
+    apart = [[((rim - point)**2).sum(axis=1).min() for rim in rims] for point in points]
+    return np.array(numbers)[np.argmin(np.array(apart).reshape(-1, len(rims)), axis=1)]
+
+
+def find_movable(patch: Patch, rim: np.ndarray, towards: np.ndarray, border: str) -> np.ndarray:
     """Finds the vertices of the mesh's border (#V, bool) that follow what lies across: no other faces are joined there,
     and all triangles are seen.
     """
-    result = np.zeros(len(patch.V), dtype=bool)
-    result[list_border(patch.F).ravel()] = True
+    result = mark(len(patch.V), rim)
     result[patch.around.F[patch.around.F < len(patch.V)]] = False
     a, b, c = (patch.V[patch.F[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
@@ -126,8 +131,7 @@ def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.
     """Builds the joined patch, whose triangles are those of the panels without their rims, and those of the strip."""
     vertex, count = [], 0
     for rim in rims:
-        used = np.zeros(len(rim.xy), dtype=bool)
-        used[rim.F[rim.stays]] = True
+        used = rim.is_used()
         vertex.append(np.where(used, count + np.cumsum(used) - 1, -1))
         count += int(used.sum())
     F = np.concatenate([*(number[rim.F[rim.stays]] for number, rim in zip(vertex, rims, strict=True)),
@@ -153,13 +157,8 @@ def find_new_ends(F: np.ndarray, vertex: list[np.ndarray], rims: list[Rim]) -> n
     """Finds the vertices (of the joined patch) that were inside a panel and are at the border now, where the strip ends
     before the rim does.
     """
-    inside = np.zeros(int(max(own.max() for own in vertex)) + 1, dtype=bool)
-    for own, rim in zip(vertex, rims, strict=True):
-        inside[own[own >= 0]] = True
-        outer = np.unique(list_border(rim.F))
-        inside[own[outer][own[outer] >= 0]] = False
-    ends = np.unique(list_border(F))
-    return ends[inside[ends]]
+    outer = np.concatenate([own[rim.border.ravel()] for own, rim in zip(vertex, rims, strict=True)])
+    return np.setdiff1d(list_border(F), outer)
 
 
 def find_moved(panel: Patch, rim: Rim, border: str) -> np.ndarray:
@@ -167,25 +166,20 @@ def find_moved(panel: Patch, rim: Rim, border: str) -> np.ndarray:
     beside a border that keeps its tangent, and those of a free border.
     """
     codes = np.where(panel.border == UNSET, CODES[border], panel.border)
-    follows = np.zeros(len(panel.V), dtype=bool)
-    follows[rim.vertex] = True
-    outer = np.zeros(len(panel.V), dtype=bool)
-    outer[list_border(panel.F)] = True
+    follows, outer = mark(len(panel.V), rim.vertex), mark(len(panel.V), rim.border)
     keeps = outer & ~follows & np.isin(codes, HOLDING)
-    beside = np.zeros(len(panel.V), dtype=bool)
-    beside[panel.F[keeps[panel.F].any(axis=1)]] = True
+    beside = mark(len(panel.V), panel.F[keeps[panel.F].any(axis=1)])
     gone = ~rim.is_used()
     return np.flatnonzero(gone & (follows & ~beside | ~follows & (codes == CODES["free"])))
 
 
 def find_triangles(rim: Rim, start: int) -> np.ndarray:
     """Returns for each triangle of a panel that of the joined patch, or the nearest one of the panel."""
-    stays = np.flatnonzero(rim.stays)
-    result = np.full(len(rim.F), -1)
-    result[stays] = start + np.arange(len(stays))
+    result = np.where(rim.stays, start + np.cumsum(rim.stays) - 1, -1)
+    beside = np.flatnonzero(rim.stays & mark(len(rim.xy), rim.edges)[rim.F].any(axis=1))
     centre = rim.xy[rim.F].mean(axis=1)
     for gone in np.flatnonzero(~rim.stays):
-        result[gone] = result[stays[((centre[stays] - centre[gone])**2).sum(axis=1).argmin()]]
+        result[gone] = result[beside[((centre[beside] - centre[gone])**2).sum(axis=1).argmin()]]
     return result
 
 

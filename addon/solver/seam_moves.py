@@ -30,9 +30,10 @@ def weigh_moves(place: SeamPlace, xy: np.ndarray, moved: np.ndarray) -> SeamMove
     a gap without width move alike.
     """
     radius = SPAN * place.span
-    near = find_near_box(place.xy, xy[moved], radius)
+    cells = Cells(place.xy, radius)
     sources, weights = [], []
     for point in xy[moved]:
+        near = cells.find_near(point)
         offset = (place.xy[near] - point) / radius
         distance = np.hypot(offset[:, 0], offset[:, 1])
         inside = distance < 1.0
@@ -44,12 +45,29 @@ def weigh_moves(place: SeamPlace, xy: np.ndarray, moved: np.ndarray) -> SeamMove
                      np.concatenate([empty, *weights]))
 
 
-def find_near_box(xy: np.ndarray, points: np.ndarray, margin: float) -> np.ndarray:
-    """Finds the vertices in the box around points."""
-    if not len(points):
-        return np.zeros(0, dtype=np.int64)
-    low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
-    return np.flatnonzero(((xy >= low) & (xy <= high)).all(axis=1))
+class Cells:
+    """Points of a plane by the square cells that they lie in."""
+
+    def __init__(self, xy: np.ndarray, width: float) -> None:
+        self.low, self.width = xy.min(axis=0) - 1.5 * width, width
+        column, row = self.find_cell(xy).T
+        self.rows = int(row.max()) + 2
+        keys = column * self.rows + row
+        self.order = np.argsort(keys, kind="stable")
+        self.keys = keys[self.order]
+
+    def find_cell(self, points: np.ndarray) -> np.ndarray:
+        return np.floor((points - self.low) / self.width).astype(np.int64)
+
+    def find_near(self, point: np.ndarray) -> np.ndarray:
+        """Returns the points in the cell of a point and those around, ascending."""
+        column, row = self.find_cell(point)
+        row = min(max(row, 1), self.rows - 2)
+        found = []
+        for each in range(column - 1, column + 2):
+            ends = np.searchsorted(self.keys, [each * self.rows + row - 1, each * self.rows + row + 2])
+            found.append(self.order[ends[0]:ends[1]])
+        return np.sort(np.concatenate(found))
 
 
 def fit_value(offset: np.ndarray, distance: np.ndarray, area: np.ndarray) -> np.ndarray:

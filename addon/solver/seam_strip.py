@@ -17,6 +17,7 @@ class Rim:
     """A panel without the row of triangles at its rim."""
     xy: np.ndarray      # #V x 2, of the panel
     F: np.ndarray       # #F x 3, likewise
+    border: np.ndarray  # #B x 2: edges of one triangle alone
     vertex: np.ndarray  # #R: vertices of the rim
     stays: np.ndarray   # #F, bool: triangles without those
     edges: np.ndarray   # #E x 2: edges between what stays and what is left out
@@ -24,9 +25,7 @@ class Rim:
 
     def is_used(self) -> np.ndarray:
         """Returns which vertices have triangles that stay: #V, bool."""
-        used = np.zeros(len(self.xy), dtype=bool)
-        used[self.F[self.stays]] = True
-        return used
+        return mark(len(self.xy), self.F[self.stays])
 
 
 @dataclass(frozen=True)
@@ -37,28 +36,32 @@ class Strip:
     span: float                           # widest row and gap
 
 
-def list_edges(F: np.ndarray) -> np.ndarray:
-    """Returns the edges of triangles (#F x 3), each as often as there are triangles at it: 3 #F x 2, sorted ends."""
-    return np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
+def mark(count: int, numbers: np.ndarray) -> np.ndarray:
+    """Returns which of so many are among the numbers: bool."""
+    result = np.zeros(count, dtype=bool)
+    result[numbers] = True
+    return result
 
 
 def list_border(F: np.ndarray) -> np.ndarray:
-    """Returns the edges of one triangle alone: #E x 2."""
-    edges, count = np.unique(list_edges(F), axis=0, return_counts=True)
-    return edges[count == 1]
+    """Returns the edges of one triangle alone: #E x 2, the lower vertex first."""
+    ends = np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]).astype(np.int64), axis=1)
+    count = int(ends.max(initial=0)) + 1
+    keys = np.sort(ends[:, 0] * count + ends[:, 1])
+    other = keys[1:] != keys[:-1]
+    alone = keys[np.append(True, other) & np.append(other, True)] if len(keys) else keys
+    return np.stack([alone // count, alone % count], axis=1)
 
 
-def cut_rim(xy: np.ndarray, F: np.ndarray, vertex: np.ndarray) -> Rim:
+def cut_rim(xy: np.ndarray, F: np.ndarray, border: np.ndarray, vertex: np.ndarray) -> Rim:
     """Leaves the triangles at a rim out, with those at the vertices where its border goes on."""
-    border = list_border(F)
-    gone = np.zeros(len(xy), dtype=bool)
-    gone[vertex] = True
+    gone = mark(len(xy), vertex)
     gone[border[gone[border].any(axis=1)]] = True
     stays = ~gone[F].any(axis=1)
-    edges = list_border(F[stays]) if stays.any() else np.zeros((0, 2), dtype=np.int64)
+    edges = list_border(F[stays])
     outer = {tuple(each) for each in border.tolist()}
     edges = np.array([each for each in edges.tolist() if tuple(each) not in outer], dtype=np.int64).reshape(-1, 2)
-    return Rim(xy, F, vertex, stays, edges, measure_depth(xy, vertex, np.unique(edges)))
+    return Rim(xy, F, border, vertex, stays, edges, measure_depth(xy, vertex, np.unique(edges)))
 
 
 def measure_depth(xy: np.ndarray, vertex: np.ndarray, row: np.ndarray) -> float:
