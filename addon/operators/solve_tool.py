@@ -9,13 +9,13 @@ from bpy.props import BoolProperty
 from ..blender.triangulate import triangulate_points
 from ..model import meeting
 from ..model.beside import Crossing
+from ..model.border import CODES
 from ..model.joined_patch import split_solution
 from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
-from ..native_call import run_now
 from ..read import gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, shown_surface, unjoined_border
 from ..read.mesh_checks import Purpose
 from ..solver.join_panels import join_panels
@@ -139,13 +139,14 @@ class SolveTool:
         views, self.joined = [seen for _, seen in gathered], frozenset()
         if not self.joins_panels() or not all(views[0].same(seen) for seen in views[1:]):
             return gathered
-        patches = run_now(join_panels([patch for patch, _ in gathered], views[0], self.border, triangulate_points))
+        patches = join_panels([patch for patch, _ in gathered], views[0], self.border, triangulate_points)
         self.joined = frozenset(each.name for patch in patches if len(patch.panels) > 1 for each in patch.panels)
         return [(patch, views[0]) for patch in patches]
 
     def joins_panels(self) -> bool:
         """Returns whether panels that face each other are solved as one."""
-        return len(self.panels) > 1 and not self.is_automatic()
+        follows = self.border == "follow" or any((each.border == CODES["follow"]).any() for each in self.panels)
+        return follows and len(self.panels) > 1 and not self.is_automatic()
 
     def find_owner(self, context: bpy.types.Context, patch: Patch) -> bpy.types.Object:
         """Returns the object whose settings hold for a patch: of several the active one."""
@@ -270,7 +271,8 @@ class SolveTool:
         unjoined = unjoined_border.find_unjoined(scene, ob, patch, within=not self.is_automatic())
         turn = shown_surface.measure_rounding(patch)
         report.merge_distance, report.rounding = unjoined.distance if unjoined.own else 0.0, turn
-        follows = self.border == "follow" and self.is_automatic()  # then the lines do not break there
+        # Then the lines do not break there.
+        follows = self.border == "follow" and self.is_automatic() or patch.name in self.joined
         breaks = () if follows else unjoined.describe()
         return (*shown_surface.describe_rounding(scene, patch, turn), *breaks, *self.describe_apart(patch))
 

@@ -6,7 +6,6 @@ from itertools import accumulate
 import numpy as np
 
 from .. import native
-from ..model.beside import join_soups
 from ..model.border import CODES, UNSET
 from ..model.cage import CagePatch
 from ..model.creases import Creases
@@ -14,22 +13,40 @@ from ..model.joined_patch import JoinedPatch, PanelPart
 from ..model.patch import Patch
 from ..model.surroundings import Surroundings
 from ..model.view import View
-from ..native_call import call
 from .seam_moves import SeamPlace, find_node_areas, weigh_moves
-from .seam_strip import Rim, Strip, Triangulate, build_strip, cut_rim, list_border, mark
+from .seam_strip import Rim, Strip, Triangulate, build_strip, cut_rim, find_below, is_near, list_border, mark
 
 FACING = 0.2  # least cosine between view and normal of the triangles at a rim that moves
-HOLDING = [CODES["clamped"], CODES["curvature"], CODES["flow"], CODES["follow"]]
+ALIKE = 2.0 * np.cos(0.5 * np.radians(15.0))  # length of the sum of normals that are tilted by less than that
+
+
+@dataclass(frozen=True)
+class Side:
+    """A panel as it lies beside others."""
+    patch: Patch
+    xy: np.ndarray       # #V x 2, image plane
+    border: np.ndarray   # #B x 2: edges of one triangle alone
+    normal: np.ndarray   # #V x 3
+    movable: np.ndarray  # #V, bool: vertices of the border that may follow what lies across
+
+
+@dataclass(frozen=True)
+class Edges:
+    """The edges of borders, by both ends."""
+    xy: np.ndarray       # #E x 2 x 2
+    V: np.ndarray        # #E x 2 x 3
+    normal: np.ndarray   # #E x 2 x 3
+    movable: np.ndarray  # #E x 2
+    panel: np.ndarray    # #E: number of the panel
 
 
 @dataclass(frozen=True)
 class Facing:
     """Where a panel faces the others over a gap."""
-    border: np.ndarray   # #B x 2: edges of one triangle alone
     vertex: np.ndarray   # #R: vertices of its rim
-    flush: np.ndarray    # #R: by how much the others are higher along the view
     across: np.ndarray   # #R: the panel that lies there
-    gap: float           # widest
+    flush: np.ndarray    # #R: by how much that is higher along the view
+    gap: float           # the widest between them
 
 
 def can_join(patch: Patch) -> bool:
@@ -39,65 +56,94 @@ def can_join(patch: Patch) -> bool:
     return not isinstance(patch, CagePatch) and patch.mirror is None
 
 
-async def join_panels(panels: Sequence[Patch], view: View, border: str,
-                      triangulate: Triangulate) -> list[Patch]:
+def join_panels(panels: Sequence[Patch], view: View, border: str, triangulate: Triangulate) -> list[Patch]:
     """Returns the patches to solve for: one for all panels that face each other where the border follows, and those
     that do not as they are. The order of the panels does not matter.
     """
     able = sorted((each for each in panels if can_join(each)), key=lambda each: each.name)
-    joined = await join_able(able, view, border, triangulate)
+    joined = join_able(able, view, border, triangulate)
     taken = set() if joined is None else {each.name for each in joined.panels}
     return [*([] if joined is None else [joined]), *(each for each in panels if each.name not in taken)]
 
 
-async def join_able(panels: list[Patch], view: View, border: str, triangulate: Triangulate) -> JoinedPatch | None:
+def join_able(panels: list[Patch], view: View, border: str, triangulate: Triangulate) -> JoinedPatch | None:
     """Joins panels; None where none of them face each other."""
     if len(panels) < 2 or len({each.creases.rule for each in panels}) > 1:
         return None
     try:
         frame = native.reflines.image_plane(view.view_direction, view.line_direction)
-        borders = [list_border(each.F) for each in panels]
-        facings = [await find_facing(panels, borders, which, frame[2], border) for which in range(len(panels))]
     except native.InvalidInput:  # the solve of each panel by itself tells what is wrong
         return None
+    sides = [build_side(each, frame, border) for each in panels]
+    facings = [find_facing(sides, which, frame[2]) for which in range(len(sides))]
     meeting = [which for which, each in enumerate(facings) if len(each.vertex)]
-    if len(meeting) < len(panels):
-        return await join_able([panels[which] for which in meeting], view, border, triangulate)
-    rims = [cut_rim(panel.V @ frame[:2].T, panel.F, facing.border, facing.vertex)
-            for panel, facing in zip(panels, facings, strict=True)]
-    strip = build_strip(rims, max(each.gap for each in facings), triangulate)
-    if strip is None:
-        return None
-    lone = set(range(len(panels))) - set(strip.meeting)
-    if lone:
-        return await join_able([each for which, each in enumerate(panels) if which not in lone], view, border,
-                               triangulate)
+    rims = [cut_rim(side.xy, side.patch.F, side.border, facing.vertex)
+            for side, facing in zip(sides, facings, strict=True)] if len(meeting) == len(panels) else []
+    strip = build_strip(rims, max(each.gap for each in facings), triangulate) if rims else None
+    left = meeting if not rims else sorted(strip.meeting) if strip is not None else []
+    if len(left) < len(panels):
+        return join_able([panels[which] for which in left], view, border, triangulate)
     return put_together(panels, rims, strip, find_steps(facings, len(panels))[:, None] * frame[2], border)
 
 
-async def find_facing(panels: list[Patch], borders: list[np.ndarray], which: int, towards: np.ndarray,
-                      border: str) -> Facing:
-    """Finds where a panel's border faces the others and follows them."""
-    own, others = panels[which], [k for k in range(len(panels)) if k != which]
-    V, F = join_soups([(panels[k].V, panels[k].F) for k in others])
-    found = await call(native.reflines.continue_over_gap, own.V, own.F, V, F, around=(own.around.V, own.around.F))
-    rim = np.flatnonzero(found.followed & find_movable(own, borders[which], towards, border))
-    upright = np.abs(compute_normals(own)[rim] @ towards)
-    return Facing(borders[which], rim, found.flush[rim] / np.maximum(upright, FACING),
-                  find_across(own.V[rim], [panels[k].V[np.unique(borders[k])] for k in others], others), found.gap)
+def build_side(patch: Patch, frame: np.ndarray, border: str) -> Side:
+    edges = list_border(patch.F)
+    return Side(patch, patch.V @ frame[:2].T, edges, compute_normals(patch), find_movable(patch, edges, frame[2], border))
 
 
-def find_across(points: np.ndarray, rims: list[np.ndarray], numbers: list[int]) -> np.ndarray:
-    """Returns for each point the number of the panel whose border lies nearest."""
-    apart = [[((rim - point)**2).sum(axis=1).min() for rim in rims] for point in points]
-    return np.array(numbers)[np.argmin(np.array(apart).reshape(-1, len(rims)), axis=1)]
-
-
-def find_movable(patch: Patch, rim: np.ndarray, towards: np.ndarray, border: str) -> np.ndarray:
-    """Finds the vertices of the mesh's border (#V, bool) that follow what lies across: no other faces are joined there,
-    and all triangles are seen.
+def find_facing(sides: list[Side], which: int, towards: np.ndarray) -> Facing:
+    """Finds where a panel's border faces others and can follow them: where the nearest place of their borders lies
+    within a gap, at about the same height, is tilted alike, and can follow, too.
     """
-    result = mark(len(patch.V), rim)
+    own, gap = sides[which], native.reflines.AUTOMATIC_GAP * max(each.patch.diagonal for each in sides)
+    others = list_rims([side for side in sides if side is not own])
+    vertex = np.flatnonzero(own.movable)
+    nearest, share, distance = find_nearest_edges(others.xy, own.xy[vertex], gap)
+    within = nearest >= 0
+    vertex, nearest, share, distance = vertex[within], nearest[within], share[within], distance[within]
+    weight = np.stack([1.0 - share, share], axis=1)[:, :, None]
+    normal = (weight * others.normal[nearest]).sum(axis=1)
+    mean = own.normal[vertex] + normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+    way = (weight * others.V[nearest]).sum(axis=1) - own.patch.V[vertex]
+    flush = (way * mean).sum(axis=1) / np.maximum(mean @ towards, FACING)
+    faces = ((np.linalg.norm(mean, axis=1) >= ALIKE) & (np.abs(flush) <= gap) & others.movable[nearest].all(axis=1))
+    numbers = np.array([number for number, side in enumerate(sides) if side is not own])
+    return Facing(vertex[faces], numbers[others.panel[nearest[faces]]], flush[faces],
+                  float(distance[faces].max(initial=0.0)))
+
+
+def list_rims(sides: list[Side]) -> Edges:
+    """Returns the edges of the borders of panels."""
+    columns = ([side.xy[side.border] for side in sides], [side.patch.V[side.border] for side in sides],
+               [side.normal[side.border] for side in sides], [side.movable[side.border] for side in sides],
+               [np.full(len(side.border), number) for number, side in enumerate(sides)])
+    return Edges(*(np.concatenate(column) for column in columns))
+
+
+def find_nearest_edges(edges: np.ndarray, points: np.ndarray,
+                       within: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Returns for each point of the plane (#P x 2) the nearest edge (#E x 2 x 2), -1 where none lies within a distance,
+    the share of its second end, and the distance.
+    """
+    count = len(points)
+    nearest, share, distance = np.full(count, -1), np.zeros(count), np.full(count, np.inf)
+    near = np.flatnonzero(is_near(edges, points, within))
+    start, way = edges[near, 0], edges[near, 1] - edges[near, 0]
+    length = np.maximum((way**2).sum(axis=1), 1e-300)
+    for number, point in enumerate(points if len(near) else ()):
+        along = np.clip(((point - start) * way).sum(axis=1) / length, 0.0, 1.0)
+        apart = ((start + along[:, None] * way - point)**2).sum(axis=1)
+        best = int(apart.argmin())
+        if apart[best] <= within**2:
+            nearest[number], share[number], distance[number] = near[best], along[best], np.sqrt(apart[best])
+    return nearest, share, distance
+
+
+def find_movable(patch: Patch, edges: np.ndarray, towards: np.ndarray, border: str) -> np.ndarray:
+    """Finds the vertices of the mesh's border (#V, bool) that may follow what lies across: no other faces are joined
+    there, and all triangles are seen.
+    """
+    result = mark(len(patch.V), edges)
     result[patch.around.F[patch.around.F < len(patch.V)]] = False
     a, b, c = (patch.V[patch.F[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
@@ -134,8 +180,8 @@ def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.
         used = rim.is_used()
         vertex.append(np.where(used, count + np.cumsum(used) - 1, -1))
         count += int(used.sum())
-    F = np.concatenate([*(number[rim.F[rim.stays]] for number, rim in zip(vertex, rims, strict=True)),
-                        np.array([[vertex[which][v] for which, v in row] for row in strip.corners])])
+    between = np.array([[vertex[which][v] for which, v in row] for row in strip.corners])
+    F = np.concatenate([*(number[rim.F[rim.stays]] for number, rim in zip(vertex, rims, strict=True)), between])
     V = np.concatenate([(panel.V + rise)[own >= 0] for panel, rise, own in zip(panels, raised, vertex, strict=True)])
     xy = np.concatenate([rim.xy[own >= 0] for rim, own in zip(rims, vertex, strict=True)])
     codes = np.concatenate([panel.border[own >= 0] for panel, own in zip(panels, vertex, strict=True)])
@@ -144,7 +190,7 @@ def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.
     starts = [0, *accumulate(int(rim.stays.sum()) for rim in rims)]
     parts = []
     for panel, rim, own, start in zip(panels, rims, vertex, starts[:-1], strict=True):
-        seam = weigh_moves(place, rim.xy, find_moved(panel, rim, border))
+        seam = weigh_moves(place, rim.xy, find_moved(panel, rim, xy[between], border))
         parts.append(PanelPart(panel, own, find_triangles(rim, start), seam))
     faces, face_of_triangle = number_faces(panels, rims, len(F) - starts[-1])
     return JoinedPatch(
@@ -161,16 +207,14 @@ def find_new_ends(F: np.ndarray, vertex: list[np.ndarray], rims: list[Rim]) -> n
     return np.setdiff1d(list_border(F), outer)
 
 
-def find_moved(panel: Patch, rim: Rim, border: str) -> np.ndarray:
-    """Finds the vertices (of the panel) without a place in the joined patch that move: those that follow, but for ones
-    beside a border that keeps its tangent, and those of a free border.
+def find_moved(panel: Patch, rim: Rim, strip: np.ndarray, border: str) -> np.ndarray:
+    """Finds the vertices (of the panel) without a place in the joined patch that move: those below the strip (#T x 3 x
+    2) that follow. So what lies across from them moves, too.
     """
-    codes = np.where(panel.border == UNSET, CODES[border], panel.border)
-    follows, outer = mark(len(panel.V), rim.vertex), mark(len(panel.V), rim.border)
-    keeps = outer & ~follows & np.isin(codes, HOLDING)
-    beside = mark(len(panel.V), panel.F[keeps[panel.F].any(axis=1)])
-    gone = ~rim.is_used()
-    return np.flatnonzero(gone & (follows & ~beside | ~follows & (codes == CODES["free"])))
+    gone = np.flatnonzero(~rim.is_used())
+    codes = np.where(panel.border == UNSET, CODES[border], panel.border)[gone]
+    gone = gone[(codes == CODES["follow"]) | (codes == CODES["free"])]
+    return gone[find_below(strip, rim.xy[gone])]
 
 
 def find_triangles(rim: Rim, start: int) -> np.ndarray:

@@ -105,12 +105,12 @@ def choose_between(rims: list[Rim], points: np.ndarray, panel: np.ndarray, F: np
     centre = points[F].mean(axis=1)
     chosen = np.zeros(len(F), dtype=bool)
     for which, rim in enumerate(rims):
-        near = is_near(rim, centre, widest)
         own = alone & ~flat & (panel[F[:, 0]] == which)
-        chosen[own] = find_covered(rim.xy, rim.F[~rim.stays & near], centre[own])
+        chosen[own] = find_below(rim.xy[rim.F[~rim.stays]], centre[own])
     between = ~alone & short & ~flat
     for rim in rims:
-        inside = find_covered(rim.xy, rim.F[rim.stays & is_near(rim, centre[between], 0.0)], centre[between])
+        kept = rim.xy[rim.F[rim.stays]]
+        inside = find_below(kept[is_near(kept, centre[between], 0.0)], centre[between])
         between[np.flatnonzero(between)[inside]] = False
     return chosen | between
 
@@ -121,21 +121,23 @@ def find_areas(points: np.ndarray, F: np.ndarray) -> np.ndarray:
     return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
 
 
-def is_near(rim: Rim, points: np.ndarray, margin: float) -> np.ndarray:
-    """Returns which triangles of a panel overlap the box around points: #F, bool."""
+def is_near(shapes: np.ndarray, points: np.ndarray, margin: float) -> np.ndarray:
+    """Returns which triangles or edges (#N x corners x 2) have boxes that overlap that around points: #N, bool."""
     if not len(points):
-        return np.zeros(len(rim.F), dtype=bool)
-    corners = rim.xy[rim.F]
+        return np.zeros(len(shapes), dtype=bool)
     low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
-    return (corners.max(axis=1) >= low).all(axis=1) & (corners.min(axis=1) <= high).all(axis=1)
+    return (shapes.max(axis=1) >= low).all(axis=1) & (shapes.min(axis=1) <= high).all(axis=1)
 
 
-def find_covered(xy: np.ndarray, F: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Finds the points (#P, bool) that lie in one of the triangles."""
+def find_below(triangles: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Finds the points (#P, bool) that lie in one of the triangles (#T x 3 x 2), which run counter-clockwise, or at its
+    edge.
+    """
     result = np.zeros(len(points), dtype=bool)
-    a, b, c = (xy[F[:, k]] for k in range(3))
-    for number, p in enumerate(points):
-        sides = [(v[:, 0] - u[:, 0]) * (p[1] - u[:, 1]) - (v[:, 1] - u[:, 1]) * (p[0] - u[:, 0])
-                 for u, v in ((a, b), (b, c), (c, a))]
-        result[number] = bool(((sides[0] > 0) & (sides[1] > 0) & (sides[2] > 0)).any())
+    a, side = triangles, np.roll(triangles, -1, axis=1) - triangles
+    rounding = -1e-9 * (side**2).sum(axis=2)
+    for number, point in enumerate(points):
+        way = point - a
+        turn = side[:, :, 0] * way[:, :, 1] - side[:, :, 1] * way[:, :, 0]
+        result[number] = bool((turn >= rounding).all(axis=1).any())
     return result
