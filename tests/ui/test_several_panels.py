@@ -199,6 +199,51 @@ def test_a_drag_of_direction_moves_both_and_escape_takes_both_back(driver: windo
     own.property_unset("direction")
 
 
+def rims_moved(before: dict[str, np.ndarray]) -> list[np.ndarray]:
+    """How far the rims of the door and the wing have moved along the view, by ascending y."""
+    now, sides = shown(), []
+    for name, was in before.items():
+        rim = np.flatnonzero(np.abs(was[:, 0]) < GAP)
+        sides.append((now[name] - was)[rim[np.argsort(was[rim, 1])], 2])
+    return sides
+
+
+def move_alike(before: dict[str, np.ndarray]) -> bool:
+    """Both rims have moved, by as much: but for what the move itself turns within the gap."""
+    door, wing = rims_moved(before)
+    return bool(np.abs(door).max() > 1e-4 and np.abs(door - wing).max() < 0.2 * np.abs(door).max())
+
+
+def test_with_the_border_neighbours_a_drag_moves_both_rims_as_one(driver: window.Window) -> Steps:
+    scene = bpy.context.scene.reflection_lines
+    before, scene.border = start(driver), 'follow'
+    scene.direction.centre, scene.direction.direction = 'REGION', 'PRESENT'
+    yield from dragging.press(driver, "direction")
+    driver.move(460, 300)
+    yield from dragging.settled(driver)
+    yield from window.take_picture(driver, "direction_gap_follow")
+    assert find_moved(before) == ["Door", "Wing"] and move_alike(before)
+    yield from dragging.applied(driver)
+    assert move_alike(before)
+    scene.property_unset("border")
+    yield from comes_back(driver, before)
+
+
+def test_with_the_border_neighbours_the_other_panel_follows_a_pull(driver: window.Window) -> Steps:
+    bpy.context.scene.reflection_lines.border = 'follow'
+    moved = yield from pulled(driver, "pull_line", (RIGHT, (400, 294), (400, 298)))
+    assert moved == ["Door", "Wing"]
+    before = start(driver)
+    yield from pulling.begin(driver)
+    yield from pulling.pull(driver, LEFT, (260, 310))
+    yield from window.take_picture(driver, "pull_gap_follow")
+    assert move_alike(before)
+    driver.key('ESC')
+    yield 0.3
+    assert not find_moved(before)
+    bpy.context.scene.reflection_lines.property_unset("border")
+
+
 def test_check_measures_and_draws_both(driver: window.Window) -> Steps:
     start(driver)
     addon = sys.modules["reflection_lines"]
