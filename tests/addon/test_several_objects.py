@@ -77,9 +77,13 @@ def test_tangent_keeps_gap_and_step_and_free_says_that_they_change() -> None:
 
 
 def test_what_follows_no_neighbours_says_so() -> None:
-    left, _ = start()
+    left, right = start()
     assert bpy.ops.reflines.direction('EXEC_DEFAULT', True, angle=0.2, border='follow') == {'FINISHED'}
-    assert "Neighbours is for Smooth Lines with the automatic length: here it was Tangent" in notes(left)
+    assert "here it was Tangent" not in notes(left) + notes(right)
+    scenes.select_faces(right, lambda _face: False)
+    assert bpy.ops.reflines.direction('EXEC_DEFAULT', True, angle=0.2, border='follow') == {'FINISHED'}
+    assert "Neighbours follows panels in Edit Mode that face each other" in notes(left)
+    assert "here it was Tangent" in notes(left)
     assert scenes.smooth(border='follow') == {'FINISHED'}
     assert "here it was Tangent" not in notes(left)
 

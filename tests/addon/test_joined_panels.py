@@ -1,0 +1,234 @@
+"""Tools on panels that face each other over a gap, with the border Neighbours: they are solved as one, so that lines run
+on over the gap as they did before, and gap and step stay.
+"""
+import json
+import sys
+from collections.abc import Callable
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+
+import scenes
+from test_across_gap import places, start_several
+
+Array = np.ndarray
+GAP = 0.008
+FOLLOW = 57000  # the border Neighbours as vertices have it
+KINK, OFFSET = 0.1, 2.0  # degrees, and percent of the lines' spacing, that a tool may add
+FIT = 2e-5  # by which the fits that tell a step err beside a move of two thousandths
+
+
+def height(x: float, y: float) -> float:
+    return scenes.crown(x, y) + 0.002 * np.sin(3.0 * x + 2.0 * y)
+
+
+def bow(y: float) -> float:
+    """Where a curved gap runs."""
+    return 0.15 * np.sin(2.0 * y)
+
+
+def sheet(name: str, columns: Callable[[float], Array], rows: Array, step: float = 0.0) -> bpy.types.Object:
+    """A sheet of quads with columns that depend on y."""
+    points = [(x, y, height(x, y) + step) for y in rows for x in columns(y)]
+    count = len(columns(0.0))
+    faces = [(i, i + 1, i + count + 1, i + count) for j in range(len(rows) - 1)
+             for i in range(j * count, (j + 1) * count - 1)]
+    return scenes.linked(name, points, faces)
+
+
+def start(kind: str = "straight", gap: float = GAP) -> tuple[bpy.types.Object, bpy.types.Object]:
+    """Left, which is active, and Right, all faces selected; both have other meshes."""
+    middle = bow if kind == "curved" else (lambda _y: 0.0)
+    step = 0.001 if kind == "step" else 0.0
+    right = sheet("Right", lambda y: np.linspace(middle(y) + 0.5 * gap, 1.0, 18), np.linspace(-1.0, 1.0, 37), step)
+    left = sheet("Left", lambda y: np.linspace(-1.0, middle(y) - 0.5 * gap, 25), np.linspace(-1.0, 1.0, 49))
+    start_several(right, left)
+    bpy.ops.ed.undo_push(message="Start")
+    return left, right
+
+
+def find_rim(ob: bpy.types.Object, kind: str = "straight") -> Array:
+    """The vertices at the gap, without its ends."""
+    V = places(ob)
+    return np.flatnonzero((np.abs(V[:, 0] - (bow(V[:, 1]) if kind == "curved" else 0.0)) < GAP)
+                          & (np.abs(V[:, 1]) < 0.99))
+
+
+def measure_gap(left: bpy.types.Object, right: bpy.types.Object) -> dict[str, Array]:
+    """What Check measures along the gap, without its ends."""
+    addon, scene = sys.modules["reflection_lines"], bpy.context.scene
+    seen = addon.view.facing.read_patch_view(scene, addon.read.gather.gather_patch(left))
+    (V, F), (W, G) = ((places(ob), list_triangles(ob)) for ob in (left, right))
+    found = addon.native.reflines.check_shut_lines(
+        V, V, F, np.ones(len(F), dtype=bool), W, G, label=np.zeros(len(G), dtype=int),
+        view_direction=seen.view_direction, line_direction=seen.line_direction,
+        spacing=2.0 * np.pi / scene.reflection_lines.stripes.count)
+    inner = np.abs(V[found.edges].mean(axis=1)[:, 1]) < 0.8
+    return {name: getattr(found.after, name)[inner] for name in ("gap", "flush", "kink", "line_offset")}
+
+
+def list_triangles(ob: bpy.types.Object) -> Array:
+    ob.data.calc_loop_triangles()
+    return np.array([triangle.vertices[:] for triangle in ob.data.loop_triangles])
+
+
+def turn(**settings: object) -> set[str]:
+    """Turns the lines around a place beside the gap."""
+    bpy.context.scene.cursor.location = (-0.1, 0.1, 0.0)
+    return bpy.ops.reflines.direction('EXEC_DEFAULT', True, **{"angle": 0.3, "centre": 'CURSOR', "radius": 0.5,
+                                                               "border": 'follow', **settings})
+
+
+def straighten(**settings: object) -> set[str]:
+    return bpy.ops.reflines.direction('EXEC_DEFAULT', True, **{"direction": 'MEAN', "centre": 'EVERYWHERE',
+                                                               "border": 'follow', **settings})
+
+
+def warp(**settings: object) -> set[str]:
+    """Pulls the middle of a lattice over both."""
+    bpy.ops.reflines.add_warp_lattice()
+    point = bpy.context.scene.reflection_lines.warp.lattice.data.points[12]
+    point.co_deform.x, point.co_deform.y = point.co_deform.x + 0.2, point.co_deform.y + 0.3
+    return bpy.ops.reflines.warp('EXEC_DEFAULT', True, **{"border": 'follow', **settings})
+
+
+def pull(**settings: object) -> set[str]:
+    """Pulls a line of the left panel beside the gap."""
+    handle = {"start": (-0.35, 0.0, 0.0), "end": (-0.32, 0.015, 0.0), "radius": 0.6, "pinned": [], "muted": False}
+    return bpy.ops.reflines.pull_line('EXEC_DEFAULT', True, **{"handles": json.dumps([handle]), "border": 'follow',
+                                                               **settings})
+
+
+TOOLS = {"turn": turn, "straighten": straighten, "warp": warp, "pull": pull}
+
+
+@pytest.mark.parametrize("kind", ["straight", "curved", "step"])
+@pytest.mark.parametrize("tool", list(TOOLS))
+def test_lines_run_on_over_the_gap_as_before(tool: str, kind: str) -> None:
+    left, right = start(kind)
+    before, was = measure_gap(left, right), [places(left), places(right)]
+    assert TOOLS[tool]() == {'FINISHED'}
+    after = measure_gap(left, right)
+    moves = [np.abs(places(ob) - old)[:, 2].max() for ob, old in zip((left, right), was, strict=True)]
+    print(tool, kind, moves, [float(each[name].max()) for each in (before, after) for name in ("kink", "line_offset")],
+          float(np.abs(after["flush"] - before["flush"]).max()))
+    assert min(moves) > 1e-4
+    assert after["kink"].max() < before["kink"].max() + KINK
+    assert after["line_offset"].max() < before["line_offset"].max() + OFFSET
+    assert np.abs(after["flush"] - before["flush"]).max() < FIT
+    assert np.abs(after["gap"] - before["gap"]).max() < FIT
+    bpy.ops.ed.undo()
+    assert all(np.array_equal(places(bpy.data.objects[name]), old)
+               for name, old in zip(("Left", "Right"), was, strict=True))
+
+
+@pytest.mark.parametrize("tool", list(TOOLS))
+def test_rims_that_touch_move_as_one(tool: str) -> None:
+    """Where each vertex of one rim lies on one of the other; the left panel has rows between."""
+    rows = np.linspace(-1.0, 1.0, 25)
+    right = sheet("Right", lambda _y: np.linspace(0.0, 1.0, 18), rows)
+    left = sheet("Left", lambda _y: np.linspace(-1.0, 0.0, 25), np.linspace(-1.0, 1.0, 49))
+    start_several(right, left)
+    was = [places(left), places(right)]
+    assert TOOLS[tool]() == {'FINISHED'}
+    sides = [(places(ob) - old)[find_rim(ob), 2] for ob, old in zip((left, right), was, strict=True)]
+    assert np.abs(sides[1]).max() > 1e-4 and np.abs(sides[0][1::2] - sides[1]).max() < 2e-7
+    between = 0.5 * (sides[1][1:] + sides[1][:-1]) - sides[0][2:-1:2]
+    assert np.abs(between).max() < 0.05 * np.abs(sides[1]).max()
+
+
+@pytest.mark.parametrize("gap", [0.0, GAP])
+def test_three_panels_that_meet_in_a_t_move_as_one(gap: float) -> None:
+    h = 0.5 * gap
+    upper = sheet("Upper", lambda _y: np.linspace(h, 1.0, 18), np.linspace(h, 1.0, 21))
+    lower = sheet("Lower", lambda _y: np.linspace(h, 1.0, 21), np.linspace(-1.0, -h, 16))
+    left = sheet("Left", lambda _y: np.linspace(-1.0, -h, 25), np.linspace(-1.0, 1.0, 49))
+    start_several(upper, lower, left)
+    was = {ob.name: places(ob) for ob in (left, lower, upper)}
+    assert turn() == {'FINISHED'}
+    corner = []
+    for ob in (left, lower, upper):
+        nearest = np.hypot(was[ob.name][:, 0], was[ob.name][:, 1]).argmin()
+        corner.append((places(ob) - was[ob.name])[nearest, 2])
+    assert min(map(abs, corner)) > 1e-4 and np.ptp(corner) < (1e-7 if gap == 0.0 else 0.2 * max(map(abs, corner)))
+    for one, other in ((left, lower), (left, upper), (lower, upper)):
+        found = measure_gap(one, other)
+        assert found["kink"].max() < KINK and found["line_offset"].max() < OFFSET
+
+
+def test_the_order_of_the_panels_changes_no_bit() -> None:
+    shapes = []
+    for active in ("Left", "Right"):
+        if bpy.context.mode != 'OBJECT':
+            scenes.object_mode()
+        for old in list(bpy.data.objects):
+            bpy.data.objects.remove(old)
+        pair = start()
+        bpy.context.view_layer.objects.active = bpy.data.objects[active]
+        assert straighten() == {'FINISHED'}
+        shapes.append([places(ob) for ob in pair])
+    assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
+
+
+def test_a_pull_moves_no_face_that_is_not_selected() -> None:
+    left, right = start()
+    scenes.select_faces(right, lambda face: face < 18 * 17)  # the lower half, in rows of 17
+    was = places(right)
+    assert pull() == {'FINISHED'}
+    moved = np.abs(places(right) - was)[:, 2] > 0.0
+    assert moved.any() and not moved[was[:, 1] > 0.0].any()
+    assert np.abs(places(left)[find_rim(left)][:, 2]).max() > 0.0
+
+
+@pytest.mark.parametrize("border", ["follow", "clamped"])
+def test_a_pull_beside_a_panel_that_is_not_edited_keeps_its_rim_and_the_slope_there(border: str) -> None:
+    left, right = start()
+    scenes.object_mode()
+    right.select_set(False)
+    bpy.context.view_layer.objects.active = left
+    bpy.ops.object.mode_set(mode='EDIT')
+    was, other = places(left), places(right)
+    assert pull(border=border) == {'FINISHED'}
+    moved = np.abs(places(left) - was)[:, 2] > 0.0
+    column = np.arange(len(was)) % 25
+    assert moved.any() and not moved[column >= 23].any() and np.array_equal(places(right), other)
+
+
+def test_rims_keep_to_the_limit_and_to_its_side() -> None:
+    left, right = start()
+    was = [places(left), places(right)]
+    for ob in (left, right):
+        ob.reflection_lines.limit_side = 'OUTWARD'
+    assert turn(limit=4e-4) == {'FINISHED'}
+    for ob, old in zip((left, right), was, strict=True):
+        move = (places(ob) - old)[:, 2]
+        assert move.min() >= -1e-7 and 1e-4 < move[find_rim(ob)].max() <= 4.001e-4
+
+
+def test_only_the_segments_that_follow_move() -> None:
+    pair = start()
+    rims = [find_rim(ob) for ob in pair]
+    for ob, rim in zip(pair, rims, strict=True):
+        edit = bmesh.from_edit_mesh(ob.data)
+        layer = edit.verts.layers.int.new("reflines_border")
+        edit.verts.ensure_lookup_table()
+        for v in rim:
+            edit.verts[v][layer] = FOLLOW if edit.verts[v].co.y > 0.0 else 0
+        bmesh.update_edit_mesh(ob.data)
+    was = [places(ob) for ob in pair]
+    assert turn(border='clamped') == {'FINISHED'}
+    for ob, old, rim in zip(pair, was, rims, strict=True):
+        move, y = np.abs(places(ob) - old)[rim, 2], old[rim, 1]
+        assert move[y > 0.1].max() > 1e-4 and move[y < -0.1].max() == 0.0
+        assert np.abs(np.diff(move)).max() < 0.5 * move.max()  # without a tear between
+
+
+def test_what_cannot_be_joined_is_solved_by_itself_and_says_so() -> None:
+    left, right = start()
+    right.modifiers.new("Subdivision", 'SUBSURF').levels = 1
+    was = places(left)
+    assert turn() == {'FINISHED'}
+    assert np.array_equal(places(left)[find_rim(left)], was[find_rim(left)])
+    assert "here it was Tangent" in left.reflection_lines.report.notes
