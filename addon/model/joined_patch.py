@@ -30,7 +30,7 @@ class SeamMoves:
 
 @dataclass(frozen=True)
 class PanelPart:
-    """What one panel has of the joined patch."""
+    """The part of the joined patch that belongs to one panel."""
     panel: Patch
     vertex: np.ndarray    # #V of the panel: vertex of the joined patch, -1 where there is none
     triangle: np.ndarray  # #F of the panel: triangle of the joined patch, or the nearest one
@@ -48,8 +48,8 @@ class JoinedPatch(Patch):
 
 
 def gather_values(patch: Patch, values: Mapping[str, np.ndarray], otherwise: float) -> np.ndarray:
-    """Returns values of meshes' vertices, by the objects' names, for the vertices (#V) of a patch, which may be a joined
-    one; another one for the panels without values.
+    """Returns values of meshes' vertices, by the objects' names, for the vertices (#V) of a patch, which may be a
+    joined one; another one for the panels without values.
     """
     if not isinstance(patch, JoinedPatch):
         return values[patch.name][patch.index]

@@ -280,8 +280,8 @@ class SolveTool:
         """Says where panels that meet are solved one by one what the border does between them."""
         beside = [each.name for each in self.find_meeting(patch)[1:]]
         if self.border == "follow" and not self.is_automatic() and patch.name not in self.joined:
-            return ("The border Neighbours follows panels in Edit Mode that face each other and, in Smooth Lines with the "
-                    "automatic length, all that lies beside: here it was Tangent",)
+            return ("The border Neighbours follows panels in Edit Mode that face each other and, in Smooth Lines with "
+                    "the automatic length, all that lies beside: here it was Tangent",)
         if self.border == "free" and beside:
             return (f"The border Free moves each panel by itself: gap and step towards {', '.join(beside)} change, "
                     "Neighbours moves them as one",)

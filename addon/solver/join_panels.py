@@ -1,5 +1,5 @@
 """Joins panels that meet over gaps to one patch, see model/joined_patch.py."""
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
@@ -42,7 +42,7 @@ class Edges:
 
 @dataclass(frozen=True)
 class Facing:
-    """Where a panel faces the others over a gap."""
+    """The vertices where a panel faces others over a gap."""
     vertex: np.ndarray   # #R: vertices of its rim
     across: np.ndarray   # #R: the panel that lies there
     flush: np.ndarray    # #R: by how much that is higher along the view
@@ -88,7 +88,8 @@ def join_able(panels: list[Patch], view: View, border: str, triangulate: Triangu
 
 def build_side(patch: Patch, frame: np.ndarray, border: str) -> Side:
     edges = list_border(patch.F)
-    return Side(patch, patch.V @ frame[:2].T, edges, compute_normals(patch), find_movable(patch, edges, frame[2], border))
+    movable = find_movable(patch, edges, frame[2], border)
+    return Side(patch, patch.V @ frame[:2].T, edges, compute_normals(patch), movable)
 
 
 def find_facing(sides: list[Side], which: int, towards: np.ndarray) -> Facing:
@@ -98,10 +99,10 @@ def find_facing(sides: list[Side], which: int, towards: np.ndarray) -> Facing:
     own, gap = sides[which], native.reflines.AUTOMATIC_GAP * max(each.patch.diagonal for each in sides)
     others = list_rims([side for side in sides if side is not own])
     vertex = np.flatnonzero(own.movable)
-    nearest, share, distance = find_nearest_edges(others.xy, own.xy[vertex], gap)
+    nearest, fraction, distance = find_nearest_edges(others.xy, own.xy[vertex], gap)
     within = nearest >= 0
-    vertex, nearest, share, distance = vertex[within], nearest[within], share[within], distance[within]
-    weight = np.stack([1.0 - share, share], axis=1)[:, :, None]
+    vertex, nearest, fraction, distance = vertex[within], nearest[within], fraction[within], distance[within]
+    weight = np.stack([1.0 - fraction, fraction], axis=1)[:, :, None]
     normal = (weight * others.normal[nearest]).sum(axis=1)
     mean = own.normal[vertex] + normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
     way = (weight * others.V[nearest]).sum(axis=1) - own.patch.V[vertex]
@@ -123,10 +124,10 @@ def list_rims(sides: list[Side]) -> Edges:
 def find_nearest_edges(edges: np.ndarray, points: np.ndarray,
                        within: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Returns for each point of the plane (#P x 2) the nearest edge (#E x 2 x 2), -1 where none lies within a distance,
-    the share of its second end, and the distance.
+    the fraction of its second end, and the distance.
     """
     count = len(points)
-    nearest, share, distance = np.full(count, -1), np.zeros(count), np.full(count, np.inf)
+    nearest, fraction, distance = np.full(count, -1), np.zeros(count), np.full(count, np.inf)
     near = np.flatnonzero(is_near(edges, points, within))
     start, way = edges[near, 0], edges[near, 1] - edges[near, 0]
     length = np.maximum((way**2).sum(axis=1), 1e-300)
@@ -135,8 +136,8 @@ def find_nearest_edges(edges: np.ndarray, points: np.ndarray,
         apart = ((start + along[:, None] * way - point)**2).sum(axis=1)
         best = int(apart.argmin())
         if apart[best] <= within**2:
-            nearest[number], share[number], distance[number] = near[best], along[best], np.sqrt(apart[best])
-    return nearest, share, distance
+            nearest[number], fraction[number], distance[number] = near[best], along[best], np.sqrt(apart[best])
+    return nearest, fraction, distance
 
 
 def find_movable(patch: Patch, edges: np.ndarray, towards: np.ndarray, border: str) -> np.ndarray:
@@ -147,8 +148,8 @@ def find_movable(patch: Patch, edges: np.ndarray, towards: np.ndarray, border: s
     result[patch.around.F[patch.around.F < len(patch.V)]] = False
     a, b, c = (patch.V[patch.F[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
-    unseen = normal @ towards < FACING * np.linalg.norm(normal, axis=1)
-    result[patch.F[unseen]] = False
+    upright = normal @ towards / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
+    result[patch.F[upright < FACING]] = False
     return result & (np.where(patch.border == UNSET, CODES[border], patch.border) == CODES["follow"])
 
 

@@ -20,7 +20,7 @@ class Rim:
     border: np.ndarray  # #B x 2: edges of one triangle alone
     vertex: np.ndarray  # #R: vertices of the rim
     stays: np.ndarray   # #F, bool: triangles without those
-    edges: np.ndarray   # #E x 2: edges between what stays and what is left out
+    edges: np.ndarray   # #E x 2: edges between the triangles that stay and the others
     depth: float        # of the row
 
     def is_used(self) -> np.ndarray:

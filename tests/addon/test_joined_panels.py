@@ -1,5 +1,5 @@
-"""Tools on panels that face each other over a gap, with the border Neighbours: they are solved as one, so that lines run
-on over the gap as they did before, and gap and step stay.
+"""Tools on panels that face each other over a gap, with the border Neighbours: they are solved as one, so that lines
+run on over the gap as they did before, and gap and step stay.
 """
 import json
 import sys
