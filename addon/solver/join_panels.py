@@ -145,7 +145,8 @@ def find_movable(patch: Patch, edges: np.ndarray, towards: np.ndarray, border: s
     there, and all triangles are seen.
     """
     result = mark(len(patch.V), edges)
-    result[patch.around.F[patch.around.F < len(patch.V)]] = False
+    joined = patch.around.F.ravel()
+    result[joined[joined < len(patch.V)]] = False
     a, b, c = (patch.V[patch.F[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     upright = normal @ towards / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
