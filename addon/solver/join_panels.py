@@ -10,6 +10,7 @@ from ..model.border import CODES, UNSET
 from ..model.cage import CagePatch
 from ..model.creases import Creases
 from ..model.joined_patch import JoinedPatch, PanelPart
+from ..model.meeting import find_meeting
 from ..model.patch import Patch
 from ..model.surroundings import Surroundings
 from ..model.view import View
@@ -57,13 +58,18 @@ def can_join(patch: Patch) -> bool:
 
 
 def join_panels(panels: Sequence[Patch], view: View, border: str, triangulate: Triangulate) -> list[Patch]:
-    """Returns the patches to solve for: one for all panels that face each other where the border follows, and those
-    that do not as they are. The order of the panels does not matter.
+    """Returns the patches to solve for: one for panels that face each other where the border follows, and those that do
+    not as they are. The order of the panels does not matter.
     """
-    able = sorted((each for each in panels if can_join(each)), key=lambda each: each.name)
-    joined = join_able(able, view, border, triangulate)
-    taken = set() if joined is None else {each.name for each in joined.panels}
-    return [*([] if joined is None else [joined]), *(each for each in panels if each.name not in taken)]
+    left = sorted((each for each in panels if can_join(each)), key=lambda each: each.name)
+    joined = []
+    while left:
+        met = {each.name for each in find_meeting(left[0], left)}
+        joined.append(join_able([each for each in left if each.name in met], view, border, triangulate))
+        left = [each for each in left if each.name not in met]
+    found = [each for each in joined if each is not None]
+    taken = {panel.name for each in found for panel in each.panels}
+    return [*found, *(each for each in panels if each.name not in taken)]
 
 
 def join_able(panels: list[Patch], view: View, border: str, triangulate: Triangulate) -> JoinedPatch | None:

@@ -172,6 +172,27 @@ def test_the_order_of_the_panels_changes_no_bit() -> None:
     assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
 
 
+def test_panels_elsewhere_in_the_same_run_change_no_bit() -> None:
+    """Their own pair is one patch, and no part of that of the others."""
+    pair, shapes = start(), []
+    for beside in (False, True):
+        scenes.object_mode()
+        for ob in pair if beside else ():
+            other = ob.copy()
+            other.data, other.location.x = ob.data.copy(), 3.0
+            bpy.context.collection.objects.link(other)
+            other.select_set(True)
+        for ob in pair:
+            ob.select_set(True)
+        bpy.ops.object.mode_set(mode='EDIT')
+        bpy.ops.ed.undo_push(message="Pairs")
+        assert straighten(border='follow') == {'FINISHED'}
+        shapes.append([places(bpy.data.objects[name]) for name in ("Left", "Right")])
+        bpy.ops.ed.undo()
+        pair = [bpy.data.objects[name] for name in ("Left", "Right")]
+    assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
+
+
 def test_a_pull_moves_no_face_that_is_not_selected() -> None:
     left, right = start()
     scenes.select_faces(right, lambda face: face < 18 * 17)  # the lower half, in rows of 17
