@@ -179,7 +179,7 @@ def test_panels_elsewhere_in_the_same_run_change_no_bit() -> None:
         scenes.object_mode()
         for ob in pair if beside else ():
             other = ob.copy()
-            other.data, other.location.x = ob.data.copy(), 3.0
+            other.data, other.location.x, other.scale.z = ob.data.copy(), 3.0, 1.5
             bpy.context.collection.objects.link(other)
             other.select_set(True)
         for ob in pair:
