@@ -62,6 +62,8 @@ where a line was pulled to; Enter applies them all"""
         """Returns the active object, to which handles belong, and after it those that may follow it over a gap."""
         found = scene_objects.find_subjects(context)  # refuses where no face is selected
         active = scene_objects.find_active_object(context)
+        if self.anew:
+            return [active, *scene_objects.find_partners(context, active)]
         return [active, *(ob for ob in found if self.border == 'follow' and ob != active)]
 
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
@@ -164,7 +166,7 @@ where a line was pulled to; Enter applies them all"""
             ob.update_from_editmode()
         handles = stored.handles.read(ob.data)
         self.anew = (bool(handles) and stored.run.operator == self.bl_idname
-                     and self.find_original_shape(ob) is not None)
+                     and self.find_original_shape(ob) is not None and has_partners(ob))
         return handles if self.anew else tuple(replace(each, start=each.end) for each in handles)
 
     def handle_event(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -282,6 +284,14 @@ where a line was pulled to; Enter applies them all"""
     def end_drag(self, context: bpy.types.Context) -> None:
         super().end_drag(context)
         self.lines = self.builder = None
+
+
+def has_partners(ob: bpy.types.Object) -> bool:
+    """Returns whether those that followed an object's last pull are at hand, so that it can be repeated."""
+    with suppress(Refusal):
+        scene_objects.find_partners(bpy.context, ob)
+        return True
+    return False
 
 
 class REFLINES_OT_delete_handles(bpy.types.Operator):

@@ -1,4 +1,5 @@
 """The base of operators that solve: when they can run, gathering, applying, and reporting to the artist."""
+import json
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
@@ -173,7 +174,9 @@ class SolveTool:
         """Reports what concerns all objects of a run together, after what concerns each."""
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]:
-        return scene_objects.find_subjects(context)
+        """Returns the objects to work on; of a run that is repeated those that were solved as one, too."""
+        found = scene_objects.find_subjects(context)
+        return [*found, *scene_objects.find_partners(context, found[0])] if self.anew and len(found) == 1 else found
 
     def copy_settings(self, scene: bpy.types.Scene) -> None:
         """Copies the scene's settings into the properties that were not given."""
@@ -245,6 +248,7 @@ class SolveTool:
         stored.center = solution.patch.local_center
         stored.keep_view(bpy.context.scene)
         stored.run.fill(self, ob.data, solution.patch.key)
+        stored.run.joined = json.dumps(sorted(self.joined)) if ob.name in self.joined else ""
         lost = (LOST_START,) if self.lost_start else ()
         shown = (*self.record_surroundings(ob, solution.patch),
                  *shape_keys.describe_hidden_key(ob, solution.patch.key), *shown_surface.describe_custom_normals(ob),

@@ -60,6 +60,24 @@ def find_subjects(context: bpy.types.Context) -> list[bpy.types.Object]:
     return selected
 
 
+def find_partners(context: bpy.types.Context, ob: bpy.types.Object) -> list[bpy.types.Object]:
+    """Returns the objects that were solved as one with this one in its last run; refuses where that was not the last
+    run of one of them, too, or that is in another mode: moved alone a rim would leave the other.
+    """
+    own = ob.reflection_lines.run
+    others = [name for name in own.list_joined() if name != ob.name]
+    found = [context.view_layer.objects.get(name) for name in others]
+    for name, other in zip(others, found, strict=True):
+        if other is None or other.mode != ob.mode or not is_same_run(other.reflection_lines.run, own):
+            raise Refusal(f"{ob.name} was moved as one with {name}, which has changed since or is in another mode: "
+                          "select the faces of both in Edit Mode and run the tool there")
+    return found
+
+
+def is_same_run(one: bpy.types.PropertyGroup, other: bpy.types.PropertyGroup) -> bool:
+    return all(getattr(one, name) == getattr(other, name) for name in ("operator", "settings", "joined"))
+
+
 def list_edited_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
     """Returns the objects in Edit Mode, one for each mesh."""
     return list({ob.data: ob for ob in context.view_layer.objects if ob.mode == 'EDIT' and ob.type == 'MESH'}.values())

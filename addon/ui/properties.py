@@ -163,6 +163,8 @@ class ReflinesRun(bpy.types.PropertyGroup):
     operator: StringProperty(name="Operator", description="Its identifier")
     settings: StringProperty(name="Settings", description="As JSON")
     key: StringProperty(name="Shape Key", description="That the result went to; empty for the mesh")
+    joined: StringProperty(name="Joined", description="Names of the objects that were solved as one, as JSON; empty for "
+                           "one alone")
     vertices: IntProperty(name="Vertices")
     faces: IntProperty(name="Faces")
 
@@ -176,6 +178,15 @@ class ReflinesRun(bpy.types.PropertyGroup):
 
     def format_length(self, value: float) -> str:
         return units.format_length(value, bpy.context.scene, 2)
+
+    def list_joined(self) -> tuple[str, ...]:
+        """Returns the names of the objects that were solved as one; none for one alone, as in a file that was changed.
+        """
+        try:
+            names = json.loads(self.joined) if self.joined else ()
+            return tuple(map(str, names)) if isinstance(names, list) else ()
+        except (ValueError, RecursionError):
+            return ()
 
     def fill(self, operator: bpy.types.Operator, mesh: bpy.types.Mesh, key: str) -> None:
         self.note(operator.bl_idname, {name: to_json_value(getattr(operator, name))

@@ -253,3 +253,24 @@ def test_what_cannot_be_joined_is_solved_by_itself_and_says_so() -> None:
     assert turn() == {'FINISHED'}
     assert np.array_equal(places(left)[find_rim(left)], was[find_rim(left)])
     assert "here it was Tangent" in left.reflection_lines.report.notes
+
+
+@pytest.mark.parametrize("tool", ["straighten", "pull"])
+def test_re_solve_moves_both_again_and_leaves_no_step(tool: str) -> None:
+    left, right = start()
+    assert TOOLS[tool]() == {'FINISHED'}
+    was = [places(left), places(right)]
+    scenes.object_mode()
+    bpy.context.view_layer.objects.active = left
+    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert all(np.abs(places(ob) - old).max() < 1e-6 for ob, old in zip((left, right), was, strict=True))
+
+
+def test_re_solve_refuses_to_leave_the_other_behind() -> None:
+    left, right = start()
+    assert straighten() == {'FINISHED'}
+    scenes.object_mode()
+    bpy.context.view_layer.objects.active = left
+    bpy.data.objects.remove(right)
+    with scenes.refused(left, "Left was moved as one with Right, which has changed since"):
+        bpy.ops.reflines.resolve('EXEC_DEFAULT', True)
