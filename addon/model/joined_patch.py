@@ -14,7 +14,7 @@ from .solution import Solution
 
 
 @dataclass(frozen=True)
-class SeamMoves:
+class RimMoves:
     """The moves of a panel's vertices at the gap as sums of moves of the joined patch."""
     vertex: np.ndarray  # #S, vertices of the panel
     first: np.ndarray   # #S: where the terms of each begin
@@ -34,7 +34,7 @@ class PanelPart:
     panel: Patch
     vertex: np.ndarray    # #V of the panel: vertex of the joined patch, -1 where there is none
     triangle: np.ndarray  # #F of the panel: triangle of the joined patch, or the nearest one
-    seam: SeamMoves
+    rim: RimMoves
 
 
 @dataclass(frozen=True)
@@ -77,20 +77,20 @@ def move_panel(part: PanelPart, move: np.ndarray, limit: float) -> np.ndarray:
     V = part.panel.V.copy()
     own = part.vertex >= 0
     V[own] += move[part.vertex[own]]
-    V[part.seam.vertex] += cut_moves(part, part.seam.sum(move), move, limit)
+    V[part.rim.vertex] += cut_moves(part, part.rim.sum(move), move, limit)
     return V
 
 
-def cut_moves(part: PanelPart, seam: np.ndarray, move: np.ndarray, limit: float) -> np.ndarray:
+def cut_moves(part: PanelPart, rim: np.ndarray, move: np.ndarray, limit: float) -> np.ndarray:
     """Cuts the moves at the gap (#S x 3) to the limit; all moves lie along one axis."""
     largest = move[np.abs(move).sum(axis=1).argmax()] if len(move) else np.zeros(3)
     size = float(np.linalg.norm(largest))
     if not np.isfinite(limit) or size == 0.0:
-        return seam
+        return rim
     ranges = part.panel.limit_range
-    axis, along = largest / size, seam @ (largest / size)
-    low, high = (-limit, limit) if ranges is None else limit * ranges[part.seam.vertex].T
-    return seam + (np.clip(along, low, high) - along)[:, None] * axis
+    axis, along = largest / size, rim @ (largest / size)
+    low, high = (-limit, limit) if ranges is None else limit * ranges[part.rim.vertex].T
+    return rim + (np.clip(along, low, high) - along)[:, None] * axis
 
 
 def split_solution(solution: Solution, limit: float) -> list[Solution]:

@@ -14,8 +14,8 @@ from ..model.meeting import find_meeting
 from ..model.patch import Patch
 from ..model.surroundings import Surroundings
 from ..model.view import View
-from .seam_moves import SeamPlace, find_node_areas, weigh_moves
-from .seam_strip import Rim, Strip, Triangulate, build_strip, cut_rim, find_below, is_near, list_border, mark
+from .rim_moves import NodePlaces, find_node_areas, weigh_moves
+from .gap_strip import Rim, Strip, Triangulate, build_strip, cut_rim, find_below, is_near, list_border, mark
 
 FACING = 0.2  # least cosine between view and normal of the triangles at a rim that moves
 ALIKE = 2.0 * np.cos(0.5 * np.radians(15.0))  # length of the sum of normals that are tilted by less than that
@@ -194,12 +194,12 @@ def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.
     xy = np.concatenate([rim.xy[own >= 0] for rim, own in zip(rims, vertex, strict=True)])
     codes = np.concatenate([panel.border[own >= 0] for panel, own in zip(panels, vertex, strict=True)])
     codes[find_new_ends(F, vertex, rims)] = CODES["clamped"]
-    place = SeamPlace(xy, find_node_areas(xy, F), strip.span)
+    place = NodePlaces(xy, find_node_areas(xy, F), strip.span)
     starts = [0, *accumulate(int(rim.stays.sum()) for rim in rims)]
     parts = []
     for panel, rim, own, start in zip(panels, rims, vertex, starts[:-1], strict=True):
-        seam = weigh_moves(place, rim.xy, find_moved(panel, rim, xy[between], border))
-        parts.append(PanelPart(panel, own, find_triangles(rim, start), seam))
+        moves = weigh_moves(place, rim.xy, find_moved(panel, rim, xy[between], border))
+        parts.append(PanelPart(panel, own, find_triangles(rim, start), moves))
     faces, face_of_triangle = number_faces(panels, rims, len(F) - starts[-1])
     return JoinedPatch(
         " and ".join(each.name for each in panels), faces, np.arange(len(V)), V, V, F, face_of_triangle, np.eye(4), "",

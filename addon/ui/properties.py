@@ -180,7 +180,7 @@ class ReflinesRun(bpy.types.PropertyGroup):
         return units.format_length(value, bpy.context.scene, 2)
 
     def list_joined(self) -> tuple[str, ...]:
-        """Returns the names of the objects that were solved as one; none for one alone, as in a file that was changed.
+        """Returns the names of the objects that were solved as one; none for one alone, or where a file was changed.
         """
         try:
             names = json.loads(self.joined) if self.joined else ()

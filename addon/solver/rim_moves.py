@@ -3,13 +3,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model.joined_patch import SeamMoves
+from ..model.joined_patch import RimMoves
 
 SPAN = 2.2  # radius of the fits, over the widest row and gap: three rows of vertices on both sides
 
 
 @dataclass(frozen=True)
-class SeamPlace:
+class NodePlaces:
     """The vertices of a joined patch in the image plane."""
     xy: np.ndarray    # #V x 2
     area: np.ndarray  # #V: what each stands for
@@ -24,7 +24,7 @@ def find_node_areas(xy: np.ndarray, F: np.ndarray) -> np.ndarray:
     return np.bincount(F.ravel(), np.repeat(area, 3), len(xy))
 
 
-def weigh_moves(place: SeamPlace, xy: np.ndarray, moved: np.ndarray) -> SeamMoves:
+def weigh_moves(place: NodePlaces, xy: np.ndarray, moved: np.ndarray) -> RimMoves:
     """Returns the weights by which vertices `moved` of a panel (xy: #V x 2) move: the value there of a cubic that is
     fitted to the moves nearby, the more the nearer. So they are a smooth function of the place alone, and both rims of
     a gap without width move alike.
@@ -41,7 +41,7 @@ def weigh_moves(place: SeamPlace, xy: np.ndarray, moved: np.ndarray) -> SeamMove
         weights.append(fit_value(offset[inside], distance[inside], place.area[near[inside]]))
     first = np.cumsum([0, *(len(each) for each in sources)])[:-1]
     empty = np.zeros(0)
-    return SeamMoves(moved, first, np.concatenate([empty.astype(np.int64), *sources]),
+    return RimMoves(moved, first, np.concatenate([empty.astype(np.int64), *sources]),
                      np.concatenate([empty, *weights]))
 
 
