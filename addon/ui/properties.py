@@ -163,8 +163,7 @@ class ReflinesRun(bpy.types.PropertyGroup):
     operator: StringProperty(name="Operator", description="Its identifier")
     settings: StringProperty(name="Settings", description="As JSON")
     key: StringProperty(name="Shape Key", description="That the result went to; empty for the mesh")
-    joined: StringProperty(name="Joined", description="Names of the objects that were solved as one, as JSON; empty: one "
-                           "alone")
+    joined: StringProperty(name="Joined", description="Names of the objects that were solved as one, as JSON")
     vertices: IntProperty(name="Vertices")
     faces: IntProperty(name="Faces")
 
