@@ -5,6 +5,10 @@ import numpy as np
 
 from ..model.joined_patch import RimMoves
 
+# The power of the distance that weights fall with: a panel whose mesh is 16 times as dense as the other's would get a
+# fold of 1.3 degrees behind its rim with 0, of 0.1 with 2, and less with 4.
+NEARER = 4
+NEAREST = 1e-6  # distance in radii below which weights no longer grow
 SPAN = 2.2  # radius of the fits, over the widest row and gap: three rows of vertices on both sides
 
 
@@ -74,6 +78,7 @@ def fit_value(offset: np.ndarray, distance: np.ndarray, area: np.ndarray) -> np.
     """Returns the weights (#N) of the values at places (#N x 2, from -1 to 1) in that of the fitted cubic at 0."""
     x, y = offset.T
     basis = np.stack([x**i * y**j for i in range(4) for j in range(4 - i)], axis=1)
-    weight = area * (1.0 - distance)**4 * (4.0 * distance + 1.0)
+    fade = (1.0 - distance)**4 * (4.0 * distance + 1.0)
+    weight = area * fade / np.maximum(distance, NEAREST)**NEARER
     root = np.sqrt(weight / max(float(weight.max(initial=0.0)), 1e-300))
     return np.linalg.pinv(root[:, None] * basis, rcond=1e-9)[0] * root

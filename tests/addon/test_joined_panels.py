@@ -124,6 +124,18 @@ def test_lines_run_on_over_the_gap_as_before(tool: str, kind: str) -> None:
                for name, old in zip(("Left", "Right"), was, strict=True))
 
 
+def test_a_dense_panel_beside_a_coarse_one_gets_no_fold_behind_its_rim() -> None:
+    right = sheet("Right", lambda _y: np.linspace(0.5 * GAP, 1.0, 7), np.linspace(-1.0, 1.0, 13))
+    left = sheet("Left", lambda _y: np.linspace(-1.0, -0.5 * GAP, 101), np.linspace(-1.0, 1.0, 201))
+    start_several(right, left)
+    before, was = measure_gap(left, right), places(left)
+    assert straighten() == {'FINISHED'}
+    move = (places(left) - was)[:, 2].reshape(201, 101)
+    bend = np.abs(np.diff(move, n=2, axis=1))[20:-20]
+    assert bend[:, -3:].max() < 3.0 * bend[:, -12:-6].max()
+    assert measure_gap(left, right)["kink"].max() < before["kink"].max() + KINK
+
+
 @pytest.mark.parametrize("tool", list(TOOLS))
 def test_rims_that_touch_move_as_one(tool: str) -> None:
     """Where each vertex of one rim lies on one of the other; the left panel has rows between."""
