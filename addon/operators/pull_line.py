@@ -116,6 +116,7 @@ where a line was pulled to; Enter applies them all"""
         """Begins a run: what it keeps for itself, beside the properties."""
         self.lines = LineBuild(context.scene)
         self.builder, self.in_session = self.lines.builder, in_session
+        self.gathered: dict[str, Patch] = {}  # by objects' names, at the beginning of a session
         self.are_kept = False            # whether the handles are those of the object, as it has them
         self.key_notes: tuple[str, ...] = ()  # of the keys of handles
 
@@ -140,7 +141,9 @@ where a line was pulled to; Enter applies them all"""
     def begin_drag(self, context: bpy.types.Context) -> LineDrag:
         others = self.choose_object(context)
         ob = self.find_subjects(context)[0]
-        return LineDrag(self, context, self.find_stored_handles(ob), others)
+        drag = LineDrag(self, context, self.find_stored_handles(ob), others)
+        self.gathered.clear()
+        return drag
 
     def choose_object(self, context: bpy.types.Context) -> dict[str, ScreenSurface]:
         """Makes that of several objects in Edit Mode active whose selected faces were pressed on, as Blender does with
@@ -149,13 +152,19 @@ where a line was pulled to; Enter applies them all"""
         subjects, found = scene_objects.find_subjects(context), {}
         for ob in subjects if len(subjects) > 1 else ():
             with suppress(Refusal):  # this one cannot be pulled
-                found[ob.name] = screen_surface.build_screen(self.gather_patch(ob), context.area)
+                self.gathered[ob.name] = self.gather_patch(ob)
+                found[ob.name] = screen_surface.build_screen(self.gathered[ob.name], context.area)
         if self.pressed is not None and found:
             foremost = screen_surface.find_foremost(list(found.values()), *self.pressed)
             if foremost is not None:
                 context.view_layer.objects.active = bpy.data.objects[list(found)[foremost[0]]]
         found.pop(scene_objects.find_active_object(context).name, None)
         return found
+
+    def gather_patch(self, ob: bpy.types.Object) -> Patch:
+        """Gathers a patch: once, where the session begins with the mesh as it is, which was seen then."""
+        known = self.gathered.pop(ob.name, None)
+        return super().gather_patch(ob) if known is None or self.anew else known
 
     def find_stored_handles(self, ob: bpy.types.Object) -> Handles:
         """Returns the handles that are kept with the object. Where the mesh is as they left it, the session begins with
