@@ -44,9 +44,11 @@ def build_seams(check: DrawnCheck) -> SurfaceLines:
 
 
 def draw_seams() -> None:
-    """Draws the seams in a viewport (POST_VIEW), after the stripes."""
+    """Draws the seams in a viewport (POST_VIEW), after the stripes. Lines go with their check."""
+    for name in [name for name, (check, _) in _cache.shown.items() if last_checks.find_check(name) is not check]:
+        del _cache.shown[name]
     for ob, check in find_drawn(bpy.context):
-        if ob.name_full not in _cache.shown or _cache.shown[ob.name_full][0] is not check:
+        if ob.name_full not in _cache.shown:
             _cache.shown[ob.name_full] = check, build_seams(check)
         surface_lines.draw_lines(bpy.context, ob, _cache.shown[ob.name_full][1])
 
@@ -65,15 +67,9 @@ def draw_worst() -> None:
                 handle_marks.draw_ring(place, 0.0, scale * DOT_RADIUS, (*color, 1.0))
 
 
-@bpy.app.handlers.persistent
-def clear_cache(*_: object) -> None:
-    _cache.shown.clear()
-
-
 def register() -> None:
     if bpy.app.background:
         return
-    bpy.app.handlers.load_post.append(clear_cache)
     for draw, kind in ((draw_seams, 'POST_VIEW'), (draw_worst, 'POST_PIXEL')):
         _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), 'WINDOW', kind))
 
@@ -81,6 +77,4 @@ def register() -> None:
 def unregister() -> None:
     while _cache.handles:
         bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
-    if clear_cache in bpy.app.handlers.load_post:
-        bpy.app.handlers.load_post.remove(clear_cache)
-    clear_cache()
+    _cache.shown.clear()

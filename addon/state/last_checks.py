@@ -22,6 +22,9 @@ _checks: dict[str, DrawnCheck] = {}  # by the full name of the object
 
 
 def remember_check(name: str, check: DrawnCheck) -> None:
+    """Remembers the check of the object with this full name, and forgets those of objects that are gone."""
+    for gone in _checks.keys() - {ob.name_full for ob in bpy.data.objects}:
+        del _checks[gone]
     _checks[name] = check
 
 
