@@ -62,22 +62,22 @@ def sheet(most: int) -> dict[str, np.ndarray]:
 
 
 def press_of_a_mesh() -> Work:
-    V, F = flawed_panel(smaller(400))
+    V, F = flawed_panel(smaller(300))
     return lambda progress: reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LINE, progress=progress)
 
 
 def press_of_a_cage() -> Work:
-    return lambda progress: reflines.smooth_cage_panel(**sheet(16), view_direction=VIEW, line_direction=LINE, level=5,
+    return lambda progress: reflines.smooth_cage_panel(**sheet(10), view_direction=VIEW, line_direction=LINE, level=5,
                                                        progress=progress)
 
 
 def cage() -> Work:
-    return lambda progress: reflines.CageOptimizer(**sheet(22), view_direction=VIEW, line_direction=LINE, level=5,
+    return lambda progress: reflines.CageOptimizer(**sheet(18), view_direction=VIEW, line_direction=LINE, level=5,
                                                    progress=progress)
 
 
 def smoothing_of_lines() -> Work:
-    V, F = flawed_panel(400 if SLOWER == 1.0 else 250)  # the library that factors is as fast as ever
+    V, F = flawed_panel(370 if SLOWER == 1.0 else 250)  # the library that factors is as fast as ever
 
     def smooth(progress: reflines.Progress) -> object:
         solver = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LINE, progress=progress)
@@ -105,7 +105,7 @@ def test_a_cancelled_solve_of_a_large_mesh_leaves_every_bit() -> None:
     A solve that other work of the machine held up says nothing about when the next one is in its middle, so that a
     faster one sets the moments from then on.
     """
-    V, F = flawed_panel(smaller(200))
+    V, F = flawed_panel(smaller(140))
     other = reflines.ShapeOptimizer(V, F, view_direction=VIEW, line_direction=LINE)
     report = other.solve(reflines.smooth(other, length=0.2))
     assert report.converged
