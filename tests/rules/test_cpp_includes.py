@@ -47,7 +47,7 @@ MAY_INCLUDE = {
 WALLS = {
     r"opensubdiv/": r"native/src/geometry/subdivision\.cpp",
     r"(suitesparse/|umfpack|cholmod|amd\.h|colamd|SuiteSparse|cblas|openblas|lapack|Eigen/(Cholmod|UmfPack))":
-        r"native/src/optimization/linear/linear_solver\.cpp",
+        r"native/src/optimization/linear/(linear_solver|cholmod_backend|umfpack_backend)\.cpp",
     r"pybind11/eigen\.h": r"native/python/array_arguments\.h",
     r"(pybind11/|Python\.h|numpy/)": r"native/python/.*",
     r"(gtest|gmock|benchmark)/": r"(?!)",

@@ -12,6 +12,8 @@
 
 namespace reflines {
 
+class LinearBackend;
+
 // A factorization with its symbolic analysis. Matrices are lower triangles: n x n, compressed, sorted columns, every
 // diagonal entry present. The same input gives the same bits, whatever the number of threads. The libraries cannot be
 // interrupted: with a `progress` (it may be null) `analyze` and `factorize` of large systems throw Cancelled soon after
@@ -61,16 +63,13 @@ class LinearSolver {
   std::vector<int> sort_by_elimination(std::vector<int> unknowns) const;
 
  private:
-  class Backend;
-  class Cholmod;
-  class Umfpack;
   struct Pattern;
   void work(const SparseMatrix& matrix, const Progress* progress,
-            const std::function<void(Backend&, const SparseMatrix&)>& task);
+            const std::function<void(LinearBackend&, const SparseMatrix&)>& task);
 
   LinearSolverKind kind_;
   std::unique_ptr<Pattern> pattern_;
-  std::shared_ptr<Backend> backend_;
+  std::shared_ptr<LinearBackend> backend_;
   bool has_factor_ = false;
   double diagonal_shift_ = 0.0;
 };
