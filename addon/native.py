@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .reflines import CageOptimizer as CageOptimizer
     from .reflines import Handle as Handle
     from .reflines import HandleFollower as HandleFollower
-    from .reflines import HandleReach as HandleReach
+    from .reflines import HandleResidual as HandleResidual
     from .reflines import LineHandles as LineHandles
     from .reflines import NormalFit as NormalFit
     from .reflines import Note as Note

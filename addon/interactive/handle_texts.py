@@ -27,7 +27,7 @@ def count_handles(handles: Handles) -> str:
     return f"{len(handles)} handle{'s' if len(handles) != 1 else ''}"
 
 
-def describe_handle(scene: bpy.types.Scene, handles: Handles, index: int, reached: "list[native.HandleReach]",
+def describe_handle(scene: bpy.types.Scene, handles: Handles, index: int, reached: "list[native.HandleResidual]",
                     typed: str) -> str:
     """Says how far the line of a handle is from it, and its radius. `reached` are those of the handles that are not
     muted, `typed` what is typed of the radius.
@@ -40,4 +40,4 @@ def describe_handle(scene: bpy.types.Scene, handles: Handles, index: int, reache
     if place >= len(reached):
         return radius
     length = units.format_length(reached[place].distance, scene, precision=2)
-    return f"Line {reached[place].share:.1%} of the spacing beside handle {number} ({length})   {radius}"
+    return f"Line {reached[place].fraction:.1%} of the spacing beside handle {number} ({length})   {radius}"

@@ -49,7 +49,7 @@ def measure_beside(patch: Patch) -> Beside:
     """Measures how wide a gap beside a region is crossed and how far beyond it is read, without reading what is there.
     """
     gap = native.reflines.AUTOMATIC_GAP * patch.diagonal
-    margin = WIDER * native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * patch.diagonal
+    margin = WIDER * native.reflines.FAIR_MARGIN * native.reflines.AUTOMATIC_LENGTH * patch.diagonal
     return Beside(*join_soups([]), gap, margin)
 
 

@@ -51,7 +51,7 @@ class AutomaticSmooth:
 
     def choose_margin(self) -> float:
         """Returns how far beside the region faces are needed, in diagonals of the region."""
-        within = native.reflines.FAIR_REACH * native.reflines.AUTOMATIC_LENGTH * self.flaw_size
+        within = native.reflines.FAIR_MARGIN * native.reflines.AUTOMATIC_LENGTH * self.flaw_size
         return WIDER * within if self.fair_border else 0.0
 
 

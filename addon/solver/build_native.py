@@ -73,11 +73,11 @@ def build_joint_panel(problem: PanelProblem, border: str, settings: PressSetting
     if problem.is_cage:
         beside = problem.patch.beside
         return native.reflines.JointPanel.for_cage(
-            **choose_cage_press(problem), border=codes, gap=beside.gap, reach=beside.margin, **settings)
+            **choose_cage_press(problem), border=codes, gap=beside.gap, margin=beside.margin, **settings)
     beside, around = join_beside(problem), join_surroundings(problem)
     return native.reflines.JointPanel(
         **choose_press_mesh(problem), border=codes, around=(around.V, around.F), beside=(beside.V, beside.F),
-        gap=beside.gap, reach=beside.margin, **settings)
+        gap=beside.gap, margin=beside.margin, **settings)
 
 
 def choose_edges(problem: PanelProblem, border: str, *, fair: bool = False) -> EdgeArguments:
@@ -99,7 +99,7 @@ async def choose_press_edges(problem: PanelProblem, border: str, *, fair: bool) 
         return edges
     joined = join_surroundings(problem)
     found = await call(native.reflines.continue_over_gap, problem.V, problem.F, beside.V, beside.F,
-                       around=(joined.V, joined.F), gap=beside.gap, reach=beside.margin)
+                       around=(joined.V, joined.F), gap=beside.gap, margin=beside.margin)
     follows = find_following(problem, border) & found.followed
     if not follows.any():
         return edges

@@ -33,7 +33,7 @@ class HandleTargets:
         self.lines: native.LineHandles | None = None
         self.follower: native.HandleFollower | None = None
         self.conflicts: tuple[str, ...] = ()  # sentences about the last handles that were built
-        self.reached: list[native.HandleReach] = []  # of those that were last measured
+        self.reached: list[native.HandleResidual] = []  # of those that were last measured
         self.missed: tuple[str, ...] = ()     # sentences about those that were not reached when last measured
 
     async def build(self, optimizer: "native.ShapeOptimizer", handles: Handles,
@@ -77,9 +77,9 @@ class HandleTargets:
     async def measure(self, optimizer: "native.ShapeOptimizer", handles: "list[native.Handle]") -> float:
         """Returns the root mean square of the distances between handles and their lines, radians of theta."""
         self.reached = reached = await call(self.lines.measure, handles, optimizer, line_step=self.line_step)
-        self.missed = tuple(f"The line of handle {number + 1} passes {each.share:.0%} of the lines' spacing beside it: "
-                            "pull less far, or give it a larger radius" for number, each in enumerate(reached)
-                            if each.share > MISSED)
+        self.missed = tuple(f"The line of handle {number + 1} passes {each.fraction:.0%} of the lines' spacing beside "
+                            "it: pull less far, or give it a larger radius" for number, each in enumerate(reached)
+                            if each.fraction > MISSED)
         return float(np.sqrt(np.mean([each.theta**2 for each in reached])))
 
     def convert(self, handle: LineHandle, name: str, matrix: np.ndarray) -> "native.Handle":

@@ -18,11 +18,12 @@ namespace reflines {
 namespace {
 
 py::object check(const Positions& before, const Positions& after, const Indices& F, const Mask& region,
-                 const std::string& crease_rule, const Indices& marked_creases, double crease_angle, double reach,
-                 double gap, double angle, double curvature, const std::optional<double>& deviation) {
+                 const std::string& crease_rule, const Indices& marked_creases, double crease_angle,
+                 double neighbor_distance, double gap, double angle, double curvature,
+                 const std::optional<double>& deviation) {
   CheckOptions options;
   options.creases = {find_named(kCreaseRules, crease_rule, "rule of creases"), crease_angle, edges_of(marked_creases)};
-  options.reach = reach;
+  options.neighbor_distance = neighbor_distance;
   options.gap = gap;
   options.angle = angle;
   options.curvature = curvature;
@@ -82,7 +83,7 @@ void bind_check_panel(py::module_& module) {
   const CheckOptions options;
   module.def("check", &check, py::arg("before"), py::arg("after"), py::arg("F"), py::arg("region"), py::kw_only(),
              py::arg("crease_rule") = "automatic", py::arg("marked_creases") = Indices(),
-             py::arg("crease_angle") = options.creases.angle, py::arg("reach") = options.reach,
+             py::arg("crease_angle") = options.creases.angle, py::arg("neighbor_distance") = options.neighbor_distance,
              py::arg("gap") = options.gap, py::arg("angle") = options.angle, py::arg("curvature") = options.curvature,
              py::arg("deviation") = py::none());
 }

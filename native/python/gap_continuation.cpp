@@ -18,8 +18,8 @@ namespace reflines {
 namespace {
 
 py::object continue_gap(const Positions& V, const Indices& F, const Positions& V_beside, const Indices& F_beside,
-                        const Around& around, const std::optional<double>& gap, const std::optional<double>& reach) {
-  const GapOptions options{given(gap, "The gap"), given(reach, "The reach")};
+                        const Around& around, const std::optional<double>& gap, const std::optional<double>& margin) {
+  const GapOptions options{given(gap, "The gap"), given(margin, "The margin")};
   const Triangles region = triangles_of(F), beside = triangles_of(F_beside);
   const Surroundings joined = surroundings_of(around);
   check_surroundings(joined, V.rows());
@@ -38,7 +38,8 @@ void bind_gap_continuation(py::module_& module) {
       .def_readonly("flush", &GapContinuation::flush);
   module.attr("AUTOMATIC_GAP") = kAutomaticGap;
   module.def("continue_over_gap", &continue_gap, py::arg("V"), py::arg("F"), py::arg("V_beside"), py::arg("F_beside"),
-             py::kw_only(), py::arg("around") = py::none(), py::arg("gap") = py::none(), py::arg("reach") = py::none());
+             py::kw_only(), py::arg("around") = py::none(), py::arg("gap") = py::none(),
+             py::arg("margin") = py::none());
 }
 
 }  // namespace reflines

@@ -29,7 +29,7 @@ JointPanel make_panel(const Positions& V, const Indices& F, const Vector3& view_
                       const std::optional<Indices>& face_of_triangle, const std::string& lights,
                       const std::optional<LightSet>& set, const std::optional<LightSet>& judges,
                       const std::optional<double>& length, double flaw_size, bool symmetric, const Around& beside,
-                      const std::optional<double>& gap, const std::optional<double>& reach, bool even_flush) {
+                      const std::optional<double>& gap, const std::optional<double>& margin, bool even_flush) {
   JointPanel panel{V, triangles_of(F), view_direction, line_direction,
                    options_of(lights, set, judges, length, flaw_size, symmetric)};
   panel.options.border = border_codes(border, V.rows());
@@ -40,7 +40,7 @@ JointPanel make_panel(const Positions& V, const Indices& F, const Vector3& view_
   const Surroundings still = surroundings_of(beside);
   panel.V_beside = still.V;
   panel.F_beside = still.F;
-  panel.gap = {given(gap, "The gap"), given(reach, "The reach")};
+  panel.gap = {given(gap, "The gap"), given(margin, "The margin")};
   panel.options.even_flush = even_flush;
   return panel;
 }
@@ -53,7 +53,7 @@ JointPanel make_cage_panel(const Positions& V, const Indices& face_offsets, cons
                            const Numbers& crease_sharpness, const Indices& corners, const Numbers& corner_sharpness,
                            bool limit_surface, const std::string& lights, const std::optional<LightSet>& set,
                            const std::optional<LightSet>& judges, const std::optional<double>& length, double flaw_size,
-                           bool symmetric, const std::optional<double>& gap, const std::optional<double>& reach,
+                           bool symmetric, const std::optional<double>& gap, const std::optional<double>& margin,
                            bool even_flush) {
   JointCage own{cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                         static_cast<int>(V.rows())),
@@ -62,7 +62,7 @@ JointPanel make_cage_panel(const Positions& V, const Indices& face_offsets, cons
   own.options.subdivision = subdivision_options(level, scheme, boundary, limit_surface);
   JointPanel panel{
       {}, {}, view_direction, line_direction, options_of(lights, set, judges, length, flaw_size, symmetric)};
-  panel.gap = {given(gap, "The gap"), given(reach, "The reach")};
+  panel.gap = {given(gap, "The gap"), given(margin, "The margin")};
   panel.options.even_flush = even_flush;
   panel.cage = std::make_shared<const JointCage>(std::move(own));
   return panel;
@@ -80,7 +80,7 @@ py::object convert_results(std::vector<SmoothPanelResult> results) {
 }
 
 py::object press(JointSmoother& smoother, const std::vector<double>& strengths,
-                 const std::vector<std::optional<double>>& limits, const std::vector<Shares>& limit_shares,
+                 const std::vector<std::optional<double>>& limits, const std::vector<LimitRange>& limit_shares,
                  const std::shared_ptr<Progress>& progress) {
   if (limits.size() != strengths.size() || limit_shares.size() != strengths.size())
     throw InvalidInput("Each panel needs a strength, a limit and shares of it, or None.");
@@ -104,7 +104,7 @@ void bind_joint_smoother(py::module_& module) {
            py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("judges") = py::none(),
            py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
            py::arg("symmetric") = defaults.symmetric, py::arg("beside") = py::none(), py::arg("gap") = py::none(),
-           py::arg("reach") = py::none(), py::arg("even_flush") = defaults.even_flush)
+           py::arg("margin") = py::none(), py::arg("even_flush") = defaults.even_flush)
       .def_static("for_cage", &make_cage_panel, py::arg("V"), py::arg("face_offsets"), py::arg("face_vertices"),
                   py::kw_only(), py::arg("view_direction"), py::arg("line_direction"), py::arg("region") = py::none(),
                   py::arg("border") = "follow", py::arg("fixed") = py::none(), py::arg("partner") = py::none(),
@@ -114,8 +114,8 @@ void bind_joint_smoother(py::module_& module) {
                   py::arg("corner_sharpness") = Numbers(), py::arg("limit_surface") = subdivision.limit,
                   py::arg("lights") = "crossed", py::arg("light_set") = py::none(), py::arg("judges") = py::none(),
                   py::arg("length") = py::none(), py::arg("flaw_size") = defaults.flaw_size,
-                  py::arg("symmetric") = defaults.symmetric, py::arg("gap") = py::none(), py::arg("reach") = py::none(),
-                  py::arg("even_flush") = defaults.even_flush);
+                  py::arg("symmetric") = defaults.symmetric, py::arg("gap") = py::none(),
+                  py::arg("margin") = py::none(), py::arg("even_flush") = defaults.even_flush);
   py::class_<JointSmoother>(module, "JointSmoother", py::module_local())
       .def(py::init(construct(&prepare_smoother)), py::arg("panels"))
       .def_static("create", create(&prepare_smoother), py::arg("panels"))

@@ -67,10 +67,10 @@ void bind_line_handles(py::module_& module) {
       .def(py::init(&make_handle), py::arg("points") = PlanePositions(0, 2), py::kw_only(),
            py::arg("value") = py::none(), py::arg("radius") = Handle().radius, py::arg("centre") = py::none(),
            py::arg("triangles") = Indices(), py::arg("name") = "");
-  py::class_<HandleReach>(module, "HandleReach", py::module_local())
-      .def_readonly("theta", &HandleReach::theta)
-      .def_readonly("distance", &HandleReach::distance)
-      .def_readonly("share", &HandleReach::share);
+  py::class_<HandleResidual>(module, "HandleResidual", py::module_local())
+      .def_readonly("theta", &HandleResidual::theta)
+      .def_readonly("distance", &HandleResidual::distance)
+      .def_readonly("fraction", &HandleResidual::fraction);
   py::class_<LineHandles> lines(module, "LineHandles", py::module_local());
   const auto define = [&](const auto&... arguments) {
     lines.def(py::init(construct(&prepare_line_handles)), arguments...);

@@ -19,7 +19,7 @@ Result = TypeVar("Result")
 
 AUTOMATIC_LENGTH: float  # of flaws, relative to the diagonal of a panel
 AUTOMATIC_LIMIT: float   # of the moves, relative to that length
-FAIR_REACH: float        # lengths from a panel that a press with a fair border takes in
+FAIR_MARGIN: float       # lengths from a panel that a press with a fair border takes in
 MOST_BOUNDED: int        # free vertices up to which a shape within a limit is solved for; above, moves are scaled to it
 MOST_BOUNDED_CAGE: int   # likewise, unknowns of a cage
 
@@ -92,7 +92,7 @@ class Target:
     theta: np.ndarray     # #F wanted theta for a value fit (eq. 3), empty for a gradient fit (eq. 4). The gradient then
                           # only keeps the surface smooth at the scale of the triangles, and may be 0 x 2
     family: int           # which of the optimizer's line directions
-    reachable_only: bool  # fits only the part that heights can reach; set by the builders of new lines, not by `smooth`
+    reachable_only: bool  # fits only the part that heights can attain; set by the builders of new lines, not by `smooth`
     def __init__(self, gradient: np.ndarray, weight: np.ndarray | None = None, *, theta: np.ndarray | None = None,
                  family: int = 0, reachable_only: bool = False) -> None: ...
 
@@ -117,7 +117,7 @@ class Report:
     unknowns: int
     put_back: int         # vertices beyond the limit at the start, by a solve before: put back to it before anything else
     limited: int          # vertices that touch the limit
-    limited_share: float  # of the free vertices
+    limited_fraction: float  # of the free vertices
     largest_move: float   # along the view direction, scene units
     residual_rms: float   # rms of |grad theta - target| over the triangles that can change, radians / length
 
@@ -190,10 +190,10 @@ class ShapeOptimizer:
     def watch(self, progress: Progress | None) -> None:
         """Reports the stages of smoothing and of the score to `progress`, and raises Cancelled there where it was cancelled.
         A solve has a progress of its own."""
-    def scale_move(self, share: float) -> None:
-        """Scales all moves from the heights that the optimizer was built with by a share between 0 and 1."""
+    def scale_move(self, fraction: float) -> None:
+        """Scales all moves from the heights that the optimizer was built with by a fraction between 0 and 1."""
     def keep_within(self, limit: float) -> int:
-        """Scales all moves by the share that the limit is of the largest one, where that is beyond it; returns how many vertices
+        """Scales all moves by the fraction that the limit is of the largest one, where that is beyond it; returns how many vertices
         were beyond it."""
     def reset(self) -> None:
         """Restores the heights that the optimizer was built with."""
@@ -214,7 +214,7 @@ class WorsePlace:
 class HealedFlaws:
     """Tells what a press healed. The deviation of lines is how far they are from the course that they would have without flaws:
     degrees of theta, root mean square over a disk of a third of the length, in the light in which that is most."""
-    area: float          # share of the region's area where lines deviated visibly and most of that went
+    area: float          # fraction of the region's area where lines deviated visibly and most of that went
     worst_before: float  # deviation of the worst place of the region
     worst_after: float
     mean_before: float   # likewise, root mean square over the healed area
@@ -245,7 +245,7 @@ class SmoothPanelReport:
     score_after: list[LineScore]
     unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
     unevenness_after: list[float]   # length, degrees, root mean square; creases are those of both shapes
-    seen: list[float]          # one for each light: share of the panel's area that its eye sees; 1 along the view
+    seen: list[float]          # one for each light: fraction of the panel's area that its eye sees; 1 along the view
     healed: HealedFlaws
     stray: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,
                                # radians / length; by area its root mean square is the first unevenness over the length
@@ -319,7 +319,7 @@ def solve_panel(optimizer: ShapeOptimizer, targets: list[Target], *, length: flo
                 most_bounded: int = 0, progress: Progress | None = None) -> SolvePanelReport:
     """Solves for a tool's targets from the optimizer's present heights, with the rules that hold for every tool: freely, and where
     a vertex moved beyond the limit again within it; where few faces turn by more than 45 degrees again with these held. Scores
-    are taken at `length`; `limit_share` (#V x 2) has each vertex's shares of the limit, `around` the faces that the rim is bent
+    are taken at `length`; `limit_share` (#V x 2) has each vertex's fractions of the limit, `around` the faces that the rim is bent
     against. More than `most_bounded` unknowns (0: MOST_BOUNDED, of a cage MOST_BOUNDED_CAGE) have all moves scaled to the limit.
 
     Raises InvalidInput, SolverFailure; a cancelled solve leaves the heights and says so."""
@@ -337,7 +337,7 @@ class JointPanel:
                  lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, judges: LightSet | None = None,
                  length: float | None = None, flaw_size: float = 1.0,
                  symmetric: bool = True, beside: tuple[np.ndarray, np.ndarray] | None = None, gap: float | None = None,
-                 reach: float | None = None, even_flush: bool = False) -> None: ...
+                 margin: float | None = None, even_flush: bool = False) -> None: ...
     @staticmethod
     def for_cage(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np.ndarray, *,
                  view_direction: Sequence[float], line_direction: Sequence[float],
@@ -348,7 +348,7 @@ class JointPanel:
                  corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit_surface: bool = True,
                  lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None,
                  judges: LightSet | None = None, length: float | None = None, flaw_size: float = 1.0,
-                 symmetric: bool = True, gap: float | None = None, reach: float | None = None) -> JointPanel:
+                 symmetric: bool = True, gap: float | None = None, margin: float | None = None) -> JointPanel:
         """Makes the panel of a cage, with the arguments of smooth_cage_panel. Its surface faces the other panels; what of its border
         faces none is clamped. It takes of its surface's move what it can, and as much as makes lines more even; the rims of meshes
         across follow it."""
@@ -384,9 +384,9 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  judges: LightSet | None = None,                    # take no part; see HealedFlaws.worse_for_judges
                  length: float | None = None,                       # size of the flaws; None: the diagonal / 14 times flaw_size
                  flaw_size: float = 1.0,
-                 strength: float = 1.0,                             # share of the move that is made, 0 to 1
+                 strength: float = 1.0,                             # fraction of the move that is made, 0 to 1
                  limit: float | None = None,                        # largest move along the view; None: length / 20
-                 limit_share: np.ndarray | None = None,             # #V x 2 shares of it: lowest -1 to 0, highest 0 to 1
+                 limit_share: np.ndarray | None = None,             # #V x 2 fractions of it: lowest -1 to 0, highest 0 to 1
                  symmetric: bool = True,                            # what one half of a symmetric panel has alone is a flaw
                  even_flush: bool = False,                          # of parts that move with each other, see JointSmoother
                  progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
@@ -449,7 +449,7 @@ AUTOMATIC_GAP: float  # relative to the diagonal
 def continue_over_gap(V: np.ndarray, F: np.ndarray, V_beside: np.ndarray, F_beside: np.ndarray, *,
                       around: tuple[np.ndarray, np.ndarray] | None = None,  # the faces joined with the region
                       gap: float | None = None,    # the widest gap; None: AUTOMATIC_GAP times the diagonal
-                      reach: float | None = None   # how far the surfaces are followed; None: the widest gap
+                      margin: float | None = None   # how far the surfaces are followed; None: the widest gap
                       ) -> GapContinuation:
     """Continues a region V (#V x 3), F (#F x 3) over the gap between its open border and the surfaces beside it. Raises
     InvalidInput."""
@@ -473,7 +473,7 @@ class PanelCheck:
     all_pass: bool
 
 def check(before: np.ndarray, after: np.ndarray, F: np.ndarray, region: np.ndarray, *, crease_rule: CreaseRule = "automatic",
-          marked_creases: np.ndarray = ..., crease_angle: float = 0.5236, reach: float = 0.1,
+          marked_creases: np.ndarray = ..., crease_angle: float = 0.5236, neighbor_distance: float = 0.1,
           gap: float = 2e-5,                # pass marks: in units of V, 0.02 mm where that is a metre;
           angle: float = 0.1,               # degrees;
           curvature: float = 5.0,           # percent;
@@ -525,7 +525,7 @@ class WorstSpot:
     place: np.ndarray        # 3: on the panel, where the lines deviate most
     size: float              # diameter of a disk with the area where they deviate by half of that or more
     degrees: float           # deviation there in the light and view that show it best
-    height: float            # of the flaw over the flawless surface along its normal: negative of a dent
+    height: float            # of the flaw over the reference surface along its normal: negative of a dent
     view: int                # those that show it best
     light: int
     front_light: int         # the one that shows it best from the first view
@@ -535,11 +535,11 @@ class PanelInspection:
     """The result of `inspect_panel`; see native/include/reflines/inspect_panel.h."""
     length: float            # size of the flaws that were looked for
     degrees: np.ndarray      # #views x #lights: deviation, root mean square over the area that is seen
-    seen: np.ndarray         # #views: share of the panel's area that is seen and not at a grazing angle
+    seen: np.ndarray         # #views: fraction of the panel's area that is seen and not at a grazing angle
     deviation: np.ndarray    # #F: degrees, of each triangle in the light and view in which that is most
     view: np.ndarray         # #F: those
     light: np.ndarray        # #F
-    height: np.ndarray       # #V: of the surface over the flawless one along the first view
+    height: np.ndarray       # #V: of the surface over the reference one along the first view
     maps: np.ndarray         # #F x #views #lights, float32, those of a view beside each other; empty without `maps`
     mean: float              # of `degrees`
     worst_view: int          # with the largest mean of its lights
@@ -664,11 +664,11 @@ class Handle:
                  triangles: np.ndarray = ...,               # of a pin: triangles of the region
                  name: str = "") -> None: ...               # for messages
 
-class HandleReach:
+class HandleResidual:
     """The distance between a handle and its line at the farthest of its points; of a pin, the move of its lines."""
     theta: float     # radians
     distance: float  # along the surface, scene units
-    share: float     # of the spacing of the lines
+    fraction: float  # of the spacing of the lines
 
 class LineHandles:
     """The builder of targets by handles, for a region as its lines are when this is made; see
@@ -688,7 +688,7 @@ class LineHandles:
     def can_follow(self, points: np.ndarray) -> np.ndarray:
         """Returns whether the line at each point (#P x 2) can be laid elsewhere: #P bool; False beside a border that holds,
         and where no line can be read."""
-    def measure(self, handles: Sequence[Handle], optimizer: ShapeOptimizer, *, line_step: float) -> list[HandleReach]:
+    def measure(self, handles: Sequence[Handle], optimizer: ShapeOptimizer, *, line_step: float) -> list[HandleResidual]:
         """Measures at the optimizer's present heights; `line_step` is the step of theta from line to line, radians."""
 
 class HandleFollower:

@@ -86,7 +86,7 @@ void bind_report(py::module_& module) {
       .def_readonly("seconds", &Report::seconds)
       .def_readonly("put_back", &Report::put_back)
       .def_readonly("limited", &Report::limited)
-      .def_readonly("limited_share", &Report::limited_share)
+      .def_readonly("limited_fraction", &Report::limited_fraction)
       .def_readonly("largest_move", &Report::largest_move)
       .def_readonly("residual_rms", &Report::residual_rms);
 }

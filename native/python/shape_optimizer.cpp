@@ -163,7 +163,7 @@ void bind_optimizer(py::module_& module) {
            py::arg("max_iterations") = minimizer.max_iterations, py::arg("limit") = py::none(),
            py::arg("progress") = py::none())
       .def("watch", bind_method(&Shape::watch), py::arg("progress"))
-      .def("scale_move", bind_method(&Shape::scale_move), py::arg("share"))
+      .def("scale_move", bind_method(&Shape::scale_move), py::arg("fraction"))
       .def("keep_within", bind_method(&Shape::keep_within), py::arg("limit"))
       .def("reset", bind_method(&Shape::reset));
 }

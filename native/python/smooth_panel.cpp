@@ -69,7 +69,7 @@ py::object convert_result(SmoothPanelResult result) {
 }
 
 py::object press(PanelSmoother& smoother, double strength, const std::optional<double>& limit,
-                 const Shares& limit_share, std::shared_ptr<Progress> progress, bool judged) {
+                 const LimitRange& limit_share, std::shared_ptr<Progress> progress, bool judged) {
   PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
   amount.judged = judged;
   check_single_call();
@@ -81,7 +81,7 @@ py::object press(PanelSmoother& smoother, double strength, const std::optional<d
 template <typename... Arguments>
 auto press_once(BuildSmoother (*prepare)(Arguments...)) {
   return [prepare](Arguments... arguments, double strength, const std::optional<double>& limit,
-                   const Shares& limit_share, std::shared_ptr<Progress> progress) {
+                   const LimitRange& limit_share, std::shared_ptr<Progress> progress) {
     const PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
     const BuildSmoother build = prepare(std::forward<Arguments>(arguments)...);
     return run_native([build, amount] { return build()->press(amount); }, convert_result);
@@ -89,7 +89,7 @@ auto press_once(BuildSmoother (*prepare)(Arguments...)) {
 }
 
 void bind_press_report(py::module_& module) {
-  using Told = SmoothPanelReport;
+  using Result = SmoothPanelReport;
   py::class_<WorsePlace>(module, "WorsePlace", py::module_local())
       .def_readonly("light", &WorsePlace::light)
       .def_readonly("before", &WorsePlace::before)
@@ -106,31 +106,31 @@ void bind_press_report(py::module_& module) {
   py::class_<PressWork>(module, "PressWork", py::module_local())
       .def_readonly("factorizations", &PressWork::factorizations)
       .def_readonly("solves", &PressWork::solves);
-  py::class_<Told>(module, "SmoothPanelReport", py::module_local())
-      .def_readonly("solve", &Told::solve)
-      .def_readonly("work", &Told::work)
-      .def_readonly("length", &Told::length)
-      .def_readonly("limit", &Told::limit)
-      .def_readonly("largest_move", &Told::largest_move)
-      .def_readonly("largest_control_move", &Told::largest_control_move)
-      .def_readonly("limited", &Told::limited)
-      .def_readonly("bumps", &Told::bumps)
-      .def_readonly("mirrored", &Told::mirrored)
-      .def_readonly("held_faces", &Told::held_faces)
-      .def_readonly("longer_waves", &Told::longer_waves)
-      .def_readonly("score_before", &Told::score_before)
-      .def_readonly("score_after", &Told::score_after)
-      .def_readonly("unevenness_before", &Told::unevenness_before)
-      .def_readonly("unevenness_after", &Told::unevenness_after)
-      .def_readonly("seen", &Told::seen)
-      .def_readonly("healed", &Told::healed)
-      .def_readonly("stray", &Told::stray)
-      .def_readonly("verdict", &Told::verdict)
-      .def_readonly("region", &Told::region)
-      .def_readonly("flush_before", &Told::flush_before)
-      .def_readonly("flush_after", &Told::flush_after)
-      .def_readonly("applied", &Told::applied)
-      .def_readonly("notes", &Told::notes);
+  py::class_<Result>(module, "SmoothPanelReport", py::module_local())
+      .def_readonly("solve", &Result::solve)
+      .def_readonly("work", &Result::work)
+      .def_readonly("length", &Result::length)
+      .def_readonly("limit", &Result::limit)
+      .def_readonly("largest_move", &Result::largest_move)
+      .def_readonly("largest_control_move", &Result::largest_control_move)
+      .def_readonly("limited", &Result::limited)
+      .def_readonly("bumps", &Result::bumps)
+      .def_readonly("mirrored", &Result::mirrored)
+      .def_readonly("held_faces", &Result::held_faces)
+      .def_readonly("longer_waves", &Result::longer_waves)
+      .def_readonly("score_before", &Result::score_before)
+      .def_readonly("score_after", &Result::score_after)
+      .def_readonly("unevenness_before", &Result::unevenness_before)
+      .def_readonly("unevenness_after", &Result::unevenness_after)
+      .def_readonly("seen", &Result::seen)
+      .def_readonly("healed", &Result::healed)
+      .def_readonly("stray", &Result::stray)
+      .def_readonly("verdict", &Result::verdict)
+      .def_readonly("region", &Result::region)
+      .def_readonly("flush_before", &Result::flush_before)
+      .def_readonly("flush_after", &Result::flush_after)
+      .def_readonly("applied", &Result::applied)
+      .def_readonly("notes", &Result::notes);
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ void bind_smooth_panel(py::module_& module) {
   bind_press_report(module);
   module.attr("AUTOMATIC_LENGTH") = kAutomaticLength;
   module.attr("AUTOMATIC_LIMIT") = kAutomaticLimit;
-  module.attr("FAIR_REACH") = kFairReach;
+  module.attr("FAIR_MARGIN") = kFairMargin;
   py::class_<PanelSmoother> smoother(module, "PanelSmoother", py::module_local());
   const SmoothPanelOptions defaults;
   const PressAmount whole;

@@ -35,21 +35,21 @@ py::object residual_of(const ShapeOptimizer& optimizer, const Target& target) {
 }  // namespace
 
 void bind_solve_panel(py::module_& module) {
-  using Told = SolvePanelReport;
+  using Result = SolvePanelReport;
   module.attr("MOST_BOUNDED") = kMostBounded;
   module.attr("MOST_BOUNDED_CAGE") = kMostBoundedCage;
-  py::class_<Told>(module, "SolvePanelReport", py::module_local())
-      .def_readonly("solve", &Told::solve)
-      .def_readonly("limited", &Told::limited)
-      .def_readonly("score_before", &Told::score_before)
-      .def_readonly("score_after", &Told::score_after)
-      .def_readonly("residual_before", &Told::residual_before)
-      .def_readonly("residual_after", &Told::residual_after)
-      .def_readonly("residual", &Told::residual)
-      .def_readonly("falls_short", &Told::falls_short)
-      .def_readonly("held_faces", &Told::held_faces)
-      .def_readonly("turned_faces", &Told::turned_faces)
-      .def_readonly("rim_bend", &Told::rim_bend);
+  py::class_<Result>(module, "SolvePanelReport", py::module_local())
+      .def_readonly("solve", &Result::solve)
+      .def_readonly("limited", &Result::limited)
+      .def_readonly("score_before", &Result::score_before)
+      .def_readonly("score_after", &Result::score_after)
+      .def_readonly("residual_before", &Result::residual_before)
+      .def_readonly("residual_after", &Result::residual_after)
+      .def_readonly("residual", &Result::residual)
+      .def_readonly("falls_short", &Result::falls_short)
+      .def_readonly("held_faces", &Result::held_faces)
+      .def_readonly("turned_faces", &Result::turned_faces)
+      .def_readonly("rim_bend", &Result::rim_bend);
   module.def("solve_panel", &solve, py::arg("optimizer"), py::arg("targets"), py::kw_only(), py::arg("length"),
              py::arg("limit"), py::arg("limit_share") = py::none(), py::arg("around") = py::none(),
              py::arg("most_bounded") = SolvePanelOptions().most_bounded, py::arg("progress") = py::none());

@@ -13,7 +13,7 @@ namespace py = pybind11;
 namespace reflines {
 namespace {
 
-// The state that a task shares with its thread.
+// The state that a task and its thread both use.
 struct Outcome {
   std::mutex mutex;
   std::condition_variable changed;

@@ -65,7 +65,7 @@ void count(benchmark::State& state, const Report& report) {
   state.counters["factorizations"] = report.factorizations;
   state.counters["solves"] = report.solves;
   state.counters["converged"] = report.converged();
-  state.counters["touching"] = report.limited_share;
+  state.counters["touching"] = report.limited_fraction;
 }
 
 void solve(benchmark::State& state, int unknowns, double share) {

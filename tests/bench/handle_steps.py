@@ -42,7 +42,7 @@ def measure_steps(cells: int) -> tuple[list[float], float]:
         reach, = lines.measure([handle], other, line_step=2.0 * np.pi / ALL_LINES)
         assert len(other.positions) == len(reflines.vertex_theta(other))
         times.append(1e3 * (time.perf_counter() - begin))
-        missed = max(missed, reach.share)
+        missed = max(missed, reach.fraction)
     return times, missed
 
 

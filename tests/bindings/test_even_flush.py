@@ -107,7 +107,7 @@ def test_a_dent_that_a_cage_has_shallower_goes_from_the_mesh_across() -> None:
     mesh = V + dent(V), F
     for even in (False, True):
         (left, told), (moved, other) = press_panels(
-            reflines.JointPanel(*mesh, **DIRECTIONS, reach=REACH, even_flush=even),
+            reflines.JointPanel(*mesh, **DIRECTIONS, margin=REACH, even_flush=even),
             cage_panel(cage, even_flush=even))
         after = look_at((moved, *cage[1:]))
         varies, deepest = uneven((left, F), (after, G)), max(leave_off(left), leave_off(after))

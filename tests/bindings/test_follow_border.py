@@ -38,7 +38,7 @@ def bend(V: Array) -> Array:
 
 
 def follow(V: Array, F: Array, beside: tuple[Array, Array], **options: object) -> tuple[Array, object, object]:
-    found = reflines.continue_over_gap(V, F, *beside, reach=REACH)
+    found = reflines.continue_over_gap(V, F, *beside, margin=REACH)
     codes = np.where(found.followed, 5, 2)
     positions, told = reflines.smooth_panel(V, F, **DIRECTIONS, border=codes, around=(found.V, found.F), **options)
     return positions, told, found
@@ -88,7 +88,7 @@ def test_a_clean_half_moves_no_further_than_when_it_is_clamped(gap: float) -> No
 
 def test_the_rings_lie_on_the_surface_beside() -> None:
     V, F = half(-1, 0.004, "regular", 40)
-    found = reflines.continue_over_gap(V, F, *half(1, 0.004, "irregular", 33), reach=REACH)
+    found = reflines.continue_over_gap(V, F, *half(1, 0.004, "irregular", 33), margin=REACH)
     x, y, z = found.V.T
     assert len(x) > 250 and x.min() > cut(y).min() and np.ptp(x) > 0.1
     assert np.abs(z - cylinder(x, y)).max() < 2e-5
@@ -99,7 +99,7 @@ def test_a_step_stays_and_its_tangents_run_on() -> None:
     V, F = half(-1, 0.004, "regular", 40)
     other, G = half(1, 0.004, "regular", 40)
     other[:, 2] += 0.001
-    found = reflines.continue_over_gap(V, F, other, G, reach=REACH)
+    found = reflines.continue_over_gap(V, F, other, G, margin=REACH)
     assert np.allclose(found.flush[found.followed], 0.001, rtol=0.1) and found.followed.sum() > 35
     assert np.abs(found.V[:, 2] - cylinder(*found.V.T[:2])).max() < 1e-4
 
@@ -117,7 +117,7 @@ NO_NEIGHBOURS = {  # what is made of a half and its triangles
 @pytest.mark.parametrize("change", NO_NEIGHBOURS.values(), ids=NO_NEIGHBOURS)
 def test_what_is_no_neighbour_is_not_followed(change: object) -> None:
     V, F = half(-1, 0.004, "regular", 40)
-    found = reflines.continue_over_gap(V, F, *change(*half(1, 0.004, "regular", 40)), reach=REACH)
+    found = reflines.continue_over_gap(V, F, *change(*half(1, 0.004, "regular", 40)), margin=REACH)
     assert not found.followed.any() and len(found.F) == 0
 
 
@@ -131,7 +131,7 @@ def test_an_edge_with_a_hem_turned_away_is_open_and_one_that_runs_on_is_not() ->
         more = len(V) + np.arange(len(order))
         strips = np.concatenate([np.column_stack([order[1:], order[:-1], more[:-1]]),
                                  np.column_stack([order[1:], more[:-1], more[1:]])])
-        found = reflines.continue_over_gap(V, F, *beside, reach=REACH, around=(V[order] + shift, strips))
+        found = reflines.continue_over_gap(V, F, *beside, margin=REACH, around=(V[order] + shift, strips))
         counts.append(found.followed.sum())
     assert counts[0] > 35 and counts[1] == 0
 

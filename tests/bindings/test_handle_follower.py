@@ -39,7 +39,7 @@ class Session:
     def follow(self, handles: list[reflines.Handle]) -> list[float]:
         """Returns how far the lines pass beside the handles, as shares of their spacing."""
         assert self.follower.follow(handles, self.other)
-        return [reach.share for reach in self.lines.measure(handles, self.other, line_step=STEP)]
+        return [reach.fraction for reach in self.lines.measure(handles, self.other, line_step=STEP)]
 
 
 @pytest.mark.parametrize("border", ("clamped", "free"))

@@ -53,11 +53,11 @@ def press(*panels: reflines.JointPanel, **amount: object) -> list:
 
 
 def panel(mesh: tuple[Array, Array]) -> reflines.JointPanel:
-    return reflines.JointPanel(*mesh, **DIRECTIONS, reach=REACH)
+    return reflines.JointPanel(*mesh, **DIRECTIONS, margin=REACH)
 
 
 def cage_panel(cage: Cage, **options: object) -> reflines.JointPanel:
-    return reflines.JointPanel.for_cage(*cage, **DIRECTIONS, reach=REACH, boundary="preserve_corners", **options)
+    return reflines.JointPanel.for_cage(*cage, **DIRECTIONS, margin=REACH, boundary="preserve_corners", **options)
 
 
 def rim(points: Array, side: int) -> tuple[Array, Array]:

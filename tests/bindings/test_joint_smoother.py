@@ -10,7 +10,7 @@ CLAMPED, FOLLOW = 2, 5  # codes of borders
 
 
 def press(*meshes: Mesh, strength: float = 1.0, limit: float | None = None, **options: object) -> list:
-    smoother = reflines.JointSmoother([reflines.JointPanel(*mesh, **DIRECTIONS, reach=REACH, **options)
+    smoother = reflines.JointSmoother([reflines.JointPanel(*mesh, **DIRECTIONS, margin=REACH, **options)
                                        for mesh in meshes])
     count = len(meshes)
     return smoother.press(strengths=[strength] * count, limits=[limit] * count, limit_shares=[None] * count)
@@ -101,7 +101,7 @@ def test_the_order_of_the_panels_does_not_matter() -> None:
 
 def test_a_second_press_is_that_of_a_new_smoother() -> None:
     (V, F), (W, G) = halves(0.004)
-    panels = [reflines.JointPanel(change(P, dent(P)), T, **DIRECTIONS, reach=REACH) for P, T in ((V, F), (W, G))]
+    panels = [reflines.JointPanel(change(P, dent(P)), T, **DIRECTIONS, margin=REACH) for P, T in ((V, F), (W, G))]
     smoother = reflines.JointSmoother(panels)
     amount = {"limits": [None] * 2, "limit_shares": [None] * 2}
     smoother.press(strengths=[1.0, 1.0], **amount)
@@ -123,8 +123,8 @@ def test_a_panel_that_faces_others_with_held_vertices_alone_is_pressed_alone() -
     border = np.full(len(V), CLAMPED)
     at = np.flatnonzero(rim(V, 0.004))
     border[at[np.argsort(np.abs(V[at, 1]))[:2]]] = FOLLOW
-    panels = (reflines.JointPanel(change(V, dent(V)), F, **DIRECTIONS, reach=REACH, border=border),
-              reflines.JointPanel(W, G, **DIRECTIONS, reach=REACH))
+    panels = (reflines.JointPanel(change(V, dent(V)), F, **DIRECTIONS, margin=REACH, border=border),
+              reflines.JointPanel(W, G, **DIRECTIONS, margin=REACH))
     (left, _), (right, _) = reflines.JointSmoother(panels).press(strengths=[1.0] * 2, limits=[None] * 2,
                                                                  limit_shares=[None] * 2)
     assert np.array_equal(left, reflines.smooth_panel(change(V, dent(V)), F, **DIRECTIONS)[0])
@@ -135,8 +135,8 @@ def test_what_stays_beside_is_followed_and_the_other_panels_move() -> None:
     """Of three halves in a row the first one stays: all of the kink beside it is turned by the second."""
     (V, F), (W, G) = half(-1, 0.004, "regular", 40), half(1, 0.004, "regular", 33)
     bent = change(V, bend(V))
-    stays = reflines.JointPanel(bent, F, **DIRECTIONS, reach=REACH, beside=(W, G))
-    other = reflines.JointPanel(W + [3.0, 0.0, 0.0], G, **DIRECTIONS, reach=REACH)
+    stays = reflines.JointPanel(bent, F, **DIRECTIONS, margin=REACH, beside=(W, G))
+    other = reflines.JointPanel(W + [3.0, 0.0, 0.0], G, **DIRECTIONS, margin=REACH)
     smoother = reflines.JointSmoother([stays, other])
     (left, _), _ = smoother.press(strengths=[1.0] * 2, limits=[None] * 2, limit_shares=[None] * 2)
     at = np.flatnonzero(rim(V, 0.004) & (np.abs(V[:, 1]) < 0.38))

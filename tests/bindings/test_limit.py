@@ -129,7 +129,7 @@ def test_nearly_flat_it_is_bounded_linear_least_squares():
     report = solver.solve(target, limit=limit, gradient_tolerance=1e-10)
     referee = referee_library().lsq_linear(
         np.stack(columns, 1), -field / limit, bounds=(-1, 1), tol=1e-14, method="bvls")
-    assert report.converged and 0.1 < report.limited_share < 0.9
+    assert report.converged and 0.1 < report.limited_fraction < 0.9
     assert np.abs(moves_z(solver, positions)[free] / limit - referee.x).max() < 1e-6
 
 
@@ -258,7 +258,7 @@ def test_rounds_that_change_few_of_many_contacts_take_no_factorization(share):
     largest = made(positions, triangles).solve(reflines.smooth(made(positions, triangles), length=0.5)).largest_move
     solver = made(positions, triangles)
     report = solver.solve(reflines.smooth(solver, length=0.5), limit=share * largest)
-    assert report.converged and report.limited_share > 0.05
+    assert report.converged and report.limited_fraction > 0.05
     assert report.factorizations <= 4
 
 

@@ -70,7 +70,7 @@ def test_a_pulled_line_passes_through_its_point_and_lines_beyond_the_radius_stay
     reach, = lines.measure([handle], solver, line_step=STEP)
     after, = reflines.LineHandles(solver).read_theta((start + across(solver, 0.1))[None])
     assert abs(after - lines.read_theta(start[None])[0]) < 0.01 * STEP
-    assert reach.share < 0.01
+    assert reach.fraction < 0.01
     beyond = np.linalg.norm(solver.xy - start, axis=1) > 1.1 * RADIUS
     assert moves_of_lines(solver, before)[beyond].max() < 0.02
     assert 0.2 < moves_of_lines(solver, before).max() < 0.4
@@ -114,10 +114,10 @@ def test_pinned_lines_stay_beside_a_pull() -> None:
         solver.reset()
         solver.solve(lines.build(handles))
         area_moved = moves_of_lines(solver, before)[F[area]].max()
-        moved.append([*(reach.share for reach in lines.measure(pins, solver, line_step=STEP)[:2]), area_moved])
+        moved.append([*(reach.fraction for reach in lines.measure(pins, solver, line_step=STEP)[:2]), area_moved])
     assert (np.array(moved[0]) > 0.02).all(), moved
     assert (np.array(moved[1]) < 0.02).all(), moved
-    assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.01
+    assert lines.measure([handle], solver, line_step=STEP)[0].fraction < 0.01
 
 
 def test_a_line_is_laid_along_a_curve() -> None:
@@ -126,9 +126,9 @@ def test_a_line_is_laid_along_a_curve() -> None:
     start = middle(solver)
     curve = start + np.column_stack([0.02 + 0.03 * np.cos(np.linspace(0, 6, 20)), np.linspace(-0.2, 0.2, 20)])
     handle = reflines.Handle(curve, value=lines.read_theta(start[None])[0], radius=RADIUS)
-    assert lines.measure([handle], solver, line_step=STEP)[0].share > 0.1
+    assert lines.measure([handle], solver, line_step=STEP)[0].fraction > 0.1
     assert solver.solve(lines.build([handle])).converged
-    assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.02
+    assert lines.measure([handle], solver, line_step=STEP)[0].fraction < 0.02
 
 
 def reach_of(lines: reflines.LineHandles, start: Array, way: Array) -> float:
@@ -159,7 +159,7 @@ def test_a_curve_from_border_to_border_is_met_where_lines_can_move(cells: int) -
     handle = reflines.Handle(curve, value=lines.read_theta(centre[None])[0], radius=RADIUS)
     solver.solve(lines.build([handle]))
     reach, = lines.measure([handle], solver, line_step=STEP)
-    assert reach.share < 0.05, reach.share
+    assert reach.fraction < 0.05, reach.fraction
     held = curve[:1] + np.linspace(0.0, 0.01, 5)[:, None] * along
     with pytest.raises(reflines.InvalidInput, match="on a border that holds"):
         lines.build([reflines.Handle(held, value=0.0, radius=RADIUS)])
@@ -188,7 +188,7 @@ def test_a_curve_that_leaves_the_region_is_laid_where_that_has_lines() -> None:
     curve = start + 0.02 * way + np.linspace(-0.3, 2.0, 24)[:, None] * along
     handle = reflines.Handle(curve, value=value, radius=RADIUS)
     assert solver.solve(lines.build([handle])).converged
-    assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.02
+    assert lines.measure([handle], solver, line_step=STEP)[0].fraction < 0.02
     with pytest.raises(reflines.InvalidInput, match="off the region"):
         lines.build([reflines.Handle(curve[-8:], value=value, radius=RADIUS)])
 
@@ -208,7 +208,7 @@ def test_lines_stay_where_the_fall_off_map_is_0_and_meet_the_handle_where_it_is_
         lines = reflines.LineHandles(solver, falloff=draw_map(solver) if mapped else None)
         handle = pull(lines, start, start + across(solver, 0.1))
         assert solver.solve(lines.build([handle])).converged
-        assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.01
+        assert lines.measure([handle], solver, line_step=STEP)[0].fraction < 0.01
         moved.append(moves_of_lines(solver, before)[draw_map(solver) == 0.0].max())
     assert moved[1] < 0.02 and moved[1] < 0.2 * moved[0], moved
 
@@ -222,14 +222,14 @@ def test_the_less_the_map_the_less_lines_follow_and_the_handle_is_met_all_the_sa
         lines = reflines.LineHandles(solver, falloff=level + (1.0 - level) * free)
         handle = pull(lines, start, start + across(solver, 0.1))
         solver.solve(lines.build([handle]))
-        assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.01
+        assert lines.measure([handle], solver, line_step=STEP)[0].fraction < 0.01
         moved.append(moves_of_lines(solver, before)[free == 0.0].max())
     assert (np.diff(moved) < 0.0).all() and moved[1] > 0.5 * moved[0], moved
     halfway = optimizer()
     lines = reflines.LineHandles(halfway, falloff=np.full(len(halfway.xy), 0.5))
     handle = pull(lines, start, start + across(halfway, 0.1))
     halfway.solve(lines.build([handle]))
-    assert lines.measure([handle], halfway, line_step=STEP)[0].share < 0.01
+    assert lines.measure([handle], halfway, line_step=STEP)[0].fraction < 0.01
 
 
 def test_a_map_of_1_changes_no_bit_and_handles_at_rest_change_none_under_any() -> None:
@@ -270,7 +270,7 @@ def test_several_handles_are_all_met() -> None:
     handles = [pull(lines, start, start + sign * way) for start, sign in zip(starts, (1, 1, -1), strict=True)]
     assert not lines.find_conflicts(handles)
     assert solver.solve(lines.build(handles)).converged
-    assert max(reach.share for reach in lines.measure(handles, solver, line_step=STEP)) < 0.01
+    assert max(reach.fraction for reach in lines.measure(handles, solver, line_step=STEP)) < 0.01
 
 
 def test_the_same_on_a_cage() -> None:
@@ -281,7 +281,7 @@ def test_the_same_on_a_cage() -> None:
     handle = pull(lines, start, start + across(solver, 0.1))
     assert solver.solve(lines.build([handle])).converged
     pulled = abs(lines.read_theta((start + across(solver, 0.1))[None]) - lines.read_theta(start[None]))[0] / STEP
-    assert lines.measure([handle], solver, line_step=STEP)[0].share < 0.01 < pulled
+    assert lines.measure([handle], solver, line_step=STEP)[0].fraction < 0.01 < pulled
     beyond = np.linalg.norm(solver.xy - start, axis=1) > 1.1 * RADIUS
     assert moves_of_lines(solver, before)[beyond].max() < max(0.02, 0.1 * pulled)
     assert np.abs(solver.cage_positions - sample_cages.hood()[0]).max() > 1e-4
@@ -344,7 +344,7 @@ def test_values_that_jump_by_a_full_turn_are_right() -> None:
     assert np.allclose(targets[0][0].gradient, targets[1][0].gradient, atol=1e-9)
     assert np.abs(targets[0][0].gradient - solver.field()).max() < 2.0
     assert solver.solve(targets[0]).converged
-    assert lines.measure(handles, solver, line_step=STEP)[0].share < 0.01
+    assert lines.measure(handles, solver, line_step=STEP)[0].fraction < 0.01
 
 
 def test_what_is_reached_is_told_along_the_surface() -> None:
@@ -358,7 +358,7 @@ def test_what_is_reached_is_told_along_the_surface() -> None:
     reach, = lines.measure([reflines.Handle(places[1:], value=value, radius=0.2)], solver, line_step=STEP)
     arc = 2.0 * abs(np.diff(np.arcsin((places @ solver.frame[:2, 0] + 1.0) / 2.0))[0])
     assert abs(reach.distance / arc - 1.0) < 0.05
-    assert abs(reach.share - abs(reach.theta) / STEP) < 1e-12
+    assert abs(reach.fraction - abs(reach.theta) / STEP) < 1e-12
 
 
 def test_handles_that_force_lines_to_cross_are_named() -> None:

@@ -54,4 +54,4 @@ def test_both_rims_follow_where_three_panels_meet() -> None:
     for k, (V, F) in enumerate(meshes[1:], 1):
         beside, G = join(*(mesh for j, mesh in enumerate(meshes) if j != k))
         corner = np.argmin(np.hypot(V[:, 0], V[:, 1]))
-        assert reflines.continue_over_gap(V, F, beside, G, reach=0.17).followed[corner]
+        assert reflines.continue_over_gap(V, F, beside, G, margin=0.17).followed[corner]

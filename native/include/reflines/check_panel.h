@@ -11,16 +11,16 @@
 namespace reflines {
 
 enum class SeamKind : signed char {
-  kBorder,  // an edge between a triangle of the region and one outside, or one of another sheet within reach
+  kBorder,  // an edge between a triangle of the region and one outside, or one of another sheet near it
   kCrease,  // a crease within the region
   kOpen,    // an edge of the region with nothing, or several triangles, on its other side, which cannot be judged
 };
 
 struct CheckOptions {
   CreaseOptions creases;  // which edges within the region are creases, of the surface before
-  // The largest distance of another sheet from an edge where the region's own ends, as a share of the edge's length, at
-  // which it counts as the neighbour.
-  double reach = 0.1;
+  // The largest distance of another sheet from an edge where the region's own ends, as a fraction of the edge's length,
+  // at which it counts as the neighbour.
+  double neighbor_distance = 0.1;
   double gap = 2e-5;        // pass marks: in units of V, 0.02 mm where that is a metre;
   double angle = 0.1;       // degrees;
   double curvature = 5.0;   // percent;

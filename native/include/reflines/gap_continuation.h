@@ -11,8 +11,8 @@ namespace reflines {
 inline constexpr double kAutomaticGap = 0.012;
 
 struct GapOptions {
-  double gap = 0.0;    // the widest that is crossed, in units of V; 0: kAutomaticGap times the diagonal
-  double reach = 0.0;  // how far beyond the border the surfaces are followed, in units of V; 0: the widest gap
+  double gap = 0.0;     // the widest that is crossed, in units of V; 0: kAutomaticGap times the diagonal
+  double margin = 0.0;  // how far beyond the border the surfaces are followed, in units of V; 0: the widest gap
 };
 
 struct GapContinuation {
@@ -25,7 +25,7 @@ struct GapContinuation {
 
 // Continues the region V (#V x 3), F (#F x 3) along the surfaces `beside` (their triangles, in space, oriented alike)
 // where its border is open. The border of the region counts as open where no triangle of `around`, see Surroundings,
-// shares it and faces the same way within 60 degrees: an edge from which a hem turns away is the end of the skin.
+// has it too and faces the same way within 60 degrees: an edge from which a hem turns away is the end of the skin.
 //
 // A surface is the neighbour of a border vertex where it faces the same way, begins within the gap, lies not over or
 // under the region, is no more than 0.3 gaps higher or lower, and is tilted by no more than 10 degrees. Where there are

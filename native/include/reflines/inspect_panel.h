@@ -30,7 +30,7 @@ struct WorstSpot {
   Vector3 place;               // on the panel, where the lines deviate most
   double size = 0.0;           // diameter of a disk with the area where they deviate by half of that or more
   double degrees = 0.0;        // deviation there in the light and view that show it best
-  double height = 0.0;         // of the flaw over the flawless surface along its normal: negative of a dent
+  double height = 0.0;         // of the flaw over the reference surface along its normal: negative of a dent
   int view = 0, light = 0;     // those that show it best
   int front_light = 0;         // the one that shows it best from the first view
   std::vector<int> triangles;  // those that deviate by half of that or more, ascending
@@ -41,10 +41,10 @@ struct WorstSpot {
 struct PanelInspection {
   double length = 0.0;      // the one used
   Eigen::MatrixXd degrees;  // #views x #lights: deviation, root mean square over the area that is seen
-  Vector seen;              // #views: share of the panel's area that is seen and not at a grazing angle
+  Vector seen;              // #views: fraction of the panel's area that is seen and not at a grazing angle
   Vector deviation;         // #F: of each triangle in the light and view in which that is most; 0 where nothing is seen
   IndexVector view, light;  // #F: those
-  Vector height;            // #V: of the surface over the flawless one along the first view; 0 where that is not known
+  Vector height;            // #V: of the surface over the reference one along the first view; 0 where that is not known
   // #F x #views #lights, those of a view beside each other, or nothing: as `deviation`, of each light and view alone.
   Eigen::MatrixXf maps;
   double mean = 0.0;             // of `degrees`
@@ -55,8 +55,8 @@ struct PanelInspection {
 
 // Inspects the panel V (#V x 3), F (#F x 3) from `views` (#views x 3, directions from the surface to the viewer, of
 // which the first is that along which the panel is a height field) in light lines of the directions `lines` (#lights x
-// 3). Nothing is solved, and nothing is moved: flaws are what two estimates of the flawless surface agree on, see
-// inspection/flawless_surface.h. Triangles that are hidden from a view, turned away from it or seen at a grazing angle
+// 3). Nothing is solved, and nothing is moved: flaws are what two estimates of the reference surface agree on, see
+// inspection/reference_surface.h. Triangles that are hidden from a view, turned away from it or seen at a grazing angle
 // have no weight there. On clean panels, with character lines and fillets, no place deviates by 0.08 degrees; dents of
 // 0.05 per mille of the diagonal are found with their height within 30 %, where they are three edges wide and no wider
 // than a length. Throws InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.

@@ -36,15 +36,15 @@ struct Handle {
 };
 
 // The distance between a handle and its line, at the farthest of its points. Of a pin it is the move of its lines.
-struct HandleReach {
+struct HandleResidual {
   double theta = 0.0;     // radians beside the wanted value, at the farthest point
   double distance = 0.0;  // along the surface, the mesh's unit of length
-  double share = 0.0;     // of the spacing of the lines
+  double fraction = 0.0;  // of the spacing of the lines
 };
 
 // The builder of targets for a region as its lines are when this is made. The wanted change of theta, c, is the
 // smoothest function (bi-Laplacian) with the handles' changes at their points that is 0 at pins and beyond the radii.
-// The first target is the present field plus grad c, as far as heights can reach it; the others fit theta itself (eq.
+// The first target is the present field plus grad c, as far as heights can follow it; the others fit theta itself (eq.
 // 3): the second around pulls, where the gradient alone reaches a third to three quarters of the change, and beyond the
 // radii, the third at the handles, which are to be met.
 // Handles that change nothing give the present field bit for bit.
@@ -87,7 +87,8 @@ class LineHandles {
 
   // Returns what the lines in `now`, the region at other heights, have reached. `line_step` is the step of theta from
   // one line to the next, radians.
-  std::vector<HandleReach> measure(const std::vector<Handle>& handles, const RegionField& now, double line_step) const;
+  std::vector<HandleResidual> measure(const std::vector<Handle>& handles, const RegionField& now,
+                                      double line_step) const;
 
  private:
   bool can_lay(int triangle) const;

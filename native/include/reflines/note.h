@@ -18,7 +18,7 @@ enum class NoteKind {
   // These are of a press's border that is not as it was wanted.
   kFollowingWorsens,   // it is clamped: following its neighbours, lines would have become less even
   kJoiningWorsens,     // clamped: smoothed across the gap as one with its neighbours, lines would have become less even
-  kContinuingWorsens,  // clamped: with its curvature continued, lines stray by `after` instead of `before` degrees
+  kContinuingWorsens,  // clamped: with its curvature continued, lines deviate by `after` instead of `before` degrees
   kContinuingChangesNothing,  // clamped: with its curvature continued, nothing could have been changed
   kContinuingFails,           // clamped: with its curvature continued, the solver breaks down
   kNotFaired,                 // held: no faces beside the region tell where it should run

@@ -32,8 +32,9 @@ PressAmount amount_of(const SmoothPanelOptions& options);
 // Each press gives the bits that smooth_panel gives for the same options, whatever was pressed before.
 class PanelSmoother {
  public:
-  // Take the arguments of smooth_panel and smooth_cage_panel; strength, limit, its shares and progress of the options
-  // are not read. Throw InvalidInput; the work is done in the first press. Keep no reference to their arguments.
+  // Take the arguments of smooth_panel and smooth_cage_panel; strength, limit, its fractions and progress of the
+  // options are not read. Throw InvalidInput; the work is done in the first press. Keep no reference to their
+  // arguments.
   PanelSmoother(const Positions& V, const Triangles& F, const Vector3& view_direction, const Vector3& line_direction,
                 const SmoothPanelOptions& options = {});
   PanelSmoother(const Cage& cage, const Positions& V, const Vector3& view_direction, const Vector3& line_direction,

@@ -42,9 +42,9 @@ struct Report {
   int put_back = 0;  // unknowns outside the bounds at the start, moved into them before anything else
 
   // The results in terms of the surface, filled in by the owner of the geometry: the minimizer does not know it.
-  int limited = 0;             // vertices that touch the limit; see ShapeOptimizer::at_limit
-  double limited_share = 0.0;  // those as a fraction of the free vertices
-  double largest_move = 0.0;   // along the view direction, scene units
+  int limited = 0;                // vertices that touch the limit; see ShapeOptimizer::at_limit
+  double limited_fraction = 0.0;  // those as a fraction of the free vertices
+  double largest_move = 0.0;      // along the view direction, scene units
   double residual_rms =
       0.0;  // root mean square of |grad theta - target| over the triangles that can change, radians / length
 

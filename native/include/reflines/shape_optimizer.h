@@ -134,9 +134,9 @@ class ShapeOptimizer {
   IndexVector at_limit() const;
 
   // Scales all moves from the heights that the optimizer was built with. Throws InvalidInput outside 0 to 1.
-  void scale_move(double share);
+  void scale_move(double fraction);
 
-  // Scales all moves by the share that the limit is of the largest one, where that is beyond it. Returns how many
+  // Scales all moves by the fraction that the limit is of the largest one, where that is beyond it. Returns how many
   // vertices were beyond it, at least one then: the numbers are rounded.
   int keep_within(double limit);
 

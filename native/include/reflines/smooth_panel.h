@@ -24,7 +24,7 @@ inline constexpr double kAutomaticLength = 1.0 / 14.0;
 inline constexpr double kAutomaticLimit = 1.0 / 20.0;
 
 // Lengths from the region that a press with a faired border takes in.
-inline constexpr double kFairReach = 2.0;
+inline constexpr double kFairMargin = 2.0;
 
 enum class Lights {
   kCrossed,  // the light lines given, and the same turned by 90 degrees in the image plane
@@ -56,8 +56,8 @@ struct SmoothPanelOptions {
   double flaw_size = 1.0;  // see length; above 0
   double strength = 1.0;   // fraction of the move that is made, 0 to 1
   double limit = 0.0;      // no vertex moves further along the view, in units of V; 0: kAutomaticLimit times the length
-  // Shares of the limit for each vertex (#V, of a cage its own): the lowest moves -1 to 0, the highest 0 to 1. Empty:
-  // -1 and 1 everywhere.
+  // Fractions of the limit for each vertex (#V, of a cage its own): the lowest moves -1 to 0, the highest 0 to 1.
+  // Empty: -1 and 1 everywhere.
   MoveLimit limit_share;
   bool symmetric = true;               // what one half of a symmetric panel has and the other has not is a flaw
   std::shared_ptr<Progress> progress;  // or none

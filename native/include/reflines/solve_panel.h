@@ -16,15 +16,15 @@
 namespace reflines {
 
 // Unknowns up to which a shape within a limit is solved for; above, moves are scaled to it, and those that a press
-// finds saturate. Presses of 90,000 vertices that reach the limit take 1.1 to 2.3 times as long as free ones; a limit
+// finds saturate. Presses of 90,000 vertices that come to the limit take 1.1 to 2.3 times as long as free ones; a limit
 // that 3,266 of 7,469 unknowns of a cage touch takes 30 s.
 inline constexpr int kMostBounded = 100000, kMostBoundedCage = 8000;
 
 struct SolvePanelOptions {
   double length = 0.0;  // of the scores, above 0: detail that is finer counts as a deviation
   double limit = 0.0;   // no vertex moves further along the view, in units of V; may be infinite
-  // Shares of the limit for each vertex of the optimizer (#V): the lowest moves -1 to 0, the highest 0 to 1. Empty: -1
-  // and 1 everywhere.
+  // Fractions of the limit for each vertex of the optimizer (#V): the lowest moves -1 to 0, the highest 0 to 1. Empty:
+  // -1 and 1 everywhere.
   MoveLimit limit_share;
   Surroundings around;   // or none: faces that the region's rim is bent against
   int most_bounded = 0;  // unknowns up to which moves are bounded; 0: kMostBounded, of a cage kMostBoundedCage

@@ -14,7 +14,7 @@ struct Target {
   // surface at the scale of the triangles, with a weight that vanishes with their area, and may be empty.
   Vector theta;
   int family = 0;  // index of the light lines' family in the optimizer
-  // Fits only the part of the gradient that heights can reach (see ReachableTarget) instead of minimizing the distance
+  // Fits only the part of the gradient that heights can attain (see ReachableTarget) instead of minimizing the distance
   // to all of it; values beside such a gradient hold the lines only as far as that lets them. Set by the tools that
   // create new lines, whose unreachable part would otherwise imprint the triangulation on the lines.
   bool reachable_only = false;

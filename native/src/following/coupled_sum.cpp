@@ -5,8 +5,11 @@
 namespace reflines {
 
 CoupledSum::CoupledSum(const SplineWindow& window)
-    : window_(window), reach_(window.reach()), width_(2 * reach_ + 1), matrix_(window.count(), window.count()) {
-  values_.assign(static_cast<size_t>(window.count()) * (reach_ + 1) * width_, 0.0);
+    : window_(window),
+      bandwidth_(window.bandwidth()),
+      width_(2 * bandwidth_ + 1),
+      matrix_(window.count(), window.count()) {
+  values_.assign(static_cast<size_t>(window.count()) * (bandwidth_ + 1) * width_, 0.0);
   const std::vector<int>& spline = window.spline_of_mode();
   for (const int own : spline) {
     across_.push_back(own % window.columns());
@@ -15,15 +18,15 @@ CoupledSum::CoupledSum(const SplineWindow& window)
   for (int column = 0; column < window.count(); ++column) {
     matrix_.startVec(column);
     const int own = across_[column];
-    for (int k = 0; k < (reach_ + 1) * width_; ++k) {
-      const int across = k % width_ - reach_, along = k / width_;
+    for (int k = 0; k < (bandwidth_ + 1) * width_; ++k) {
+      const int across = k % width_ - bandwidth_, along = k / width_;
       if (along == 0 && across < 0) continue;
       if (own + across < 0 || own + across >= window.columns()) continue;
       const auto found =
           std::lower_bound(spline.begin(), spline.end(), spline[column] + along * window.columns() + across);
       if (found == spline.end() || *found != spline[column] + along * window.columns() + across) continue;
       matrix_.insertBack(static_cast<int>(found - spline.begin()), column) = 0.0;
-      source_.push_back(static_cast<size_t>(column) * (reach_ + 1) * width_ + k);
+      source_.push_back(static_cast<size_t>(column) * (bandwidth_ + 1) * width_ + k);
     }
   }
   matrix_.finalize();
@@ -35,8 +38,8 @@ void CoupledSum::clear() {
 }
 
 size_t CoupledSum::place(int row, int column) const {
-  return (static_cast<size_t>(column) * (reach_ + 1) + along_[row] - along_[column]) * width_ + across_[row] -
-         across_[column] + reach_;
+  return (static_cast<size_t>(column) * (bandwidth_ + 1) + along_[row] - along_[column]) * width_ + across_[row] -
+         across_[column] + bandwidth_;
 }
 
 void CoupledSum::add(const std::vector<int>& mode, const Eigen::Ref<const Eigen::MatrixXd>& block) {

@@ -25,9 +25,9 @@ class CoupledSum {
   size_t place(int row, int column) const;
 
   const SplineWindow& window_;
-  int reach_, width_;
+  int bandwidth_, width_;
   std::vector<int> across_, along_;  // column and row of each motion among the knots
-  std::vector<double> values_;       // of each column the rows at and after it, within reach
+  std::vector<double> values_;       // of each column the rows at and after it, within bandwidth
   std::vector<size_t> source_;       // in values_, of each entry of matrix_
   double diagonal_ = 0.0;
   SparseMatrix matrix_;

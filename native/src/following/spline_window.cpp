@@ -186,7 +186,7 @@ void SplineWindow::fill_sample(WindowSample& sample) {
     sample.mode.push_back(mode);
   }
   sample.D = D(Eigen::all, columns);
-  reach_ = std::max({reach_, across - 1, along - 1});
+  bandwidth_ = std::max({bandwidth_, across - 1, along - 1});
 }
 
 std::vector<int> SplineWindow::sampled_triangles() const {

@@ -48,10 +48,11 @@ class SplineWindow {
 
   void move(const Vector& c, Vector& z) const;  // adds the motion to the heights (#V) of the vertices that may move
 
-  // Positions of the motions among the knots: two within `reach` columns and rows of each other share a sample.
+  // Positions of the motions among the knots: two within `bandwidth` columns and rows of each other have a sample in
+  // common.
   const std::vector<int>& spline_of_mode() const { return spline_; }
   int columns() const { return grid_.columns; }
-  int reach() const { return reach_; }
+  int bandwidth() const { return bandwidth_; }
 
  private:
   void lay_grid(double step);
@@ -65,7 +66,7 @@ class SplineWindow {
   KnotGrid grid_;
   std::vector<int> mode_;    // of each spline, or -1
   std::vector<int> spline_;  // of each mode
-  int count_ = 0, reach_ = 3;
+  int count_ = 0, bandwidth_ = 3;
   std::vector<WindowSample> samples_;
 };
 

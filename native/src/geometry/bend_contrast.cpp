@@ -18,7 +18,7 @@ constexpr double kBeside = 1.5;
 constexpr int kMostCrossings = 1000;
 // The least turning, relative to the bend of the edge, of a side where the surface ends within the window: the part
 // that exists may prove a round shape, the missing part proves nothing.
-constexpr double kTellingShare = 0.25;
+constexpr double kTellingFraction = 0.25;
 
 struct Crossing {
   double distance, turning;  // distance from the edge; radians
@@ -48,16 +48,16 @@ class Walk {
     place_ = 0.5 * (surface.V.row(surface.F(t, (i + 1) % 3)) + surface.V.row(surface.F(t, (i + 2) % 3)));
   }
 
-  Path go(double reach) {
+  Path go(double distance) {
     Path path;
     for (int k = 0; k < kMostCrossings; ++k) {
       const int exit = next_exit();
-      if (exit < 0 || path.length + step_ >= reach) break;
+      if (exit < 0 || path.length + step_ >= distance) break;
       path.length += step_;
       if (surface_.neighbors(t_, exit) < 0) return path;
       path.crossings.push_back({path.length, cross(exit)});
     }
-    path.length = reach;
+    path.length = distance;
     return path;
   }
 
@@ -113,7 +113,7 @@ double measure_contrast(const Path (&sides)[2], double bend, double width) {
   for (const Path& side : sides) {
     inside += measure_turning(side, 0, 0.5 * width);
     const double turning = measure_turning(side, 0.5 * width, (0.5 + kBeside) * width);
-    if (side.length >= (0.5 + kBeside) * width || turning > kTellingShare * bend) beside = std::max(beside, turning);
+    if (side.length >= (0.5 + kBeside) * width || turning > kTellingFraction * bend) beside = std::max(beside, turning);
   }
   if (beside < 0) return -1;
   return beside > 0 ? inside / beside : std::numeric_limits<double>::infinity();
@@ -131,8 +131,8 @@ int find_facing_corner(const BentSurface& surface, int t, int i) {
 double bend_contrast(const BentSurface& surface, int t, int i, double widest) {
   const int other = surface.neighbors(t, i), facing = find_facing_corner(surface, t, i);
   const double first = kFirstWidth * std::max(measure_height(surface, t, i), measure_height(surface, other, facing));
-  const double reach = (0.5 + kBeside) * std::max(first, widest);
-  const Path sides[2] = {Walk(surface, t, i).go(reach), Walk(surface, other, facing).go(reach)};
+  const double distance = (0.5 + kBeside) * std::max(first, widest);
+  const Path sides[2] = {Walk(surface, t, i).go(distance), Walk(surface, other, facing).go(distance)};
   double largest = -1;
   for (double width = first; width <= std::max(first, widest); width *= kWidthGrowth) {
     largest = std::max(largest, measure_contrast(sides, surface.bend(t, i), width));

@@ -22,7 +22,7 @@ std::vector<Border> refine_border(const Subdivision& subdivision, const Mask& re
 // Returns the cage vertices to hold (#V), including those of no region face. They follow from the matrices, with these
 // results:
 // * where the region ends at the surface's own border, positions depend on that border's ring of the cage, and tangents
-// on one ring more: the vertices that share a face with it. Extraordinary vertices, n-gons and creases change nothing.
+// on one ring more: the vertices of its faces. Extraordinary vertices, n-gons and creases change nothing.
 // * where the region ends inside the surface, both depend on its border's ring and one ring more. All refined vertices
 // outside stay then, too, and with them the curvature across the border where the surface is regular.
 // The set is minimal: on a sheet, positions and tangents of the border determine every held vertex.

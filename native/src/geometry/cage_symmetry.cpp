@@ -39,13 +39,13 @@ struct SortedVertices {
 // where there is none.
 int find_nearest(const SortedVertices& sorted, const IndexVector& partner, const Vector3& point, double tolerance) {
   const double middle = point.dot(SortedVertices::kAlong);
-  const double reach = tolerance + 1e-14 * (point.lpNorm<1>() + tolerance);  // more than the rounding of the products
+  const double radius = tolerance + 1e-14 * (point.lpNorm<1>() + tolerance);  // more than the rounding of the products
   const auto before = [&](int vertex, double x) { return sorted.place(vertex) < x; };
   int best = -1;
   double best_distance = tolerance;
-  for (auto it = std::lower_bound(sorted.order.begin(), sorted.order.end(), middle - reach, before);
+  for (auto it = std::lower_bound(sorted.order.begin(), sorted.order.end(), middle - radius, before);
        it != sorted.order.end(); ++it) {
-    if (sorted.place(*it) > middle + reach) break;
+    if (sorted.place(*it) > middle + radius) break;
     const double distance = (sorted.V.row(*it).transpose() - point).norm();
     const bool closer = distance < best_distance || (distance == best_distance && (best < 0 || *it < best));
     if (partner[*it] >= 0 || !closer) continue;

@@ -15,8 +15,8 @@
 namespace reflines {
 namespace {
 
-constexpr double kChainShare = 0.25;  // bend of the edges of a chain, relative to the crease angle
-constexpr double kChainReach = 0.08;  // shortest chain and widest strip, relative to the region's extent
+constexpr double kChainFraction = 0.25;  // bend of the edges of a chain, relative to the crease angle
+constexpr double kChainLength = 0.08;    // shortest chain and widest strip, relative to the region's extent
 // The least contrast (see bend_contrast) of a crease: of 240 coarse round shapes none exceeds 1.9 but the tips of
 // cones.
 constexpr double kJump = 2.0;
@@ -74,15 +74,15 @@ EdgeMask find_contrasting_edges(const BentSurface& surface, double least, double
 }
 
 EdgeMask find_bent_edges(const Positions& V, const Triangles& F, const Triangles& neighbors, double angle) {
-  const double reach = kChainReach * region_extent(V, F);
+  const double length = kChainLength * region_extent(V, F);
   const Positions normals = triangle_normals(V, F);
   const BentSurface surface{V, F, neighbors, normals, edge_bends(normals, neighbors)};
-  EdgeMask result = find_contrasting_edges(surface, kChainShare * angle, angle, reach);
+  EdgeMask result = find_contrasting_edges(surface, kChainFraction * angle, angle, length);
   if (!result.any()) return result;
   const Vector extent = chain_extent(V, F, result);
   for (int t = 0; t < F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      result(t, i) = result(t, i) && (surface.bend(t, i) > angle || extent(F(t, (i + 1) % 3)) > reach);
+      result(t, i) = result(t, i) && (surface.bend(t, i) > angle || extent(F(t, (i + 1) % 3)) > length);
     }
   }
   return result;

@@ -75,13 +75,13 @@ std::vector<Contact> list_contacts(const Search& search, int v) {
 }
 
 // Follows the sheet outwards from a border vertex; returns the places of the rings, moved by the step.
-std::vector<Vector3> follow(const Search& search, const Contact& contact, int v, double reach) {
+std::vector<Vector3> follow(const Search& search, const Contact& contact, int v, double margin) {
   std::vector<Vector3> rings;
   SheetPoint from = contact.point;
   Vector3 outward = search.outward(v);
   double width = search.border.edge, travelled = 0;
   const NearestSurface& surface = search.sheets.list[contact.sheet].surface;
-  while (travelled < reach && rings.size() < kMostRings) {
+  while (travelled < margin && rings.size() < kMostRings) {
     outward = (outward - outward.dot(from.normal) * from.normal).normalized();
     const Vector3 at = from.place + width * outward;
     const double within = travelled + width < contact.width + search.border.edge ? search.gap : 0.0;
@@ -140,8 +140,8 @@ GapContinuation start_result(const Positions& V, double gap) {
 }
 
 void check(const Positions& V, const Positions& V_beside, const Triangles& F_beside, const GapOptions& options) {
-  if (!(options.gap >= 0) || !(options.reach >= 0) || !std::isfinite(options.gap) || !std::isfinite(options.reach))
-    throw InvalidInput("The gap and the reach must be positive lengths, or 0 for automatic.");
+  if (!(options.gap >= 0) || !(options.margin >= 0) || !std::isfinite(options.gap) || !std::isfinite(options.margin))
+    throw InvalidInput("The gap and the margin must be positive lengths, or 0 for automatic.");
   if (!V.allFinite()) throw InvalidInput("A coordinate of the region is not finite.");
   if (F_beside.size() > 0 && (F_beside.minCoeff() < 0 || F_beside.maxCoeff() >= V_beside.rows())) {
     throw InvalidInput("The triangles beside the region name a vertex beyond the " + std::to_string(V_beside.rows()) +
@@ -172,12 +172,12 @@ GapContinuation continue_over_gap(const Positions& V, const Triangles& F, const 
                                   const Positions& V_beside, const Triangles& F_beside, const GapOptions& options) {
   check(V, V_beside, F_beside, options);
   const double gap = options.gap > 0 ? options.gap : kAutomaticGap * bounding_box_diagonal(V);
-  const double reach = std::max(options.reach, gap);
+  const double margin = std::max(options.margin, gap);
   GapContinuation result = start_result(V, gap);
   const OpenBorder border = find_open_border(V, F, around);
   if (border.edges.empty() || F_beside.rows() == 0) return result;
   NeighborSheets sheets;
-  find_neighbor_sheets(V, border, V_beside, F_beside, gap + reach, sheets);
+  find_neighbor_sheets(V, border, V_beside, F_beside, gap + margin, sheets);
   const Search search{V, border, sheets, gap};
   std::vector<Contact> contacts(V.rows());
   std::vector<std::vector<Vector3>> places(V.rows());
@@ -185,7 +185,7 @@ GapContinuation continue_over_gap(const Positions& V, const Triangles& F, const 
     if (!border.vertices(v)) return;
     for (const Contact& contact : list_contacts(search, v)) {  // at a corner one of several may not lie outwards
       contacts[v] = contact;
-      places[v] = follow(search, contact, v, reach);
+      places[v] = follow(search, contact, v, margin);
       if (!places[v].empty()) break;
     }
   });

@@ -62,8 +62,8 @@ struct HeightField {
 };
 
 // Splits a checked region (see check_surface) at its silhouettes and creases (see crease_edges). Vertices of excluded
-// triangles and of creases are fixed. Pieces are coupled sets: triangles that share an edge or any other vertex belong
-// to one piece. Throws InvalidInput where no triangle faces the viewer.
+// triangles and of creases are fixed. Pieces are coupled sets: triangles with a common edge or any other common vertex
+// belong to one piece. Throws InvalidInput where no triangle faces the viewer.
 HeightField make_height_field(const Positions& V, const Triangles& F, const ImagePlane& frame,
                               const Boundary& boundary);
 

@@ -24,9 +24,9 @@ Triangles list_points(const Mask& vertices) {
   return points;
 }
 
-// Returns the triangles (#F) that are within reach of the border and face as it does.
+// Returns the triangles (#F) that are within `distance` of the border and face as it does.
 Mask find_facing(const Positions& region, const OpenBorder& border, const Positions& V, const Triangles& F,
-                 double reach) {
+                 double distance) {
   const Triangles points = list_points(border.vertices);
   std::vector<int> all(points.rows());
   std::iota(all.begin(), all.end(), 0);
@@ -37,7 +37,7 @@ Mask find_facing(const Positions& region, const OpenBorder& border, const Positi
     const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2)), n = (b - a).cross(c - a);
     const double far = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
     if (!n.allFinite() || !(n.norm() > 0)) continue;
-    const int nearest = rim.find((a + b + c) / 3, reach + far).triangle;
+    const int nearest = rim.find((a + b + c) / 3, distance + far).triangle;
     facing(t) = nearest >= 0 && n.dot(border.normal.row(points(nearest, 0))) > kTurned * n.norm();
   }
   return facing;
@@ -74,8 +74,8 @@ bool Sheet::overlaps(const Vector3& at, const Vector3& outward, double inside) c
 }
 
 void find_neighbor_sheets(const Positions& region, const OpenBorder& border, const Positions& V, const Triangles& F,
-                          double reach, NeighborSheets& sheets) {
-  const Mask facing = find_facing(region, border, V, F, reach);
+                          double distance, NeighborSheets& sheets) {
+  const Mask facing = find_facing(region, border, V, F, distance);
   sheets.V = V;
   sheets.F.resize(facing.count(), 3);
   for (Eigen::Index t = 0, count = 0; t < F.rows(); ++t) {

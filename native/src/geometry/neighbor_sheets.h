@@ -33,9 +33,9 @@ struct NeighborSheets {
   std::deque<Sheet> list;
 };
 
-// Fills `sheets` with the triangles of F that lie within `reach` of the region's open border and face the way that it
-// does at its nearest vertex, within 60 degrees. Vertices on each other count as one.
+// Fills `sheets` with the triangles of F that lie within `distance` of the region's open border and face the way that
+// it does at its nearest vertex, within 60 degrees. Vertices on each other count as one.
 void find_neighbor_sheets(const Positions& region, const OpenBorder& border, const Positions& V, const Triangles& F,
-                          double reach, NeighborSheets& sheets);
+                          double distance, NeighborSheets& sheets);
 
 }  // namespace reflines

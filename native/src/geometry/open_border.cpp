@@ -19,7 +19,7 @@ Vector3 area_normal(const Positions& V, const Triangles& F, int t) {
   return (b - a).cross(c - a);
 }
 
-// Returns the unit normals of the triangles around, by the edges of the region that they may share.
+// Returns the unit normals of the triangles around, by the edges of the region that they may have, too.
 EdgeNormals list_around(const Positions& V, const Surroundings& around) {
   Positions all(V.rows() + around.V.rows(), 3);
   all << V, around.V;

@@ -23,7 +23,7 @@ struct OpenBorder {
 };
 
 // Finds the open border of the region V (#V x 3), F (#F x 3): the edges with one triangle, of which none of `around`
-// that shares them faces the same way within 60 degrees.
+// that has them, too, faces the same way within 60 degrees.
 OpenBorder find_open_border(const Positions& V, const Triangles& F, const Surroundings& around);
 
 }  // namespace reflines

@@ -42,7 +42,8 @@ HessianStencil quadratic_hessian(const HeightField& field, int t);
 HessianStencil ring_hessian(const HeightField& field, int t);
 
 // Marks triangles (#T) at a border or crease whose own heights, and those across their edges, are all held. Their
-// six-point stencils do not move; a ring would reach free heights beyond, all on one side, and is of first order only.
+// six-point stencils do not move; a ring would take in free heights beyond, all on one side, and is of first order
+// only.
 Mask held_at_border(const HeightField& field);
 
 }  // namespace reflines

@@ -12,7 +12,7 @@ double stencil_magnitude(const HeightField& field, const HessianStencil& stencil
   for (int i = 0; i < 3; ++i) {
     const Vector2 p = field.xy.row(stencil.vertex[i]);
     for (size_t k = 0; k < stencil.vertex.size(); ++k) {
-      // Opposite vertex 3 + i does not share an edge with corner i.
+      // Opposite vertex 3 + i is on no edge with corner i.
       if (k == static_cast<size_t>(3 + i)) continue;
       longest = std::max(longest, (field.xy.row(stencil.vertex[k]).transpose() - p).squaredNorm());
     }

@@ -9,7 +9,7 @@ namespace reflines {
 namespace {
 
 constexpr double kOnBorder = -1e-12;
-constexpr double kMargin = 1e-6;  // of a bin: more than the reach of kOnBorder and rounding beyond a triangle
+constexpr double kMargin = 1e-6;  // of a bin: more than kOnBorder and rounding beyond a triangle
 
 struct BinRange {
   int left, right, bottom, top;
@@ -33,12 +33,12 @@ int bounded(double count) { return static_cast<int>(std::clamp(count, 1.0, 4096.
 // Returns the range of x of the part of a triangle between two values of y.
 std::pair<double, double> clip_to_slab(const std::array<Vector2, 3>& corner, double bottom, double top) {
   double left = INFINITY, right = -INFINITY;
-  const auto reach = [&](double x) { left = std::min(left, x), right = std::max(right, x); };
+  const auto take_in = [&](double x) { left = std::min(left, x), right = std::max(right, x); };
   for (int i = 0; i < 3; ++i) {
     const Vector2 &a = corner[i], &b = corner[(i + 1) % 3];
-    if (a.y() >= bottom && a.y() <= top) reach(a.x());
+    if (a.y() >= bottom && a.y() <= top) take_in(a.x());
     for (const double y : {bottom, top}) {
-      if ((a.y() < y) != (b.y() < y)) reach(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      if ((a.y() < y) != (b.y() < y)) take_in(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
     }
   }
   return {left, right};

@@ -16,7 +16,7 @@ struct Location {
 class TriangleLocator {
  public:
   // Takes xy (#V x 2) and F (#F x 3), counter-clockwise triangles, by reference. Builds in O(#F); a query takes O(1) on
-  // sane meshes. Bins hold at most 64 #F entries on any mesh, and only triangles that reach into them.
+  // sane meshes. Bins hold at most 64 #F entries on any mesh, and only triangles that extend into them.
   TriangleLocator(const PlanePositions& xy, const Triangles& F);
 
   // Returns the triangle of smallest index that contains `point`, its border included (to 1e-12 of barycentric

@@ -6,7 +6,7 @@
 // border too, and is conservative: the sum of D_v : Phi_v is that of U times the second derivatives of Phi, up to
 // second order, on any mesh. M_v (3 x 3, of the components xx, sqrt(2) xy, yy) is what makes M_v^-1 D_v exact on
 // quadratics: D_v of the three unit quadratics, made symmetric. With a third of the area around v in its place, as is
-// usual, E of a quadratic is 24 % too large on a 4-8 mesh, however fine, and 44 % where vertices have three triangles.
+// usual, E of a quadratic is 24 % too large on a 4-8 mesh, however fine.
 #pragma once
 
 #include <vector>
@@ -43,8 +43,8 @@ constexpr int kMostPatchEdges = 22;
 // #patch vertices columns: the weights of the components xx, sqrt(2) xy and yy.
 using PatchWeights = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 1 + 3 * kMostPatchEdges>;
 
-// Lists the edges that two triangles of positive area share, by triangle. xy (#V x 2), F and `neighbors` (#T x 3, see
-// edge_neighbors; -1 ends the field there), area (#T, projected; triangles of area 0 are left out).
+// Lists the edges that two triangles of positive area have in common, by triangle. xy (#V x 2), F and `neighbors` (#T x
+// 3, see edge_neighbors; -1 ends the field there), area (#T, projected; triangles of area 0 are left out).
 std::vector<EdgeJump> list_edge_jumps(const PlanePositions& xy, const Triangles& F, const Triangles& neighbors,
                                       const Vector& area);
 

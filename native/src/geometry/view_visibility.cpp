@@ -29,16 +29,16 @@ Positions turn(const Positions& V, const Vector3& view) {
 ViewVisibility::ViewVisibility(const Positions& V, const Triangles& F, const Vector3& view)
     : F_(F), seen_(turn(V, view)) {
   Box all;
-  double reach = 0;  // of a triangle, in the mean
+  double size = 0;  // of a triangle, in the mean
   for (Eigen::Index t = 0; t < F.rows(); ++t) {
     const Box box = find_box(seen_, F, t);
     all.extend(box);
-    reach += box.sizes().maxCoeff() / static_cast<double>(F.rows());
+    size += box.sizes().maxCoeff() / static_cast<double>(F.rows());
   }
   if (F.rows() == 0) return;
   low_ = all.min();
   const Vector2 extent = all.sizes();
-  cell_ = std::max({reach, std::sqrt(extent.prod() / kMostCells), extent.maxCoeff() / kMostCells, 1e-300});
+  cell_ = std::max({size, std::sqrt(extent.prod() / kMostCells), extent.maxCoeff() / kMostCells, 1e-300});
   columns_ = 1 + static_cast<int>(extent.x() / cell_);
   rows_ = 1 + static_cast<int>(extent.y() / cell_);
   list_triangles();

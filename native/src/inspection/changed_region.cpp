@@ -13,22 +13,21 @@ namespace {
 constexpr double kVisible = 5e-4;  // radians: see find_changed_region
 
 // The lengths around that are taken: a disk of the local surface has a radius of 1.5, and the smoothing by place reads
-// as far. Of 40 bumps and dents on four real panels 11 are told, as by the whole panel, and all of them where they are;
-// with 2.5 lengths it is 10. One of 100,000 vertices, a tenth as wide as the panel, takes 6.4 s of a core instead
-// of 16.
+// as far. Of 40 bumps and dents on four real panels 11 are reported, as by the whole panel, and all of them where they
+// are.
 constexpr double kAround = 1.5;
 
 constexpr double kMost = 0.7;  // of the triangles, above which all are taken
 
 // Returns the cells of a grid with changed triangles and those up to so many further.
-std::set<std::pair<int, int>> spread_cells(const PlanePositions& centers, const Mask& changed, double size, int reach) {
+std::set<std::pair<int, int>> spread_cells(const PlanePositions& centers, const Mask& changed, double size, int rings) {
   std::set<std::pair<int, int>> own, result;
   for (Eigen::Index t = 0; t < changed.size(); ++t) {
     if (changed(t)) own.insert(find_grid_cell(centers.row(t), size));
   }
   for (const auto& [i, j] : own) {
-    for (int di = -reach; di <= reach; ++di) {
-      for (int dj = -reach; dj <= reach; ++dj) result.emplace(i + di, j + dj);
+    for (int di = -rings; di <= rings; ++di) {
+      for (int dj = -rings; dj <= rings; ++dj) result.emplace(i + di, j + dj);
     }
   }
   return result;
@@ -38,7 +37,7 @@ std::set<std::pair<int, int>> spread_cells(const PlanePositions& centers, const 
 
 Mask find_changed_region(const Positions& before, const Positions& after, const Triangles& F, const ImagePlane& frame,
                          double length) {
-  constexpr int kCells = 4;  // that the reach has
+  constexpr int kCells = 4;  // that they spread over
   const PlanePositions xy = frame.project(before), centers = find_centroids(xy, F);
   const PlaneVectors turn = find_slopes(xy, F, frame.heights(after) - frame.heights(before));
   const Mask changed = turn.rowwise().norm().array() > kVisible;  // not where a triangle is seen edge on: no number

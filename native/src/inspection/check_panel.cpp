@@ -15,7 +15,7 @@
 namespace reflines {
 namespace {
 
-constexpr double kMost = 0.95;  // share of the vertices that deviation_95 stands for
+constexpr double kMost = 0.95;  // fraction of the vertices that deviation_95 stands for
 
 // Throws where the region is no surface, or a neighbour's vertex is nowhere.
 void check_input(const Positions& before, const Positions& after, const Triangles& F, const Mask& region,
@@ -24,7 +24,7 @@ void check_input(const Positions& before, const Positions& after, const Triangle
   check_mark(options.gap, "gap");
   check_mark(options.angle, "angle");
   check_mark(options.curvature, "curvature");
-  check_mark(options.reach, "reach");
+  check_mark(options.neighbor_distance, "neighbor_distance");
   if (options.deviation >= 0 || !std::isfinite(options.deviation)) check_mark(options.deviation, "deviation");
 }
 

@@ -11,8 +11,8 @@ Change compare_values(double before, double after, double mark) {
 }
 
 Change sum_up(std::initializer_list<Change> changes) {
-  for (const Change told : {Change::kWorse, Change::kBetter}) {
-    if (std::find(changes.begin(), changes.end(), told) != changes.end()) return told;
+  for (const Change change : {Change::kWorse, Change::kBetter}) {
+    if (std::find(changes.begin(), changes.end(), change) != changes.end()) return change;
   }
   return Change::kUnchanged;
 }

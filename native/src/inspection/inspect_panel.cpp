@@ -12,9 +12,9 @@
 #include "geometry/height_field.h"
 #include "geometry/mesh.h"
 #include "geometry/sight.h"
-#include "inspection/flawless_surface.h"
 #include "inspection/line_deviation.h"
 #include "inspection/peaks.h"
+#include "inspection/reference_surface.h"
 #include "reflines/errors.h"
 #include "restoration/used_vertices.h"
 #include "solver/families.h"
@@ -147,7 +147,7 @@ WorstSpot make_spot(const Peak& peak, const Scene& scene, const HeightField& fie
   return spot;
 }
 
-// Fills in what is told of all lights and views together: of the pairs that are looked at, from views that see it.
+// Fills in what is reported of all lights and views together: of the pairs that are looked at, from views that see it.
 void sum_up(PanelInspection& result, const InspectOptions& options) {
   Eigen::ArrayXXd counts = Eigen::ArrayXXd::Ones(result.degrees.rows(), result.degrees.cols());
   if (options.pairs.size() > 0) counts = options.pairs.cast<double>();
@@ -186,15 +186,15 @@ PanelInspection inspect(const Positions& V, const Triangles& F, const Positions&
   const double diagonal = bounding_box_diagonal(scene.panel_vertices());
   result.length = std::min(options.length > 0 ? options.length : options.flaw_size * kAutomaticLength * diagonal,
                            kLongest * diagonal);
-  const FlawlessSurface flawless = find_flawless_surface(field, result.length, options.progress.get());
+  const ReferenceSurface reference = find_reference_surface(field, result.length, options.progress.get());
   const LineDeviation deviation =
-      look_around(scene, field, frame, flawless.slopes, result.length, views, lines, options);
+      look_around(scene, field, frame, reference.slopes, result.length, views, lines, options);
   spread(deviation, field.source, F.rows(), result);
   result.height = Vector::Zero(V.rows());
-  result.height(used.index) = flawless.flaws;
+  result.height(used.index) = reference.flaws;
   for (const Peak& peak : find_peaks(deviation.worst, field.neighbors, options.noise_floor)) {
     if (static_cast<int>(result.spots.size()) == options.most_spots) break;
-    result.spots.push_back(make_spot(peak, scene, field, deviation, flawless.flaws, frame.z()));
+    result.spots.push_back(make_spot(peak, scene, field, deviation, reference.flaws, frame.z()));
   }
   sum_up(result, options);
   return result;

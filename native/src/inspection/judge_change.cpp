@@ -7,7 +7,7 @@
 #include "geometry/height_field.h"
 #include "geometry/mesh.h"
 #include "inspection/changed_region.h"
-#include "inspection/flawless_surface.h"
+#include "inspection/reference_surface.h"
 #include "reflines/errors.h"
 #include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
@@ -68,10 +68,10 @@ WorsePlace judge_region(const Positions& before, const Positions& after, const T
   families.sight = choose(families.sight, field.source);
   ChangedSlopes slopes;
   slopes.before = find_slopes(field.xy, field.F, field.z);
-  slopes.course_before = find_flawless_surface(field, length, progress).slopes;
+  slopes.course_before = find_reference_surface(field, length, progress).slopes;
   field.z += (moved - V) * frame.z();
   slopes.after = find_slopes(field.xy, field.F, field.z);
-  slopes.course_after = find_flawless_surface(field, length, progress).slopes;
+  slopes.course_after = find_reference_surface(field, length, progress).slopes;
   const DiskMean around(find_centroids(field.xy, field.F), field.area, kRadius * length);
   return find_worse_place(families, slopes, around, V, field.F, kJudgedWorse);
 }

@@ -10,7 +10,7 @@ namespace reflines {
 // The deviations of all triangles of a field, by place: see PanelInspection.
 struct LineDeviation {
   Eigen::MatrixXd degrees;  // #views x #lights
-  Vector seen;              // #views: share of the area
+  Vector seen;              // #views: fraction of the area
   Vector worst;             // #T: degrees
   IndexVector view, light;  // #T
   IndexVector front_light;  // #T: the one in which that from the first view is most

@@ -70,8 +70,8 @@ class LocalFit {
 
   bool is_known() const { return terms_ > 0; }
 
-  // Returns how much the polynomial counts at a place, 0 beyond its reach.
-  double share(const Vector2& p) const {
+  // Returns how much the polynomial counts at a place, 0 beyond its radius.
+  double weight(const Vector2& p) const {
     const double left = std::max(1 - (p - center_).squaredNorm() / std::pow(kBlended * radius_, 2), 0.0);
     return left * left;
   }
@@ -110,9 +110,9 @@ std::vector<Cells> sort_vertices(const HeightField& field, double spacing) {
 
 // Calls take(vertex) for the vertices in all cells up to so many away.
 template <typename Take>
-void for_each_near(const Cells& cells, const Cell& cell, int reach, const Take& take) {
-  for (int i = -reach; i <= reach; ++i) {
-    for (int j = -reach; j <= reach; ++j) {
+void for_each_near(const Cells& cells, const Cell& cell, int rings, const Take& take) {
+  for (int i = -rings; i <= rings; ++i) {
+    for (int j = -rings; j <= rings; ++j) {
       const auto found = cells.find({cell.first + i, cell.second + j});
       if (found != cells.end()) std::for_each(found->second.begin(), found->second.end(), take);
     }
@@ -152,7 +152,7 @@ std::vector<LocalFit> fit_disks(const HeightField& field, const Cells& cells, co
 }  // namespace
 
 Vector fit_local_surface(const HeightField& field, double radius, const Progress* progress) {
-  Vector sum = Vector::Zero(field.vertex_count()), shares = sum;
+  Vector sum = Vector::Zero(field.vertex_count()), weights = sum;
   for (const Cells& cells : sort_vertices(field, kSpacing * radius)) {
     std::vector<Cell> keys;
     for (const auto& entry : cells) keys.push_back(entry.first);
@@ -160,14 +160,14 @@ Vector fit_local_surface(const HeightField& field, double radius, const Progress
     for (size_t k = 0; k < keys.size(); ++k) {
       if (!fits[k].is_known()) continue;
       for_each_near(cells, keys[k], 1, [&](int v) {
-        const double share = fits[k].share(field.xy.row(v));
-        if (share == 0) return;
-        sum(v) += share * fits[k].height(field.xy.row(v));
-        shares(v) += share;
+        const double weight = fits[k].weight(field.xy.row(v));
+        if (weight == 0) return;
+        sum(v) += weight * fits[k].height(field.xy.row(v));
+        weights(v) += weight;
       });
     }
   }
-  for (int v = 0; v < field.vertex_count(); ++v) sum(v) = shares(v) > 0 ? sum(v) / shares(v) : field.z(v);
+  for (int v = 0; v < field.vertex_count(); ++v) sum(v) = weights(v) > 0 ? sum(v) / weights(v) : field.z(v);
   return sum;
 }
 

@@ -6,7 +6,7 @@
 namespace reflines {
 namespace {
 
-// The share of the lower of two tops below which the saddle between them has to lie for them to be two peaks.
+// The fraction of the lower of two tops below which the saddle between them has to lie for them to be two peaks.
 constexpr double kApart = 0.7;
 
 constexpr double kExtent = 0.5;  // of the top's value: what belongs to the peak

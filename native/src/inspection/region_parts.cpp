@@ -66,8 +66,8 @@ RegionPart build_part(const Positions& V, const Triangles& F, const IndexVector&
   }
   Eigen::AlignedBox3d box;
   for (const int v : result.vertices) box.extend(V.row(v).transpose());
-  const Vector3 reach = Vector3::Constant(near * box.diagonal().norm());
-  box = Eigen::AlignedBox3d(box.min() - reach, box.max() + reach);
+  const Vector3 margin = Vector3::Constant(near * box.diagonal().norm());
+  box = Eigen::AlignedBox3d(box.min() - margin, box.max() + margin);
   const int own = numbering.next;
   std::vector<int> touching;
   for (int t = 0; t < F.rows(); ++t) {

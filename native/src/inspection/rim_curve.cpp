@@ -29,12 +29,12 @@ RimPiece::RimPiece(const Vector3& first, const Vector3& second, const std::optio
   if (after) add(*after, 1 + (*after - second).norm() / length);
 }
 
-Vector3 RimPiece::at(double share) const {
+Vector3 RimPiece::at(double fraction) const {
   Vector3 result = Vector3::Zero();
   for (int i = 0; i < count_; ++i) {
     double weight = 1;
     for (int j = 0; j < count_; ++j) {
-      if (j != i) weight *= (share - knots_[j]) / (knots_[i] - knots_[j]);
+      if (j != i) weight *= (fraction - knots_[j]) / (knots_[i] - knots_[j]);
     }
     result += weight * points_[i];
   }
@@ -43,7 +43,7 @@ Vector3 RimPiece::at(double share) const {
 
 double RimPiece::find_nearest(const Vector3& point) const {
   const double golden = 0.5 * (std::sqrt(5.0) - 1);
-  const auto distance = [&](double share) { return (at(share) - point).squaredNorm(); };
+  const auto distance = [&](double fraction) { return (at(fraction) - point).squaredNorm(); };
   double low = 0, high = 1, left = 1 - golden, right = golden, at_left = distance(left), at_right = distance(right);
   for (int k = 0; k < kSteps; ++k) {
     if (at_left < at_right) {
@@ -106,11 +106,12 @@ std::optional<RimFoot> RimCurve::find(const Vector3& point, double within) const
   RimFoot best;
   for (const auto& [a, b] : tried) {
     const RimPiece own = piece(a, b);
-    const double share = own.find_nearest(point), step = 1e-3;
-    const Vector3 place = own.at(share);
+    const double fraction = own.find_nearest(point), step = 1e-3;
+    const Vector3 place = own.at(fraction);
     const double distance = (place - point).norm();
     if (distance >= best.distance) continue;
-    best = {place, (own.at(share + step) - own.at(share - step)).normalized(), distance, triangles_[nearest.triangle]};
+    best = {place, (own.at(fraction + step) - own.at(fraction - step)).normalized(), distance,
+            triangles_[nearest.triangle]};
   }
   return best;
 }

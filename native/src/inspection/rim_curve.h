@@ -19,8 +19,8 @@ class RimPiece {
   RimPiece(const Vector3& first, const Vector3& second, const std::optional<Vector3>& before,
            const std::optional<Vector3>& after);
 
-  Vector3 at(double share) const;                   // 0: the first of the two in the middle, 1: the second
-  double find_nearest(const Vector3& point) const;  // the share, in 0 .. 1
+  Vector3 at(double fraction) const;                // 0: the first of the two in the middle, 1: the second
+  double find_nearest(const Vector3& point) const;  // the fraction, in 0 .. 1
 
  private:
   int count_ = 0;

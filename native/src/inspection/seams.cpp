@@ -26,9 +26,9 @@ EdgeMask find_creases(const Positions& V, const Triangles& F, const std::vector<
 }
 
 // Finds the sheet that lies beside an edge where the region's own ends.
-int find_beside(const Positions& V, const NearestSurface& outside, const Seam& seam, double reach) {
+int find_beside(const Positions& V, const NearestSurface& outside, const Seam& seam, double distance) {
   const Vector3 a = V.row(seam.first), b = V.row(seam.second);
-  return outside.find(0.5 * (a + b), reach * (b - a).norm()).triangle;
+  return outside.find(0.5 * (a + b), distance * (b - a).norm()).triangle;
 }
 
 // Pairs the triangles across each edge (#F x 3). Within the region only its own count: what is fixed to it from beside
@@ -68,14 +68,15 @@ Seams find_seams(const Positions& before, const Triangles& F, const Mask& region
       const int other = neighbors(t, i);
       Seam seam{F(t, (i + 1) % 3), F(t, (i + 2) % 3), t, other, SeamKind::kBorder, other >= 0};
       if (other < 0) {
-        if (!is_crowded(F, triangles_of_vertex, seam)) seam.other = find_beside(before, outside, seam, options.reach);
+        if (!is_crowded(F, triangles_of_vertex, seam))
+          seam.other = find_beside(before, outside, seam, options.neighbor_distance);
         if (seam.other < 0) seam.kind = SeamKind::kOpen;
       } else if (region(other)) {
         if (!creases(t, i)) continue;
         seam.kind = SeamKind::kCrease;
       }
       seams.neighbors(t, i) = -1;
-      if (seam.kind == SeamKind::kCrease && other < t) continue;  // told from the first of its triangles
+      if (seam.kind == SeamKind::kCrease && other < t) continue;  // reported from the first of its triangles
       for (int j = 0; seam.kind == SeamKind::kBorder && other >= 0 && j < 3; ++j) {
         if (neighbors(other, j) == t) seams.neighbors(other, j) = -1;
       }

@@ -12,7 +12,7 @@ struct Seam {
   int first, second;  // vertices
   int own, other;     // triangles on both sides, the own one in the region; -1: none
   SeamKind kind;
-  bool is_joined;  // both triangles share the edge
+  bool is_joined;  // both triangles have the edge
 };
 
 struct Seams {

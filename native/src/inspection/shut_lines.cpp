@@ -91,7 +91,7 @@ void measure_part(const Scene& scene, const Positions& V, int part, double gap, 
   for (int k = 0; k < count; ++k) {
     if (!places[k]) continue;
     const int source = own.beside[places[k]->source], other = scene.parts.part(source);
-    if (other >= 0 && other < part) continue;  // told from that part
+    if (other >= 0 && other < part) continue;  // reported from that part
     const BorderEdge& edge = probe.edges()[k];
     found[{own.vertices[edge.first], own.vertices[edge.second]}] = {*places[k], part, scene.label(source)};
   }
@@ -153,7 +153,7 @@ void judge(const ShutLineOptions& marks, ShutLines& lines) {
   }
 }
 
-// Keeps the edges that are part of lines, in the lines' order, and fills in all that is told of them.
+// Keeps the edges that are part of lines, in the lines' order, and fills in all that is reported of them.
 ShutLines build_lines(const Positions& V, const FoundEdges& before, const FoundEdges& after,
                       const ShutLineOptions& options) {
   Edges edges(static_cast<Eigen::Index>(after.size()), 2);

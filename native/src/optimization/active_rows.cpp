@@ -18,12 +18,12 @@ constexpr double kTouching = 30.0;
 Vector ActiveRows::move_inside(const Vector& x) const {
   if (narrow_) return narrow_->pull_inside(narrow_->base, x);
   if (limits_.count_beyond(x) == 0) return x;
-  const RowLimits::Narrow narrow = limits_.narrow(limits_.reach(x));
+  const RowLimits::Narrow narrow = limits_.narrow(limits_.extent(x));
   return narrow.pull_inside(narrow.base, x);
 }
 
 void ActiveRows::aim_at(const Vector& minimum) {
-  narrow_ = limits_.narrow(limits_.reach(minimum));
+  narrow_ = limits_.narrow(limits_.extent(minimum));
   work_.held = narrow_->held;
   quadratic_.emplace(*narrow_, work_.held_factor, work_.solver, counts_, progress_);
 }
@@ -75,8 +75,8 @@ Vector ActiveRows::solve_from_inside(const Vector& low, const Vector& high, doub
   const auto largest = [](const Vector& bound) {
     return bound.array().isFinite().select(bound.array().abs(), 0.0).maxCoeff();
   };
-  const double reach = std::max({largest(low), largest(high), narrow_->tolerance});
-  const InteriorPoint::Minimum minimum = InteriorPoint(model, limits, reach, work_.held_factor, counts_, progress_)
+  const double extent = std::max({largest(low), largest(high), narrow_->tolerance});
+  const InteriorPoint::Minimum minimum = InteriorPoint(model, limits, extent, work_.held_factor, counts_, progress_)
                                              .minimize(0.5 * narrow_->tolerance, wanted);
   const Vector reached = narrow_->rows.transpose() * minimum.d;
   contacts_.clear();

@@ -81,7 +81,7 @@ void BorderColumns::add_whole(const SparseMatrix& columns, const Progress* progr
   solves_ += static_cast<int>(columns.cols());
 }
 
-Vector BorderColumns::reach(const Vector& right) {
+Vector BorderColumns::begin(const Vector& right) {
   if (!has_halves_) {
     right_ = solved_ = right;
     solver_.solve(solved_);

@@ -29,9 +29,9 @@ class BorderColumns {
 
   const Eigen::MatrixXd& products() const { return products_; }  // B^T A^-1 B, m x m
 
-  // Solves A x = right - B z in two steps: `reach` returns B^T A^-1 right (m), from which a caller finds z, and
+  // Solves A x = right - B z in two steps: `begin` returns B^T A^-1 right (m), from which a caller finds z, and
   // `finish` returns x.
-  Vector reach(const Vector& right);
+  Vector begin(const Vector& right);
   Vector finish(const Vector& z);
 
  private:

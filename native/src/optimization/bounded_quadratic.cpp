@@ -31,7 +31,7 @@ constexpr double kLeastViolation = 0.05;
 constexpr int kManyPeaks = 16;
 
 // The sweeps of relaxation before the first factorization, from the free minimum, most of which may be beyond its
-// bounds; and after each round whose set changes by more than this share. They save up to nine tenths of the
+// bounds; and after each round whose set changes by more than this fraction. They save up to nine tenths of the
 // factorizations.
 constexpr int kFirstSweeps = 32, kSweeps = 16;
 constexpr double kManyChanges = 0.2;
@@ -252,9 +252,9 @@ void BoundedQuadratic::keep_if_best(const Trial& trial) {
   best_ = inside;
 }
 
-Sides BoundedQuadratic::estimate_from_inside(double reach) {
+Sides BoundedQuadratic::estimate_from_inside(double extent) {
   const StepLimits limits{nullptr, bounds_.low, bounds_.high, points_};
-  return InteriorPoint(model_, limits, reach, factor_, counts_, progress_).estimate_held();
+  return InteriorPoint(model_, limits, extent, factor_, counts_, progress_).estimate_held();
 }
 
 }  // namespace reflines

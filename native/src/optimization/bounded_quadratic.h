@@ -50,7 +50,7 @@ class BoundedQuadratic {
   Trial solve_held(const Sides& held);
   void keep_if_best(const Trial& trial);
   Sides release_pulling(Sides held);
-  Sides estimate_from_inside(double reach);
+  Sides estimate_from_inside(double extent);
   void factorize(const Sides& held);
   void hold(const Sides& held);
   Vector right_side(const Vector& left_out) const;

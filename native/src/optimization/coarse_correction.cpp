@@ -20,7 +20,7 @@ constexpr double kWorthwhile = 0.9;
 constexpr int kWorthAThread = 2000;
 
 // Runs two functions in parallel, the first on the calling thread. Both belong to one OpenMP team: a separate thread
-// for the second would share a core with the team's idle threads, which spin for some milliseconds (10k unknowns: 48
+// for the second would run on one core with the team's idle threads, which spin for some milliseconds (10k unknowns: 48
 // instead of 37 ms).
 void run_in_parallel(const std::function<void()>& first, const std::function<void()>& second) {
   std::packaged_task<void()> tasks[] = {std::packaged_task<void()>(first), std::packaged_task<void()>(second)};

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kMaxRounds = 200;
 
-// The contacts, and their share of the unknowns, above which the search ends, for the small program takes their cube:
-// of 1,927 unknowns 1,125 contacts take 5.1 s, and InteriorPoint 2.7.
-constexpr double kMostContactShare = 0.4;
+// The contacts, and their fraction of the unknowns, above which the search ends, for the small program takes their
+// cube: of 1,927 unknowns 1,125 contacts take 5.1 s, and InteriorPoint 2.7.
+constexpr double kMostContactFraction = 0.4;
 constexpr size_t kMostContacts = 800;
 
 // The relative softness of contacts, without which those of neighbours, whose functions are nearly equal, could not be
-// told apart. Refinement takes back what it lets pass.
+// known apart. Refinement takes back what it lets pass.
 constexpr double kSoftness = 1e-11;
 constexpr int kMaxRefinements = 5;
 
@@ -168,7 +168,8 @@ Vector ContactQuadratic::step_along(const Contacts& contacts, const Vector& grad
 std::optional<ContactQuadratic::Minimum> ContactQuadratic::minimize(const Vector& gradient, const Vector& low,
                                                                     const Vector& high, double tolerance,
                                                                     Contacts contacts) {
-  const auto most = std::min(kMostContacts, static_cast<size_t>(kMostContactShare * static_cast<double>(rows_.rows())));
+  const auto most =
+      std::min(kMostContacts, static_cast<size_t>(kMostContactFraction * static_cast<double>(rows_.rows())));
   const Vector free = solve(-gradient);
   for (int round = 0; round < kMaxRounds; ++round) {
     throw_if_cancelled(progress_);

@@ -137,14 +137,14 @@ Vector HeldFactor::find_forces(const Vector& right, const Vector& at_contacts) {
   if (differences_.contacts.empty()) return {};
   Vector kept = right;
   clear(factored_, kept);
-  return find_border(border_.reach(kept), right(differences_.released), at_contacts)(contact_column_);
+  return find_border(border_.begin(kept), right(differences_.released), at_contacts)(contact_column_);
 }
 
 int HeldFactor::solve(Vector& x, const Vector& at_contacts) {
   const Vector of_released = x(differences_.released);
   clear(factored_, x);
   const int before = border_.solves();
-  const Vector z = find_border(border_.reach(x), of_released, at_contacts);
+  const Vector z = find_border(border_.begin(x), of_released, at_contacts);
   x = border_.finish(z);
   clear(factored_, x);
   for (const int k : differences_.contacts) x(k) = at_contacts.size() > 0 ? at_contacts(k) : 0.0;

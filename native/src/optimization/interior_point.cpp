@@ -10,7 +10,7 @@ namespace reflines {
 namespace {
 
 constexpr int kMaxSteps = 60, kMaxSettlingSteps = 15;
-constexpr double kShareOfLongest = 0.995;
+constexpr double kFractionOfLongest = 0.995;
 
 // A factorization takes as long as ten solves: three further correctors took 14 instead of 19 factorizations, and more
 // saved none. Of 400 solves of cages within random limits 6 instead of 9 end without all digits.
@@ -36,7 +36,7 @@ constexpr int kBlock = 256;  // columns of the matrix that a thread sums at a ti
 
 }  // namespace
 
-InteriorPoint::InteriorPoint(const QuadraticModel& model, const StepLimits& limits, double reach, HeldFactor& factor,
+InteriorPoint::InteriorPoint(const QuadraticModel& model, const StepLimits& limits, double extent, HeldFactor& factor,
                              Report& counts, const Progress* progress)
     : model_(model),
       limits_(limits),
@@ -47,7 +47,7 @@ InteriorPoint::InteriorPoint(const QuadraticModel& model, const StepLimits& limi
       values_(Vector::Zero(limits.low.size())) {
   if (limits.rows != nullptr) by_unknown_ = *limits.rows;
   ends_ = {make_end(limits.low, 1.0), make_end(limits.high, -1.0)};
-  place_start(reach);
+  place_start(extent);
 }
 
 InteriorPoint::End InteriorPoint::make_end(const Vector& bound, double sign) const {
@@ -59,13 +59,13 @@ InteriorPoint::End InteriorPoint::make_end(const Vector& bound, double sign) con
 // Sets the slacks, and the forces so that all products are equal and the mean force is that of the gradient: the start
 // lies on the central path of ranges of very different sizes. With equal forces 17 of 120 solves within painted and
 // random limits ended without their digits; with these one does.
-void InteriorPoint::place_start(double reach) {
+void InteriorPoint::place_start(double extent) {
   double sum = 0.0, count = 0.0;
   for (End& end : ends_) {
     for (int i = 0; i < values_.size(); ++i) {
       if (end.exists(i) == 0) continue;
       const double range = limits_.high(i) - limits_.low(i);
-      end.slack(i) = std::max(-end.sign * end.bound(i), 0.1 * (std::isfinite(range) ? range : reach));
+      end.slack(i) = std::max(-end.sign * end.bound(i), 0.1 * (std::isfinite(range) ? range : extent));
     }
     sum += end.slack.dot(end.exists);
     count += end.exists.sum();
@@ -217,7 +217,7 @@ void InteriorPoint::iterate() {
   for (int k = 0; k < kFurtherCorrectors; ++k) {
     if (longest(change) > 0.95 || !correct_further(change, wanted_product)) break;
   }
-  const double step = std::min(1.0, kShareOfLongest * longest(change));
+  const double step = std::min(1.0, kFractionOfLongest * longest(change));
   d_ += step * change.d;
   values_ = limits_.values(d_);
   for (int b = 0; b < 2; ++b) {
@@ -229,17 +229,17 @@ void InteriorPoint::iterate() {
 // Returns how much more than the tolerance a function is beyond its range, or how much more than wanted the gradient
 // has left, whichever is more: at most 1 at a solution.
 double InteriorPoint::measure_error(double tolerance, double wanted) const {
-  Vector stray = Vector::Zero(values_.size());
+  Vector left = Vector::Zero(values_.size());
   double beyond = 0.0;
   for (const End& end : ends_) {
     const Vector slack = end.sign * (values_ - end.bound);
-    for (int i = 0; i < stray.size(); ++i) {
+    for (int i = 0; i < left.size(); ++i) {
       if (end.exists(i) == 0) continue;
       beyond = std::max(beyond, -slack(i));
-      if (slack(i) > kTouching * tolerance) stray(i) += end.sign * end.force(i);
+      if (slack(i) > kTouching * tolerance) left(i) += end.sign * end.force(i);
     }
   }
-  return std::max(beyond / tolerance, (limits_.pull(stray).norm() + dual_residual().norm()) / wanted);
+  return std::max(beyond / tolerance, (limits_.pull(left).norm() + dual_residual().norm()) / wanted);
 }
 
 InteriorPoint::Minimum InteriorPoint::minimize(double tolerance, double wanted) {

@@ -18,10 +18,10 @@ namespace reflines {
 // method that leaves a bound row by row takes one for each.
 class InteriorPoint {
  public:
-  // Takes what outlives it, the limits with low <= 0 <= high; `counts` collects factorizations and solves. `reach` is
+  // Takes what outlives it, the limits with low <= 0 <= high; `counts` collects factorizations and solves. `extent` is
   // the expected size of a function where its range is infinite. `progress` may be null. The factor is overwritten.
-  InteriorPoint(const QuadraticModel& model, const StepLimits& limits, double reach, HeldFactor& factor, Report& counts,
-                const Progress* progress);
+  InteriorPoint(const QuadraticModel& model, const StepLimits& limits, double extent, HeldFactor& factor,
+                Report& counts, const Progress* progress);
 
   // Iterates until the functions are within their ranges but for `tolerance`, and what forces of functions farther than
   // that from an end, and the model's gradient, leave is at most `wanted`; or until no more digits are gained. Returns
@@ -51,7 +51,7 @@ class InteriorPoint {
   using Products = std::array<Vector, 2>;  // wanted change of slack times force, at each end
 
   End make_end(const Vector& bound, double sign) const;
-  void place_start(double reach);
+  void place_start(double extent);
   SparseMatrix build_matrix() const;
   Vector dual_residual() const;
   void clear_held(Vector& x) const;

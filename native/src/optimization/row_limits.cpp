@@ -17,14 +17,14 @@ constexpr double kTolerance = 1e-8;
 // The least tolerance relative to the values that the functions would have: what a model's solution can keep.
 constexpr double kPrecision = 1e-9;
 
-// The share of a function that narrow limits, in tolerances, take from either side before it cannot move at all: the
+// The fraction of a function that narrow limits, in tolerances, take from either side before it cannot move at all: the
 // base is two tolerances from the origin, and the narrow limits are one tolerance within the limits.
 constexpr double kNoRoom = 3.0;
 constexpr double kBaseMove = 2.0;
 
 // The part of the tolerance that a step may end beyond the narrow limits: more than the half that models keep, and less
 // than all, for rounding.
-constexpr double kStray = 0.75;
+constexpr double kBeyond = 0.75;
 
 using Entries = std::pair<const int*, const double*>;
 
@@ -116,15 +116,15 @@ int RowLimits::count_beyond(const Vector& x) const {
   return count;
 }
 
-double RowLimits::choose_tolerance(double reach) const {
+double RowLimits::choose_tolerance(double extent) const {
   const double limit = low_.size() > 0 ? std::max(largest_finite(low_), largest_finite(high_)) : 0.0;
-  const double size = limit > 0 ? std::min(limit, reach) : reach;
-  return std::max({kTolerance * size, kPrecision * reach, 4 * rounding_});
+  const double size = limit > 0 ? std::min(limit, extent) : extent;
+  return std::max({kTolerance * size, kPrecision * extent, 4 * rounding_});
 }
 
-RowLimits::Narrow RowLimits::narrow(double reach) const {
+RowLimits::Narrow RowLimits::narrow(double extent) const {
   Narrow result;
-  result.tolerance = choose_tolerance(reach);
+  result.tolerance = choose_tolerance(extent);
   result.origin = origin_;
   result.held.assign(modes_.rows(), Side::kBetween);
   const Means all = take_means(modes_, result.held);
@@ -172,21 +172,21 @@ Vector RowLimits::Narrow::pull_inside(const Vector& from, const Vector& to) cons
     if (held[k] != Side::kBetween) end(k) = origin(k);
   }
   const Vector first = values(from), last = values(end);
-  double share = 1.0;
+  double fraction = 1.0;
   for (int i = 0; i < last.size(); ++i) {
-    if (last(i) > high(i)) share = std::min(share, (high(i) - first(i)) / (last(i) - first(i)));
-    if (last(i) < low(i)) share = std::min(share, (low(i) - first(i)) / (last(i) - first(i)));
+    if (last(i) > high(i)) fraction = std::min(fraction, (high(i) - first(i)) / (last(i) - first(i)));
+    if (last(i) < low(i)) fraction = std::min(fraction, (low(i) - first(i)) / (last(i) - first(i)));
   }
-  return share == 1.0 ? end : Vector(from + std::max(share, 0.0) * (end - from));
+  return fraction == 1.0 ? end : Vector(from + std::max(fraction, 0.0) * (end - from));
 }
 
 double RowLimits::Narrow::longest_step(const Vector& x, const Vector& step) const {
   const Vector first = values(x), way = rows.transpose() * step;
-  const double stray = kStray * tolerance;
+  const double beyond = kBeyond * tolerance;
   double part = 1.0;
   for (int i = 0; i < way.size(); ++i) {
-    if (first(i) + way(i) > high(i) + stray) part = std::min(part, (high(i) + stray - first(i)) / way(i));
-    if (first(i) + way(i) < low(i) - stray) part = std::min(part, (low(i) - stray - first(i)) / way(i));
+    if (first(i) + way(i) > high(i) + beyond) part = std::min(part, (high(i) + beyond - first(i)) / way(i));
+    if (first(i) + way(i) < low(i) - beyond) part = std::min(part, (low(i) - beyond - first(i)) / way(i));
   }
   return std::max(part, 0.0);
 }

@@ -21,19 +21,19 @@ class RowLimits {
   // Returns whether all functions are within the limits, in spite of rounding.
   bool contain(const Vector& x) const { return contain_values(values(x)); }
   int count_beyond(const Vector& x) const;  // functions that are not
-  double reach(const Vector& x) const { return values(x).cwiseAbs().maxCoeff(); }
+  double extent(const Vector& x) const { return values(x).cwiseAbs().maxCoeff(); }
   bool are_zero() const { return low_.isZero(0) && high_.isZero(0); }
 
   struct Narrow;
-  // Narrows the limits by a tolerance, a share of the smaller one of `reach`, the largest value that the functions
+  // Narrows the limits by a tolerance, a fraction of the smaller one of `extent`, the largest value that the functions
   // would have, and of the largest finite limit: results that are within that tolerance of the narrow limits are within
   // the limits themselves.
-  Narrow narrow(double reach) const;
+  Narrow narrow(double extent) const;
 
  private:
   bool contain_values(const Vector& values) const;
   bool is_beyond(int i, double value) const;
-  double choose_tolerance(double reach) const;
+  double choose_tolerance(double extent) const;
 
   const SparseMatrix& modes_;
   Vector low_, high_, origin_;

@@ -1,4 +1,4 @@
-// The stopping tests that all runs of a Minimizer share, and what they tell of it.
+// The stopping tests of all runs of a Minimizer, and what they tell of it.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class StoppingTests {
   bool has_no_progress();  // no test: no step lowers the energy
   bool stop(Termination termination, const std::string& message);
 
-  // Reports a stage to `progress`, with the share of the gradient's digits that are gained.
+  // Reports a stage to `progress`, with the fraction of the gradient's digits that are gained.
   void tell(const char* stage) const;
 
  private:

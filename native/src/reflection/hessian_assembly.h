@@ -12,7 +12,7 @@ namespace reflines {
 
 class HessianAssembly {
  public:
-  // Builds the pattern. `column` (#V) is the unknown that each vertex moves with, which several may share, or -1 where
+  // Builds the pattern. `column` (#V) is the unknown that each vertex moves with, several with the same, or -1 where
   // it is fixed; unknowns are 0 .. unknown_count - 1.
   HessianAssembly(const Stencils& stencils, const StencilEntries& entries, std::vector<int> column, int unknown_count);
 

@@ -24,7 +24,7 @@
 
 namespace reflines {
 
-// The elements that the systems of all lengths share: one a triangle, whose "gradient" is the mean of its corners, and
+// The elements of the systems of all lengths: one a triangle, whose "gradient" is the mean of its corners, and
 // after these one a patch of a vertex, whose "Hessian" is M_v^-1/2 D_v (see vertex_hessian.h).
 struct SmootherElements {
   Stencils stencils;        // #T + #P

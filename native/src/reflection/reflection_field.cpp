@@ -10,8 +10,8 @@ namespace {
 constexpr double kFullVisibility = 0.05;
 
 double visibility_weight(double visibility) {
-  const double share = visibility / kFullVisibility;
-  return share >= 1 ? 1.0 : share * share;
+  const double fraction = visibility / kFullVisibility;
+  return fraction >= 1 ? 1.0 : fraction * fraction;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace reflines {
 namespace {
 
 constexpr double kStrong =
-    8.0;  // multiple of the median; dents of 2 mm in 8 cm reach 5 to 10 times, fillets 50 and more
+    8.0;  // multiple of the median; dents of 2 mm in 8 cm come to 5 to 10 times, fillets 50 and more
 
 // The least |grad theta| of a feature times the piece's diagonal: a bend radius of a fifth of the diagonal (|grad
 // theta| is some 2 / radius). On a mostly flat panel the median is rounding, and every dent exceeds 8 times that.

@@ -8,7 +8,7 @@
 namespace reflines {
 namespace {
 
-// Returns the refined faces outside the region that share a vertex with it, as triangles. `number` (#refined) are the
+// Returns the refined faces outside the region that have a vertex of it, as triangles. `number` (#refined) are the
 // region's vertices, -1 elsewhere.
 Surroundings find_around(const Subdivision& whole, const Mask& region, const Positions& cage,
                          const std::vector<int>& number, int own) {

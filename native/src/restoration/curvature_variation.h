@@ -22,13 +22,11 @@ using EdgeWeights = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 // surface has there at the start: B is linear in heights. Its frame is that of the plane, turned least; frames carried
 // over each edge instead change no panel's result.
 //
-// Spheres have none, by which a surface that turns away from the plane is not drawn towards a flat one: of second
-// derivatives instead, a real bonnet's corners were bent by 0.38 degrees instead of 0.11, and of its ripples 0.65 was
-// left instead of 0.54.
+// Spheres have none, by which a surface that turns away from the plane is not drawn towards a flat one: by second
+// derivatives instead a real bonnet's corners were bent by 0.38 degrees, not by 0.11.
 //
 // Of other surfaces the energy is the integral of w |grad B|^2 times a factor by the triangles' shape and direction,
-// since second derivatives are exact on quadratics only: of waves across and along the diagonals of squares 2.3 and
-// 0.47, which are as much as a factor of 1.3 of their length.
+// since second derivatives are exact on quadratics only: it is as if a wave were up to 1.3 times as long.
 class CurvatureVariation {
  public:
   explicit CurvatureVariation(const HeightField& field);  // which outlives it

@@ -9,14 +9,13 @@
 namespace reflines {
 namespace {
 
-// Points are merged in squares, so many along each side of a cell. With 4, 8 and 16 means of a smooth function are
-// wrong by 0.015, 0.003 and 0.0007 of its spread, those of noise by 0.011, 0.008 and 0.003; a press of 100,000 vertices
-// takes 6.9, 6.9 and 7.8 s, and 8.3 without.
+// Points are merged in squares, so many along each side of a cell: means of a smooth function are wrong by 0.003 of
+// its spread.
 constexpr int kSquares = 8;
 
 // The number of nodes along each side of a cell around which sums are taken, and between which they are interpolated,
-// where points are more than these nodes. With 8, 10, 12 and 16 means of a smooth function are wrong by 0.009, 0.006,
-// 0.005 and 0.004 of its spread, merging included; a press of 100,000 vertices takes 4.4 s on one core, 5.8 without.
+// where points are more than these nodes: means of a smooth function are wrong by 0.005 of its spread, merging
+// included.
 constexpr int kNodes = 12;
 constexpr double kSpacing = 1.0 / kNodes;  // radii
 constexpr Eigen::Index kCorners = (kNodes + 1) * (kNodes + 1);
@@ -89,18 +88,18 @@ Eigen::ArrayXXd DiskMean::merge(const Eigen::MatrixXd& values) const {
   Eigen::ArrayXXd result(static_cast<Eigen::Index>(merged_.size()) - 1, values.cols());
   for (Eigen::Index s = 0; s < result.rows(); ++s) {
     const auto points = points_of(s);
-    const Vector share = point_weight_(points);
-    const double weights = share.sum();
+    const Vector weight = point_weight_(points);
+    const double weights = weight.sum();
     if (points.size() == 1 || !(weights > 0)) {
       result.row(s) = values.row(points[0]);
     } else {
-      result.row(s) = (share / weights).transpose() * values(points, Eigen::all);
+      result.row(s) = (weight / weights).transpose() * values(points, Eigen::all);
     }
   }
   return result;
 }
 
-// Returns the sources in all cells that a disk around a point of this cell may reach, a range for each column of cells.
+// Returns the sources in all cells that a disk around a point of this cell may touch, a range for each column of cells.
 std::vector<DiskMean::Range> DiskMean::near(const Cell& cell) const {
   std::vector<Range> result;
   for (int column = cell.first - 1; column <= cell.first + 1; ++column) {
@@ -114,8 +113,7 @@ std::vector<DiskMean::Range> DiskMean::near(const Cell& cell) const {
 
 // Returns the sums of kernel times weight times values, and without values in the last entry, of a disk around a place.
 // Whole ranges are summed without asking which sources are in the disk, so that the loops are vectorized: means of
-// 100,000 vertices over some 1,000 neighbours take 122 ms, where a test for each pair takes 710. Cells half as
-// large: 97.
+// 100,000 vertices over some 1,000 neighbours take 122 ms, where a test for each pair takes 710.
 Eigen::RowVectorXd DiskMean::sum_around(const Vector2& place, const std::vector<Range>& ranges,
                                         const Eigen::ArrayXXd& values) const {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(values.cols() + 1);

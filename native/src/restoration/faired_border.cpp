@@ -97,7 +97,7 @@ std::unique_ptr<Press> prepare_faired_border(const Positions& V, const Triangles
   const Mask movable = region->optimizer().free();
   const Mask wanted = movable && options.fair_border && find_border_vertices(F, static_cast<int>(V.rows()));
   if (!wanted.any()) return prepare_held_border(V, F, view, families, shape, options);
-  const JoinedMesh joined = join_surroundings(V, F, shape.around, kFairReach * judge->report().length);
+  const JoinedMesh joined = join_surroundings(V, F, shape.around, kFairMargin * judge->report().length);
   const ShapeOptions joined_shape = join_shape(own, movable, joined, F.rows(), BesideRegion::kMoves);
   auto press = std::make_unique<FairedBorderPress>(std::move(region), std::move(judge), joined, view, families,
                                                    joined_shape, options, wanted);

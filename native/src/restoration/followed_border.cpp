@@ -70,8 +70,8 @@ class FollowedBorderPress : public Press {
   }
 
   // Returns by how much more the region's vertices (#V) are to move, so that the border's tangents are those beside it.
-  Vector turn(const ControlRange& range, double limit, const Vector& move, double reach) const {
-    Vector change = match_tangents(match_, move, reach * alone_.report().length, limit);
+  Vector turn(const ControlRange& range, double limit, const Vector& move, double width) const {
+    Vector change = match_tangents(match_, move, width * alone_.report().length, limit);
     for (int v = 0; v < own_.partner.size(); ++v) {
       const int other = own_.partner(v);
       if (other > v) change(v) = change(other) = 0.5 * (change(v) + change(other));

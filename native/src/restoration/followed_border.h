@@ -20,9 +20,8 @@ bool follows(const std::vector<Border>& border);
 // nothing is joined with the region, or a light would become worse, the border is clamped instead; of the latter the
 // report tells. Throws what smooth_panel throws.
 //
-// It is nobody's default: four real panels, clean and cut into halves that each follow the other, are bent by 0.22 and
-// 0.24 degrees in the two lights (median), with a clamped border by 0.18; of dents 0.58 and 0.50 are left instead of
-// 0.68 and 0.64. Pressed as one problem (JointSmoother): 0.21 and 0.22, of dents 0.53 and 0.48.
+// It is nobody's default: four real panels, clean and cut into halves that each follow the other, are bent by 0.24
+// degrees at most (median), with a clamped border by 0.18.
 std::unique_ptr<Press> prepare_followed_border(const Positions& V, const Triangles& F, const Vector3& view,
                                                const std::vector<Vector3>& families, const ShapeOptions& shape,
                                                const SmoothPanelOptions& options);

@@ -30,16 +30,16 @@ bool is_less_even(double one, double other) {
   return one > std::max(kRules.border.less_even * other, other + kRules.border.less_even_degrees);
 }
 
-struct Strays {
+struct Deviations {
   double one, other;  // degrees
 };
 
 // Finds the first light in which a result is less even than another one, and by which numbers.
-std::optional<Strays> find_less_even(const SmoothPanelReport& one, const SmoothPanelReport& other) {
+std::optional<Deviations> find_less_even(const SmoothPanelReport& one, const SmoothPanelReport& other) {
   for (size_t k = 0; k < one.score_after.size(); ++k) {
-    for (const Strays strays : {Strays{one.score_after[k].shift, other.score_after[k].shift},
-                                Strays{one.unevenness_after[k], other.unevenness_after[k]}}) {
-      if (is_less_even(strays.one, strays.other)) return strays;
+    for (const Deviations deviations : {Deviations{one.score_after[k].shift, other.score_after[k].shift},
+                                        Deviations{one.unevenness_after[k], other.unevenness_after[k]}}) {
+      if (is_less_even(deviations.one, deviations.other)) return deviations;
     }
   }
   return std::nullopt;
@@ -49,9 +49,9 @@ std::optional<Strays> find_less_even(const SmoothPanelReport& one, const SmoothP
 bool moves_anything(const SmoothPanelReport& report) { return report.applied && report.largest_control_move > 0; }
 
 // Tells why the clamped result was chosen.
-Note explain_clamped(bool continued_moves, const std::optional<Strays>& strays) {
-  if (!continued_moves || !strays) return {NoteKind::kContinuingChangesNothing};
-  return {.kind = NoteKind::kContinuingWorsens, .before = strays->other, .after = strays->one};
+Note explain_clamped(bool continued_moves, const std::optional<Deviations>& deviations) {
+  if (!continued_moves || !deviations) return {NoteKind::kContinuingChangesNothing};
+  return {.kind = NoteKind::kContinuingWorsens, .before = deviations->other, .after = deviations->one};
 }
 
 // Finds the move with the curvature continued. Empty where the solver breaks down: what lies beside the region is no
@@ -86,10 +86,10 @@ SmoothPanelResult press_both(Restoration& press, Restoration& clamped_press, con
   SmoothPanelResult continued = press.judge(bound_addition(clamped_move, *continued_move));
   continued.report.work += clamped.report.work;
   clamped.report.work = continued.report.work;
-  const std::optional<Strays> strays = find_less_even(continued.report, clamped.report);
+  const std::optional<Deviations> deviations = find_less_even(continued.report, clamped.report);
   const bool moves = moves_anything(continued.report);
-  if (!moves_anything(clamped.report) || (moves && !strays)) return continued;
-  clamped.report.notes.push_back(explain_clamped(moves, strays));
+  if (!moves_anything(clamped.report) || (moves && !deviations)) return continued;
+  clamped.report.notes.push_back(explain_clamped(moves, deviations));
   return clamped;
 }
 

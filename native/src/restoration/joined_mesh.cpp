@@ -27,8 +27,8 @@ struct NearVertices {
   int compared = 0;
 };
 
-// Finds the vertices (#S) that lie within `reach` of some border vertex of the region.
-NearVertices find_near(const Positions& vertices, const Positions& V, const Triangles& F, double reach) {
+// Finds the vertices (#S) that lie within `margin` of some border vertex of the region.
+NearVertices find_near(const Positions& vertices, const Positions& V, const Triangles& F, double margin) {
   Mask near = Mask::Constant(vertices.rows(), false);
   int compared = 0;
   const Triangles points = list_border_points(F, static_cast<int>(V.rows()));
@@ -38,8 +38,8 @@ NearVertices find_near(const Positions& vertices, const Positions& V, const Tria
 #pragma omp parallel for schedule(static) reduction(+ : compared) if (vertices.rows() > kWorthThreads)
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     const Vector3 p = vertices.row(v);
-    const NearestPoint nearest = border.find(p, reach);
-    near(v) = nearest.triangle >= 0 && (nearest.point - p).squaredNorm() < reach * reach;
+    const NearestPoint nearest = border.find(p, margin);
+    near(v) = nearest.triangle >= 0 && (nearest.point - p).squaredNorm() < margin * margin;
     compared += nearest.compared;
   }
   return {near, compared};
@@ -104,11 +104,11 @@ JoinedMesh renumber_beside(const Positions& all, const Triangles& F, int own) {
 
 }  // namespace
 
-JoinedMesh join_surroundings(const Positions& V, const Triangles& F, const Surroundings& around, double reach) {
+JoinedMesh join_surroundings(const Positions& V, const Triangles& F, const Surroundings& around, double margin) {
   const auto own = static_cast<int>(V.rows());
   Positions all(V.rows() + around.V.rows(), 3);
   all << V, around.V;
-  const NearVertices found = find_near(around.V, V, F, reach);
+  const NearVertices found = find_near(around.V, V, F, margin);
   const Triangles near = take_near(around, found.near, own);
   Triangles joined(F.rows() + near.rows(), 3);
   joined << F, near;

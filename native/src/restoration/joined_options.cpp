@@ -66,10 +66,10 @@ PressAmount begin_after(const PressAmount& amount, const Vector& move) {
   PressAmount result = amount;
   result.strength = 1;
   if (move.isZero(0)) return result;
-  const Vector share = move / amount.limit;
+  const Vector fraction = move / amount.limit;
   if (!result.limit_share.exists()) result.limit_share = MoveLimit::within(1, static_cast<int>(move.size()));
-  result.limit_share.lowest = (result.limit_share.lowest - share).cwiseMax(-1).cwiseMin(0);
-  result.limit_share.highest = (result.limit_share.highest - share).cwiseMin(1).cwiseMax(0);
+  result.limit_share.lowest = (result.limit_share.lowest - fraction).cwiseMax(-1).cwiseMin(0);
+  result.limit_share.highest = (result.limit_share.highest - fraction).cwiseMin(1).cwiseMax(0);
   return result;
 }
 

@@ -47,13 +47,13 @@ Positions JointPress::widen(size_t k, const Positions& used_positions) const {
   return all;
 }
 
-// Returns the others at present, or at shares of their moves.
-Skin JointPress::others_of(size_t own, const std::vector<double>& shares) const {
+// Returns the others at present, or at fractions of their moves.
+Skin JointPress::others_of(size_t own, const std::vector<double>& fractions) const {
   Eigen::Index vertices = 0, triangles = 0;
   std::vector<Skin> skins;
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (k == own) continue;
-    skins.push_back(sides_[k]->skin(shares.empty() ? 1 : shares[k]));
+    skins.push_back(sides_[k]->skin(fractions.empty() ? 1 : fractions[k]));
     vertices += skins.back().V.rows();
     triangles += skins.back().F.rows();
   }
@@ -132,7 +132,7 @@ double JointPress::find_difference(size_t own, int v) const {
   if (side.is_firm()) return 0;
   if (number < 0 || !is_joint(number)) return -side.shift(v);
   const JointSide& other = *sides_[number];
-  const auto between = [share = place.share](double a, double b) { return (1 - share) * a + share * b; };
+  const auto between = [fraction = place.fraction](double a, double b) { return (1 - fraction) * a + fraction * b; };
   const double movable = other.is_firm() ? 0 : between(other.joint()(place.first), other.joint()(place.second));
   const double across = between(other.shift(place.first), other.shift(place.second));
   return (1 - 0.5 * movable) * (across * other.axis().dot(side.axis()) - side.shift(v));
@@ -154,13 +154,14 @@ FlushPart JointPress::find_flush_part(size_t own) const {
   return part;
 }
 
-// Returns what find_uneven_flush of each side does, after shares of the moves or at present; without change where it
+// Returns what find_uneven_flush of each side does, after fractions of the moves or at present; without change where it
 // is not asked for.
-std::vector<UnevenFlush> JointPress::find_uneven_flush(const std::vector<double>& shares) const {
+std::vector<UnevenFlush> JointPress::find_uneven_flush(const std::vector<double>& fractions) const {
   std::vector<UnevenFlush> found(sides_.size());
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (!evens_flush(k)) continue;
-    found[k] = sides_[k]->find_uneven_flush(others_of(k, shares), find_flush_part(k), shares.empty() ? 1 : shares[k]);
+    found[k] =
+        sides_[k]->find_uneven_flush(others_of(k, fractions), find_flush_part(k), fractions.empty() ? 1 : fractions[k]);
   }
   return found;
 }
@@ -185,10 +186,10 @@ bool JointPress::even_flush(const std::vector<PressAmount>& amounts) {
 
 // Tells how uneven the flush was, and is after these moves.
 void JointPress::tell_flush(const std::vector<PressAmount>& amounts, std::vector<SmoothPanelResult>& results) const {
-  std::vector<double> shares;
-  for (const PressAmount& amount : amounts) shares.push_back(amount.strength);
+  std::vector<double> fractions;
+  for (const PressAmount& amount : amounts) fractions.push_back(amount.strength);
   const std::vector<UnevenFlush> before = find_uneven_flush(std::vector<double>(sides_.size(), 0.0)),
-                                 after = find_uneven_flush(shares);
+                                 after = find_uneven_flush(fractions);
   for (size_t k = 0; k < sides_.size(); ++k) {
     results[k].report.flush_before = before[k].most;
     results[k].report.flush_after = after[k].most;

@@ -26,13 +26,13 @@ class JointPress {
   };
 
   Positions widen(size_t k, const Positions& used_positions) const;
-  Skin others_of(size_t own, const std::vector<double>& shares = {}) const;
+  Skin others_of(size_t own, const std::vector<double>& fractions = {}) const;
   void widen_flaws();
   bool is_joint(size_t k) const { return sides_[k]->is_joint(); }
   bool is_limited() const;
   bool evens_flush(size_t k) const { return is_joint(k) && panels_[k].panel.options.even_flush; }
   FlushPart find_flush_part(size_t own) const;
-  std::vector<UnevenFlush> find_uneven_flush(const std::vector<double>& shares) const;
+  std::vector<UnevenFlush> find_uneven_flush(const std::vector<double>& fractions) const;
   bool even_flush(const std::vector<PressAmount>& amounts);
   void tell_flush(const std::vector<PressAmount>& amounts, std::vector<SmoothPanelResult>& results) const;
   std::vector<Turn> find_turns(double lengths) const;

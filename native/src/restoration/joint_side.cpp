@@ -97,8 +97,8 @@ void JointSide::widen_flaws(double diagonal) {
 }
 
 JointSide::Rings JointSide::continue_region(const Positions& V, const Surroundings& around, const Skin& beside,
-                                            double reach) const {
-  const GapOptions options{gap_, reach};
+                                            double margin) const {
+  const GapOptions options{gap_, margin};
   GapContinuation found = continue_over_gap(V, F_, around, beside.V, beside.F, options);
   return {std::move(found.around), std::move(found.followed)};
 }
@@ -115,11 +115,11 @@ void JointSide::face(const Skin& others) {
   if (!follows(shape_.border)) return;
   Mask wanted(V_.rows());
   for (Eigen::Index v = 0; v < wanted.size(); ++v) wanted(v) = shape_.border[v] == Border::kFollow;
-  const Rings joint = continue_region(V_, shape_.around, others, panel_.gap.reach);
+  const Rings joint = continue_region(V_, shape_.around, others, panel_.gap.margin);
   joint_ = joint.followed && wanted;
   rings_still_ = panel_.around_is_followed ? take_around()
                                            : continue_region(V_, combine(shape_.around, joint.around, V_.rows()),
-                                                             {panel_.V_beside, panel_.F_beside}, panel_.gap.reach);
+                                                             {panel_.V_beside, panel_.F_beside}, panel_.gap.margin);
   still_ = rings_still_.followed && wanted && !joint_;
   own_ = leave_surroundings(shape_);
   turned_border_ = own_.border;
@@ -162,8 +162,8 @@ void JointSide::build_region() {
     JointCage own = free_border(*panel_.cage, corner_, joint_);
     set_restoration_rules(options_, panel_.line_direction, {}, kRules.cage.proximity, own.options.shape);
     cage_ = std::make_unique<CageControlledSurface>(own.cage, own.V, panel_.view_direction, families_, own.options);
-    const Vector share = cage_->surface_move(cage_->control_free().cast<double>());
-    own_.held = share.array() < kHeldByCage;
+    const Vector fraction = cage_->surface_move(cage_->control_free().cast<double>());
+    own_.held = fraction.array() < kHeldByCage;
   }
   region_ = std::make_unique<MeshSurface>(V_, F_, panel_.view_direction, families_, own_);
   alone_ = std::make_unique<Restoration>(*region_, joint_options_);
@@ -181,15 +181,15 @@ void JointSide::begin(const PressAmount& amount) {
   move_ = turned_ = evened_ = Vector::Zero(V_.rows());
 }
 
-Positions JointSide::present(double share) const {
+Positions JointSide::present(double fraction) const {
   if (move_.size() == 0) return V_;
-  return V_ + share * move_ * axis().transpose();
+  return V_ + fraction * move_ * axis().transpose();
 }
 
-Skin JointSide::skin(double share) const { return {present(share), F_}; }
+Skin JointSide::skin(double fraction) const { return {present(fraction), F_}; }
 
-UnevenFlush JointSide::find_uneven_flush(const Skin& others, const FlushPart& part, double share) const {
-  const Positions V = present(share);
+UnevenFlush JointSide::find_uneven_flush(const Skin& others, const FlushPart& part, double fraction) const {
+  const Positions V = present(fraction);
   const Positions normal = find_open_border(V, F_, shape_.around).normal;
   const GapContinuation found = continue_over_gap(V, F_, shape_.around, others.V, others.F, {gap_, 0});
   const double least = kRules.bump.least_height * alone_->report().length;
@@ -210,18 +210,18 @@ UnevenFlush JointSide::find_uneven_flush(const Skin& others, const FlushPart& pa
 }
 
 JoinedMesh JointSide::join(const Positions& V, const Skin& others) const {
-  const Rings rings = continue_region(V, shape_.around, others, widened_ * panel_.gap.reach);
+  const Rings rings = continue_region(V, shape_.around, others, widened_ * panel_.gap.margin);
   return join_surroundings(V, F_, combine(rings.around, rings_still_.around, V.rows()), kWhole);
 }
 
 Turn JointSide::find_turn(const Skin& others, double lengths) const {
   const Positions V = present(1);
   const JoinedMesh joined = join(V, others);
-  Vector share = Vector::Ones(V.rows());
-  share = joint_.select(0.5 * share.array(), share.array());
-  const TangentMatch match{joined, V.rows(), F_.rows(), turned_border_, region_->optimizer().frame(), share};
-  const double reach = lengths * alone_->report().length / widened_;
-  const Vector change = match_tangents(match, Vector::Zero(V.rows()), reach, alone_->report().limit);
+  Vector fraction = Vector::Ones(V.rows());
+  fraction = joint_.select(0.5 * fraction.array(), fraction.array());
+  const TangentMatch match{joined, V.rows(), F_.rows(), turned_border_, region_->optimizer().frame(), fraction};
+  const double width = lengths * alone_->report().length / widened_;
+  const Vector change = match_tangents(match, Vector::Zero(V.rows()), width, alone_->report().limit);
   return {change, reflines::find_turn(match, change)};
 }
 
@@ -231,10 +231,10 @@ void JointSide::add(const Vector& change) {
 }
 
 void JointSide::begin_evened(const Vector& change) {
-  const double reach = kRules.border.turned_before * alone_->report().length / widened_;
+  const double width = kRules.border.turned_before * alone_->report().length / widened_;
   move_.setZero();
-  add(spread_from_rim(region_->optimizer().frame().project(V_), rim_, change, reach,
-                      [&](double distance) { return fade(distance / reach); }));
+  add(spread_from_rim(region_->optimizer().frame().project(V_), rim_, change, width,
+                      [&](double distance) { return fade(distance / width); }));
   turned_ = evened_ = move_;
 }
 
@@ -279,7 +279,7 @@ void JointSide::press(const Skin& others, const PressAmount& amount) {
   if (is_cage()) gain_ = weigh_gain();
 }
 
-// Returns the share that a cage makes of its move, by what it can take of that.
+// Returns the fraction that a cage makes of its move, by what it can take of that.
 double JointSide::weigh_gain() const {
   Vector move(joined_.V.rows());
   move << cage_->surface_move(cage_->fit(move_)) - turned_, beside_;
@@ -289,9 +289,9 @@ double JointSide::weigh_gain() const {
 void JointSide::even(const Vector& change) {
   Vector values = Vector::Zero(joined_.V.rows());
   values.head(V_.rows()) = mirror_alike(shape_.partner, change);
-  const double reach = kRules.border.turned_after * alone_->report().length;
-  const Vector spread = spread_from_rim(region_->optimizer().frame().project(joined_.V), rim_, values, reach,
-                                        [&](double distance) { return fade(distance / reach); });
+  const double width = kRules.border.turned_after * alone_->report().length;
+  const Vector spread = spread_from_rim(region_->optimizer().frame().project(joined_.V), rim_, values, width,
+                                        [&](double distance) { return fade(distance / width); });
   move_ += free_.select(spread.head(V_.rows()).array(), 0.0).matrix();
   limited_ = static_cast<int>(range_->find_beyond(move_).count());
   beside_ += surface_->optimizer().free().select(spread.array(), 0.0).matrix().tail(beside_.size());
@@ -303,8 +303,8 @@ void JointSide::saturate() {
 }
 
 void JointSide::take_shape() {
-  const double share = std::exchange(gain_, 1.0);
-  control_ = share * cage_->fit(move_);
+  const double fraction = std::exchange(gain_, 1.0);
+  control_ = fraction * cage_->fit(move_);
   limited_ = static_cast<int>(control_range_->find_beyond(control_).count());
   if (limited_ > 0) control_ = control_range_->saturate(control_);
   move_ = cage_->surface_move(control_);
@@ -340,8 +340,8 @@ RimPlace JointSide::find_rim(const Vector3& point, double within) const {
   if (nearest.triangle < 0) return {kWhole, -1, -1, 0};
   const int a = rim_(nearest.triangle, 0), b = rim_(nearest.triangle, 1);
   const Vector3 first = V_.row(a), second = V_.row(b);
-  const double share = (nearest.point - first).norm() / std::max((second - first).norm(), 1e-300);
-  return {nearest.distance, a, b, share};
+  const double fraction = (nearest.point - first).norm() / std::max((second - first).norm(), 1e-300);
+  return {nearest.distance, a, b, fraction};
 }
 
 }  // namespace reflines

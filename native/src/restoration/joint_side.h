@@ -28,7 +28,7 @@ struct Skin {
 struct RimPlace {
   double distance;
   int first, second;
-  double share;  // of the second end
+  double fraction;  // of the second end
 };
 
 // A change of heights (#V), and by how many degrees, at most, it turns a border.
@@ -40,7 +40,7 @@ struct Turn {
 // The part that a side has in making its flush even.
 struct FlushPart {
   IndexVector across;  // #V: the side that a vertex of the rim lies across from, or -1
-  Vector taken;        // #V: share of the uneven flush that this side takes away
+  Vector taken;        // #V: fraction of the uneven flush that this side takes away
 };
 
 // An uneven flush, and what mends it.
@@ -65,11 +65,11 @@ class JointSide {
   SmoothPanelResult press_clamped(const PressAmount& amount);  // towards the others
 
   void begin(const PressAmount& amount);  // the steps: nothing has moved yet
-  Skin skin(double share = 1) const;      // at present, or at a share of the move
+  Skin skin(double fraction = 1) const;   // at present, or at a fraction of the move
 
-  // Returns by how much the flush towards the others is uneven after a share of the move, and the change of heights
+  // Returns by how much the flush towards the others is uneven after a fraction of the move, and the change of heights
   // (#V) that takes this side's part of it away. There is none where it is not seen.
-  UnevenFlush find_uneven_flush(const Skin& others, const FlushPart& part, double share = 1) const;
+  UnevenFlush find_uneven_flush(const Skin& others, const FlushPart& part, double fraction = 1) const;
   void begin_evened(const Vector& change);  // from the start, instead of begin()
 
   // Returns the change that turns the border's tangents towards the others as all are at present: half of the way to
@@ -83,7 +83,7 @@ class JointSide {
   void saturate();
   void turn_after(const Vector& change);
 
-  // Replaces the move of a cage's surface by what the cage can take of it; the first time by the share that makes
+  // Replaces the move of a cage's surface by what the cage can take of it; the first time by the fraction that makes
   // its lines more even.
   void take_shape();
   void make_firm() { firm_ = true; }  // from now on others follow its rim
@@ -109,12 +109,12 @@ class JointSide {
     Surroundings around;
     Mask followed;  // #V
   };
-  Rings continue_region(const Positions& V, const Surroundings& around, const Skin& beside, double reach) const;
+  Rings continue_region(const Positions& V, const Surroundings& around, const Skin& beside, double margin) const;
   Rings take_around() const;  // the faces around, which are followed
   JoinedMesh join(const Positions& V, const Skin& others) const;
   ShapeOptions choose_joined_shape(const JoinedMesh& joined) const;
   ShapeOptions clamp_joint() const;
-  Positions present(double share) const;  // #V x 3
+  Positions present(double fraction) const;  // #V x 3
   void build_region();
   double weigh_gain() const;
   SmoothPanelResult read_cage(SmoothPanelResult surface, const PressAmount& amount) const;
@@ -149,7 +149,7 @@ class JointSide {
   std::unique_ptr<CageControlledSurface> cage_;
   std::unique_ptr<ControlRange> control_range_;
   Vector control_;     // #C: moves of its vertices, after take_shape()
-  double gain_ = 1.0;  // share of the move that it makes when it takes it first
+  double gain_ = 1.0;  // fraction of the move that it makes when it takes it first
   bool firm_ = false;
 };
 

@@ -13,7 +13,7 @@ namespace reflines {
 struct Unevenness {
   std::vector<double> degrees;   // of theta, root mean square over the area seen, one for each light
   std::vector<LineScore> score;  // likewise
-  std::vector<double> seen;      // share of the area that the light's eye sees, likewise
+  std::vector<double> seen;      // fraction of the area that the light's eye sees, likewise
   Eigen::MatrixXd squares;       // #F x lights: of the offsets of theta, degrees^2, as the light's eye sees them
   Vector stray;                  // #F or of a cage #faces: see SmoothPanelReport::stray
 };

@@ -17,8 +17,8 @@ struct TangentMap {
 // for the mean slope g. A plane of that slope keeps its lengths, and a vertex that moves along the view its place. The
 // mean slope is that of the border's curve alone, by Stokes' theorem, so that flaws do not turn it.
 //
-// In the image plane, flaws that are seen at an angle are narrower and steeper than they are. Of dents of 1 and 2 per
-// mille in a dome seen at 60 degrees 0.84 and 0.99 stayed there; over this plane 0.07 and 0.06, as from above.
+// In the image plane, flaws that are seen at an angle are narrower and steeper than they are. Of a dent in a dome seen
+// at 60 degrees 0.84 stayed there; over this plane 0.07, as from above.
 class MeanPlane {
  public:
   explicit MeanPlane(const HeightField& field);

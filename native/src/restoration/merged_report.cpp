@@ -6,7 +6,7 @@
 namespace reflines {
 namespace {
 
-// Adds notes; of one kind their counts are added and the larger change is told.
+// Adds notes; of one kind their counts are added and the larger change is reported.
 void add_notes(const std::vector<Note>& more, std::vector<Note>& notes) {
   for (const Note& note : more) {
     const auto same = std::find_if(notes.begin(), notes.end(), [&](const Note& own) { return own.kind == note.kind; });
@@ -31,17 +31,17 @@ void add_region(const Region& more, Region& region) {
   add_notes(more.notes, region.notes);
 }
 
-// Adds measures of a part, with its share of the area, to means that begin at 0.
-void add_means(const std::vector<double>& more, double share, std::vector<double>& means) {
+// Adds measures of a part, with its fraction of the area, to means that begin at 0.
+void add_means(const std::vector<double>& more, double fraction, std::vector<double>& means) {
   means.resize(more.size(), 0.0);
-  for (size_t k = 0; k < more.size(); ++k) means[k] += share * more[k];
+  for (size_t k = 0; k < more.size(); ++k) means[k] += fraction * more[k];
 }
 
-void add_scores(const std::vector<LineScore>& more, double share, std::vector<LineScore>& means) {
+void add_scores(const std::vector<LineScore>& more, double fraction, std::vector<LineScore>& means) {
   means.resize(more.size());
   for (size_t k = 0; k < more.size(); ++k) {
-    means[k].shift += share * more[k].shift;
-    means[k].turn += share * more[k].turn;
+    means[k].shift += fraction * more[k].shift;
+    means[k].turn += fraction * more[k].turn;
   }
 }
 
@@ -51,8 +51,8 @@ WorsePlace choose_worse(const WorsePlace& one, const WorsePlace& other) {
   return other.after - other.before > one.after - one.before ? other : one;
 }
 
-void add_healed(const HealedFlaws& more, double share, HealedFlaws& healed) {
-  const double was = healed.area, added = share * more.area, all = was + added;
+void add_healed(const HealedFlaws& more, double fraction, HealedFlaws& healed) {
+  const double was = healed.area, added = fraction * more.area, all = was + added;
   const auto mean = [&](double a, double b) {
     return std::sqrt((was * a * a + added * b * b) / std::max(all, 1e-300));
   };
@@ -91,14 +91,14 @@ SmoothPanelReport merge_reports(const std::vector<PressedPart>& parts, Eigen::In
   double area = 0;
   for (const PressedPart& part : parts) area += part.area;
   for (const PressedPart& part : parts) {
-    const double share = part.area / std::max(area, 1e-300);
+    const double fraction = part.area / std::max(area, 1e-300);
     add_totals(part.report, total);
-    add_scores(part.report.score_before, share, total.score_before);
-    add_scores(part.report.score_after, share, total.score_after);
-    add_means(part.report.unevenness_before, share, total.unevenness_before);
-    add_means(part.report.unevenness_after, share, total.unevenness_after);
-    add_means(part.report.seen, share, total.seen);
-    add_healed(part.report.healed, share, total.healed);
+    add_scores(part.report.score_before, fraction, total.score_before);
+    add_scores(part.report.score_after, fraction, total.score_after);
+    add_means(part.report.unevenness_before, fraction, total.unevenness_before);
+    add_means(part.report.unevenness_after, fraction, total.unevenness_after);
+    add_means(part.report.seen, fraction, total.seen);
+    add_healed(part.report.healed, fraction, total.healed);
     for (Vector SmoothPanelReport::*field : {&SmoothPanelReport::stray, &SmoothPanelReport::verdict}) {
       if ((part.report.*field).size() == static_cast<Eigen::Index>(part.triangles.size()))
         (total.*field)(part.triangles) = part.report.*field;

@@ -18,7 +18,7 @@
 namespace reflines {
 namespace {
 
-constexpr double kReach = 1.05;  // of what a press takes in
+constexpr double kMargin = 1.05;  // of what a press takes in
 
 using Lists = std::vector<std::vector<int>>;
 
@@ -121,7 +121,7 @@ JointPanel build_panel(const Whole& whole, const std::vector<int>& triangles, co
   panel.around_is_followed = true;
   const double diagonal = bounding_box_diagonal(whole.V(used.index, Eigen::all));
   const double length = options.length > 0 ? options.length : options.flaw_size * kAutomaticLength * diagonal;
-  panel.gap = {whole.gap, kReach * kFairReach * length};
+  panel.gap = {whole.gap, kMargin * kFairMargin * length};
   return panel;
 }
 

@@ -10,11 +10,11 @@
 namespace reflines {
 namespace {
 
-// Throws unless there are shares of the limit for all vertices, or for none.
-void check_share(const MoveLimit& share, Eigen::Index vertex_count) {
-  if (!share.exists() && share.lowest.size() == 0) return;
-  check(share, static_cast<int>(vertex_count));
-  const auto beyond = (share.lowest.array() < -1 || share.highest.array() > 1).count();
+// Throws unless there are fractions of the limit for all vertices, or for none.
+void check_fraction(const MoveLimit& fraction, Eigen::Index vertex_count) {
+  if (!fraction.exists() && fraction.lowest.size() == 0) return;
+  check(fraction, static_cast<int>(vertex_count));
+  const auto beyond = (fraction.lowest.array() < -1 || fraction.highest.array() > 1).count();
   if (beyond == 0) return;
   throw InvalidInput("The share of the limit of " + std::to_string(beyond) + " of the " + std::to_string(vertex_count) +
                      " vertices is beyond it; give -1 to 0 for the lowest move and 0 to 1 for the highest.");
@@ -49,7 +49,7 @@ void check_set(const LightSet& set) {
 void check_amount(const PressAmount& amount, Eigen::Index vertex_count) {
   require(amount.limit >= 0, "The limit must be a positive length, or 0 for automatic.");
   require(amount.strength >= 0 && amount.strength <= 1, "The strength must lie between 0 and 1.");
-  check_share(amount.limit_share, vertex_count);
+  check_fraction(amount.limit_share, vertex_count);
 }
 
 void check_press_options(const SmoothPanelOptions& options, Eigen::Index vertex_count) {

@@ -13,7 +13,7 @@ namespace reflines {
 // Returns the light lines and, where both count, those that cross them; those of the set of lights where there is one.
 std::vector<Vector3> make_families(const Vector3& view, const Vector3& lines, const SmoothPanelOptions& options);
 
-// Sets the options that all presses share. Noise makes creases, and held ones would keep it; smoother and weights keep
+// Sets the options of all presses. Noise makes creases, and held ones would keep it; smoother and weights keep
 // what bends. The frame follows the light lines given also where a set takes their place: which flaws are found does
 // not depend on the lights of a set.
 void set_restoration_rules(const SmoothPanelOptions& options, const Vector3& lines, const PressAmount& amount,

@@ -11,8 +11,8 @@ namespace reflines {
 double fade(double r);
 
 // Returns for each of the points (#P x 2) the value at the nearest place of the rim, whose edges (first, second,
-// second) name points with a value each (#P), times `course` of its distance from there; 0 beyond `reach`.
-Vector spread_from_rim(const PlanePositions& points, const Triangles& edges, const Vector& values, double reach,
+// second) name points with a value each (#P), times `course` of its distance from there; 0 beyond `width`.
+Vector spread_from_rim(const PlanePositions& points, const Triangles& edges, const Vector& values, double width,
                        const std::function<double(double distance)>& course);
 
 }  // namespace reflines

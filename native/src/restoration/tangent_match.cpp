@@ -125,7 +125,7 @@ void measure_slopes(const TangentMatch& match, const Plane& plane, Rim& rim) {
     const HeightFit in = fit_side(match, plane, v, true), out = fit_side(match, plane, v, false);
     if (in.degree == 0 || out.degree == 0) continue;
     const Vector2 across = rim.outward.row(v).head<2>().transpose().normalized();
-    rim.slope(v) = (out.slope - in.slope).dot(across) * (match.share.size() > 0 ? match.share(v) : 1);
+    rim.slope(v) = (out.slope - in.slope).dot(across) * (match.fraction.size() > 0 ? match.fraction(v) : 1);
   }
 }
 
@@ -168,7 +168,7 @@ double find_turn(const TangentMatch& match, const Vector& change) {
   return largest * 180 / std::numbers::pi;
 }
 
-Vector match_tangents(const TangentMatch& match, const Vector& move, double reach, double limit) {
+Vector match_tangents(const TangentMatch& match, const Vector& move, double width, double limit) {
   const Plane plane = place(match, move);
   Rim rim = find_rim(match, plane);
   if (rim.edges.rows() == 0) return Vector::Zero(match.vertices);
@@ -176,10 +176,10 @@ Vector match_tangents(const TangentMatch& match, const Vector& move, double reac
   measure_slopes(match, plane, rim);
   average_slopes(match, rim);
   for (Eigen::Index v = 0; v < rim.slope.size(); ++v) {
-    if (rim.slope(v) != 0) rim.slope(v) *= smoothstep(0, 0.5 * reach, rim.from_end(v));
+    if (rim.slope(v) != 0) rim.slope(v) *= smoothstep(0, 0.5 * width, rim.from_end(v));
   }
   const double steepest = rim.slope.cwiseAbs().maxCoeff();
-  const double within = steepest > 0 ? std::min(reach, limit / (kHighest * steepest)) : reach;
+  const double within = steepest > 0 ? std::min(width, limit / (kHighest * steepest)) : width;
   return spread_from_rim(plane.xy.topRows(match.vertices), rim.edges, rim.slope, within,
                          [&](double distance) { return -distance * fade(distance / within); });
 }

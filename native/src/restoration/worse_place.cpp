@@ -7,7 +7,8 @@
 namespace reflines {
 namespace {
 
-// Lights whose means are taken together: they share the weights of the disks, and their columns bound the memory.
+// Lights whose means are taken together: they have the weights of the disks in common, and their columns bound the
+// memory.
 constexpr int kTogether = 8;
 
 }  // namespace

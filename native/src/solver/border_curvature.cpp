@@ -12,12 +12,12 @@
 namespace reflines {
 namespace {
 
-constexpr double kReachEdges = 6.0;  // mean edges that the pull reaches at least
-constexpr double kReachShare = 0.1;  // of the region's diagonal that it reaches at least
+constexpr double kRangeEdges = 6.0;     // mean edges that the pull reaches at least
+constexpr double kRangeFraction = 0.1;  // of the region's diagonal that it reaches at least
 
-// The factor of the reach where third derivatives continue the second ones: with 1, 1.25 and 1.5 a clean bonnet moves
+// The factor of the range where third derivatives continue the second ones: with 1, 1.25 and 1.5 a clean bonnet moves
 // by 8, 11 and 14 mm, and the rate of the curvature across comes nearer.
-constexpr double kFlowReach = 1.5;
+constexpr double kFlowRange = 1.5;
 
 double measure_mean_edge(const HeightField& field) {
   double sum = 0;
@@ -27,7 +27,7 @@ double measure_mean_edge(const HeightField& field) {
   return sum / (3.0 * field.triangle_count());
 }
 
-// The nearest border vertex of each triangle (#T of the field), -1 beyond the reach, and its distance.
+// The nearest border vertex of each triangle (#T of the field), -1 beyond the range, and its distance.
 struct Nearest {
   std::vector<int> vertex;
   Vector distance;
@@ -40,8 +40,8 @@ Eigen::RowVector2d find_centre(const HeightField& field, int t) {
 // Hands the nearest border vertex on from triangle to triangle, which creases and strong bends stop: triangles without
 // response (#F). `joined`: see find_joined.
 Nearest find_nearest(const HeightField& field, const Triangles& joined, const Vector& response,
-                     const std::map<int, BorderJet>& known, double reach) {
-  Nearest nearest{std::vector<int>(field.triangle_count(), -1), Vector::Constant(field.triangle_count(), reach)};
+                     const std::map<int, BorderJet>& known, double range) {
+  Nearest nearest{std::vector<int>(field.triangle_count(), -1), Vector::Constant(field.triangle_count(), range)};
   std::deque<int> open;
   const auto offer = [&](int t, int v) {
     const double distance = (find_centre(field, t) - field.xy.row(v)).norm();
@@ -82,7 +82,7 @@ struct Pull {
   const BorderJets& jets;
   Nearest nearest;
   Vector response;  // #F
-  double edge, reach;
+  double edge, range;
 };
 
 Target make_target(const Pull& pull, const ReflectionFunction& lines, double strong, int family) {
@@ -94,7 +94,7 @@ Target make_target(const Pull& pull, const ReflectionFunction& lines, double str
     if (v < 0) continue;
     const BorderJet& jet = pull.jets.of_vertex.at(v);
     const double distance = std::max(pull.nearest.distance(t), 0.5 * pull.edge);
-    const double own = jet.flows ? kFlowReach * pull.reach : pull.reach;
+    const double own = jet.flows ? kFlowRange * pull.range : pull.range;
     if (distance >= own) continue;
     const Vector5 u = jet.at((find_centre(field, t) - field.xy.row(v)).transpose());
     target.gradient.row(field.source[t]) = theta_gradient(lines.derivatives(u(0), u(1), 1), u);
@@ -125,10 +125,10 @@ BorderCurvature continue_curvature(const Positions& V, const HeightField& field,
                                    const Surroundings& around, const ImagePlane& frame, const CreaseOptions& creases,
                                    const std::vector<StartLines>& start,
                                    const std::vector<ReflectionFunction>& families) {
-  const double edge = measure_mean_edge(field), reach = std::max(kReachEdges * edge, kReachShare * field.diagonal());
+  const double edge = measure_mean_edge(field), range = std::max(kRangeEdges * edge, kRangeFraction * field.diagonal());
   CreaseOptions found = creases;
   if (found.rule == CreaseRule::kNone) found.rule = CreaseRule::kAutomatic;
-  const BorderJets jets = fit_border_jets(V, field, border, around, frame, found, kFlowReach * reach);
+  const BorderJets jets = fit_border_jets(V, field, border, around, frame, found, kFlowRange * range);
   BorderCurvature result{{}, jets.unknown, 0, jets.constant};
   if (jets.of_vertex.empty()) return result;
   const bool flow =
@@ -136,8 +136,8 @@ BorderCurvature continue_curvature(const Positions& V, const HeightField& field,
   const Vector response = find_response(start);
   const Triangles joined = find_joined(V, field, found);
   const Pull pull{
-      field,    jets, find_nearest(field, joined, response, jets.of_vertex, flow ? kFlowReach * reach : reach),
-      response, edge, reach};
+      field,    jets, find_nearest(field, joined, response, jets.of_vertex, flow ? kFlowRange * range : range),
+      response, edge, range};
   result.targets.push_back(make_target(pull, families.front(), start.front().strong, 0));
   result.targets.push_back(
       make_target(pull, families.back(), start.back().strong, static_cast<int>(families.size()) - 1));

@@ -14,8 +14,8 @@ constexpr int kRings = 3;     // of the surroundings that a fit takes in
 constexpr int kAverages = 2;  // passes along the border, which take the noise out of the fits
 
 // The ratio of the squares of the second derivatives to those of their standard error above which they are known, both
-// averaged along the border in so many passes: neighbours' fits share points, so that noise alone often exceeds its own
-// error.
+// averaged along the border in so many passes: neighbours' fits have points in common, so that noise alone often
+// exceeds its own error.
 constexpr double kEvidence = 8.0;
 constexpr int kEvidencePasses = 8;
 
@@ -77,7 +77,7 @@ bool has_any(const Triangles& F, int t, const std::vector<int>& vertices) {
 
 // Adds the triangles of the surroundings that touch one of the vertices and are joined with the reached ones by edges.
 // Returns false where a crease lies between.
-bool reach_ring(const Beside& beside, const std::vector<int>& vertices, std::vector<int>& reached) {
+bool take_ring(const Beside& beside, const std::vector<int>& vertices, std::vector<int>& reached) {
   for (size_t k = 0; k < reached.size(); ++k) {
     for (int i = 0; i < 3; ++i) {
       const int t = beside.neighbors(reached[k], i);
@@ -97,7 +97,7 @@ std::vector<int> gather_rings(const Beside& beside, int v) {
   for (int e = around.begin(v); e < around.end(v) && around.items[e] < beside.region_count; ++e)
     reached.push_back(around.items[e]);
   for (int ring = 0; ring < kRings; ++ring) {
-    if (!reach_ring(beside, found, reached)) return {};
+    if (!take_ring(beside, found, reached)) return {};
     for (const int t : reached) {
       if (t >= beside.region_count) found.insert(found.end(), {beside.F(t, 0), beside.F(t, 1), beside.F(t, 2)});
     }
@@ -136,7 +136,7 @@ BorderJets fit_border(const Beside& beside, const HeightField& field, const std:
   return result;
 }
 
-// Lists the vertices with a jet that share an edge of the surroundings with v.
+// Lists the vertices with a jet that an edge of the surroundings joins with v.
 std::vector<int> list_beside(const Beside& beside, const Jets& jets, int v) {
   std::vector<int> near;
   for (int e = beside.triangles_of_vertex.begin(v); e < beside.triangles_of_vertex.end(v); ++e) {
@@ -165,7 +165,7 @@ void set_ranges(Jets& jets) {
 // Tells whether third derivatives are known at a vertex, by those of its neighbours that have some, too: at one alone
 // they may vanish, or seem to be exact. Estimates with the error e of a tensor T have the expected square T^2 + e^2:
 // they are nearer to T than zeros are where e^2 is below half of their square.
-bool knows_third(const Jets& jets, const std::vector<int>& near, int v, double reach) {
+bool knows_third(const Jets& jets, const std::vector<int>& near, int v, double range) {
   double error = 0, third = 0, second = 0;
   const auto add = [&](const BorderJet& jet) {
     error += jet.third_error * jet.third_error;
@@ -176,7 +176,7 @@ bool knows_third(const Jets& jets, const std::vector<int>& near, int v, double r
   for (const int other : near) {
     if (jets.at(other).flows) add(jets.at(other));
   }
-  return 2 * error <= third || error * reach * reach <= kHarmless * kHarmless * second;
+  return 2 * error <= third || error * range * range <= kHarmless * kHarmless * second;
 }
 
 // Removes the jets whose second derivatives are not known; returns how many.
@@ -199,15 +199,15 @@ int remove_unknown(const Beside& beside, Jets& jets) {
   return count;
 }
 
-void choose_flowing(const Beside& beside, double reach, Jets& jets) {
+void choose_flowing(const Beside& beside, double range, Jets& jets) {
   std::vector<int> unsure;
   for (const auto& [v, jet] : jets) {
-    if (jet.flows && !knows_third(jets, list_beside(beside, jets, v), v, reach)) unsure.push_back(v);
+    if (jet.flows && !knows_third(jets, list_beside(beside, jets, v), v, range)) unsure.push_back(v);
   }
   for (const int v : unsure) jets[v].flows = false;
 }
 
-// Averages the second and third derivatives of vertices that share an edge of the surroundings. Third ones that are not
+// Averages the second and third derivatives of vertices that an edge of the surroundings joins. Third ones that are not
 // known count as zeros, so that one vertex in many that seems to know them does not stand out.
 Jets average_along(const Beside& beside, const Jets& own) {
   Jets result = own;
@@ -232,8 +232,8 @@ Vector5 BorderJet::at(const Vector2& place) const {
   // The place tends to the range from inside, and leaves the polynomial like the fifth power of the distance. Without
   // a range, a clean bonnet whose surroundings begin to bend down beside the region moves by 67 mm, with it by 14 mm;
   // half the range gives 12 mm, but leaves the rates across beside dents and ripples 13 and 35 % further off.
-  const double far = place.squaredNorm() / (range * range), share = std::pow(1 + far * far, -0.25);
-  const double x = share * place.x(), y = share * place.y();
+  const double far = place.squaredNorm() / (range * range), fraction = std::pow(1 + far * far, -0.25);
+  const double x = fraction * place.x(), y = fraction * place.y();
   const Vector3 turned(third(0) * x + third(1) * y, third(1) * x + third(2) * y, third(2) * x + third(3) * y);
   const Vector3 middle = u.tail<3>() + 0.5 * turned;
   Vector5 result = u;
@@ -244,11 +244,11 @@ Vector5 BorderJet::at(const Vector2& place) const {
 
 BorderJets fit_border_jets(const Positions& V, const HeightField& field, const std::vector<Border>& border,
                            const Surroundings& around, const ImagePlane& frame, const CreaseOptions& creases,
-                           double reach) {
+                           double range) {
   const Beside beside = place_surroundings(V, field, around, frame, creases);
   BorderJets result = fit_border(beside, field, border);
   result.unknown += remove_unknown(beside, result.of_vertex);
-  choose_flowing(beside, reach, result.of_vertex);
+  choose_flowing(beside, range, result.of_vertex);
   for (const auto& [v, jet] : result.of_vertex) result.constant += border[v] == Border::kFlow && !jet.flows;
   for (int pass = 0; pass < kAverages; ++pass) result.of_vertex = average_along(beside, result.of_vertex);
   set_ranges(result.of_vertex);

@@ -38,9 +38,9 @@ struct BorderJets {
 // nothing of the region but its border; second and third ones are averaged along the border. Where a crease lies within
 // these rings, the border itself among them, the surface does not run on, and they tell nothing. Nor do they where
 // noise hides the second derivatives. Third derivatives count as known where their standard error is below half of
-// themselves, or changes the second derivatives over `reach` by less than a tenth.
+// themselves, or changes the second derivatives over `range` by less than a tenth.
 BorderJets fit_border_jets(const Positions& V, const HeightField& field, const std::vector<Border>& border,
                            const Surroundings& around, const ImagePlane& frame, const CreaseOptions& creases,
-                           double reach);
+                           double range);
 
 }  // namespace reflines

@@ -59,7 +59,7 @@ Scene make_scene(const Positions& V, const Triangles& F, const Eyes& eyes) {
   return scene;
 }
 
-// Weighs what each eye sees (#F); families with the same eye share the work.
+// Weighs what each eye sees (#F); families with the same eye do it once.
 std::vector<Vector> weigh_eyes(const Positions& V, const Triangles& F, const Eyes& eyes) {
   const Scene scene = make_scene(V, F, eyes);
   std::vector<Vector3> eye;

@@ -50,14 +50,14 @@ RowLimits PieceProblem::row_limits() const {
 double PieceProblem::move(int v) const {
   const int k = map_.moving_index()[v];
   if (k < 0) return 0;
-  // A mesh's vertex moves as its unknown does, which mirror images share to the last bit.
+  // A mesh's vertex moves as its unknown does, which is that of its mirror image to the last bit.
   const double move = map_.is_selection() ? x_(k) - map_.start()(k) : z_(v) - piece_.field.z(v);
   if (!limit_.exists()) return move;
   if (const int side = is_mesh() ? limited(v) : 0; side != 0) return side < 0 ? limit_.lowest(v) : limit_.highest(v);
   return std::clamp(move, limit_.lowest(v), limit_.highest(v));
 }
 
-// Returns the distance from an end of its range at which a vertex of a cage's surface touches it: a share of the
+// Returns the distance from an end of its range at which a vertex of a cage's surface touches it: a fraction of the
 // largest limit, or of the largest move where all are infinite or 0.
 double PieceProblem::touching_distance(int v) const {
   const double size = limit_size_ > 0 ? limit_size_ : largest_move_;

@@ -102,7 +102,7 @@ void PieceProblem::pull_to(const Vector& z, const Vector& weight) {
   minimizer_.emplace(solver_);  // its factor belongs to another energy
 }
 
-void PieceProblem::scale_move(double share) { set_heights(map_.start() + share * (x_ - map_.start())); }
+void PieceProblem::scale_move(double fraction) { set_heights(map_.start() + fraction * (x_ - map_.start())); }
 
 void PieceProblem::set_move(const Vector& move) {
   Vector sum = Vector::Zero(size()), count = Vector::Zero(size());
@@ -186,9 +186,9 @@ void PieceProblem::set_targets(const std::vector<Target>& targets) {
   std::vector<EnergyTerm> terms = terms_.build(targets);
   const int crossing = static_cast<int>(families_.size()) - 1;
   const bool open = free_border_ && !pulled_;
-  const Vector share = open ? Vector::Ones(stencils_.triangle_count()) : find_unseen(targets);
-  if (open || share.maxCoeff() > 0)
-    terms.push_back(terms_.build_crossing(evaluate_lines(piece_.field.z, crossing).gradient, share));
+  const Vector fraction = open ? Vector::Ones(stencils_.triangle_count()) : find_unseen(targets);
+  if (open || fraction.maxCoeff() > 0)
+    terms.push_back(terms_.build_crossing(evaluate_lines(piece_.field.z, crossing).gradient, fraction));
   energy_.set_terms(std::move(terms));
   evaluated_ = false;
 }

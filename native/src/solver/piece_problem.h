@@ -49,7 +49,7 @@ class PieceProblem : public Problem {
   void rest_at(const Vector& x);                             // sets the heights, and the rest of the proximity term
   void stay_near(const Vector& z) { energy_.set_start(z); }  // #V of the piece: rest of the proximity until a reset
   void pull_to(const Vector& z, const Vector& weight);       // pull until reset, #V of the piece; see Energy
-  void scale_move(double share);                             // of the unknowns from the start
+  void scale_move(double fraction);                          // of the unknowns from the start
   void set_move(const Vector& move);  // of a mesh's free vertices from the start: #V of the piece
   void reset();                       // restores the state as built, so that later solves give the same bits
   void forget_factor() { minimizer_->forget_factor(); }  // which depends on where a cancelled solve had come to

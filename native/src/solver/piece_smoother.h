@@ -23,7 +23,7 @@ class PieceSmoother {
   void watch(Progress* progress) { progress_ = progress; }  // may be null
 
   // Returns `gradient` (#T x 2) of a family without its detail finer than options.length. Directional smoothing is
-  // along the isotropically smoothed lines: along lines that wobble by 40 degrees their own wobble is no detail. Throws
+  // along the isotropically smoothed lines: along lines that wave by 40 degrees their own waves are no detail. Throws
   // Cancelled.
   PlaneVectors smooth(const PlaneVectors& gradient, const SmoothOptions& options, int family);
 

@@ -1,4 +1,4 @@
-// Removes from targets the part that no heights can reach, which would imprint the triangulation on the lines.
+// Removes from targets the part that no heights attain, which would imprint the triangulation on the lines.
 #pragma once
 
 #include <vector>

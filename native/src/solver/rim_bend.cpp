@@ -30,7 +30,7 @@ std::vector<Side> list_sides(const Triangles& F) {
   return result;
 }
 
-// Returns the pairs of triangles, one of each mesh, that share an edge.
+// Returns the pairs of triangles, one of each mesh, with a common edge.
 std::vector<std::pair<int, int>> find_shared(const Triangles& F, const Triangles& others) {
   const std::vector<Side> beside = list_sides(others);
   std::vector<std::pair<int, int>> result;

@@ -1,4 +1,4 @@
-// The rim of a region: how a move bends the edges that its triangles share with those beside it.
+// The rim of a region: how a move bends the edges between its triangles and those beside it.
 #pragma once
 
 #include "reflines/surroundings.h"

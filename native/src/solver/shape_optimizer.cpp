@@ -295,7 +295,7 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
     }
     if (report.termination == Termination::kCancelled) restore(report.assemblies == 0 && report.solves == 0);
     own_->measure(targets, report);
-    check_reach(own_->box, report.largest_move);
+    check_move_size(own_->box, report.largest_move);
     own_->tell_limit(report);
   } catch (...) {
     restore(false);
@@ -328,10 +328,10 @@ SparseMatrix ShapeOptimizer::Internals::hessian(const std::vector<Target>& targe
   return result;
 }
 
-void ShapeOptimizer::scale_move(double share) {
-  if (!(share >= 0 && share <= 1)) throw InvalidInput("The share of the move must lie between 0 and 1.");
+void ShapeOptimizer::scale_move(double fraction) {
+  if (!(fraction >= 0 && fraction <= 1)) throw InvalidInput("The share of the move must lie between 0 and 1.");
   own_->forget_lines();
-  for (const auto& piece : own_->pieces.pieces()) piece->scale_move(share);
+  for (const auto& piece : own_->pieces.pieces()) piece->scale_move(fraction);
 }
 
 int ShapeOptimizer::keep_within(double limit) {
@@ -390,10 +390,10 @@ void ShapeOptimizer::Internals::tell_limit(Report& report) const {
   if (!pieces.limit().exists()) return;
   const auto free = pieces.free().count();
   report.limited = static_cast<int>((pieces.at_limit().array() != 0).count());
-  report.limited_share = static_cast<double>(report.limited) / static_cast<double>(free);
+  report.limited_fraction = static_cast<double>(report.limited) / static_cast<double>(free);
   char text[160];
   std::snprintf(text, sizeof text, " %d of %td vertices (%.3g %%) touch the limit.", report.limited, free,
-                100 * report.limited_share);
+                100 * report.limited_fraction);
   report.message += text;
   if (report.put_back == 0) return;
   std::snprintf(text, sizeof text, " %d were beyond it at the start and were put back to it first.", report.put_back);

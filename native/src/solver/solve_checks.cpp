@@ -10,7 +10,7 @@
 namespace reflines {
 namespace {
 
-// The largest move in diagonals of the region. Lines that are hard to reach move a panel by a few per cent of its
+// The largest move in diagonals of the region. Lines that are hard to attain move a panel by a few per cent of its
 // diagonal, absurd ones by half of it. Beyond this the step's own resolution grows with the heights, so that a solve
 // "converges" at any size.
 constexpr double kFarthest = 10.0;
@@ -63,7 +63,7 @@ Eigen::AlignedBox3d find_bounding_box(const Positions& V, const Triangles& F) {
   return result;
 }
 
-void check_reach(const Eigen::AlignedBox3d& region, double largest_move) {
+void check_move_size(const Eigen::AlignedBox3d& region, double largest_move) {
   const double diagonal = region.diagonal().norm();
   const double farthest = region.min().cwiseAbs().cwiseMax(region.max().cwiseAbs()).maxCoeff() + largest_move;
   if (largest_move <= kFarthest * diagonal && farthest < std::numeric_limits<float>::max()) return;

@@ -30,6 +30,6 @@ Eigen::AlignedBox3d find_bounding_box(const Positions& V, const Triangles& F);
 
 // Throws SolverFailure where a solve moved a vertex of a region in this box along the view by more than ten of its
 // diagonals, or beyond the range of float32, in which Blender stores positions. NaN counts as too far.
-void check_reach(const Eigen::AlignedBox3d& region, double largest_move);
+void check_move_size(const Eigen::AlignedBox3d& region, double largest_move);
 
 }  // namespace reflines

@@ -15,15 +15,15 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Share of the triangles up to which those that turn are held. Where more of them turn, it is the wanted lines that
+// Fraction of the triangles up to which those that turn are held. Where more of them turn, it is the wanted lines that
 // turn them, and holding helps nobody.
 constexpr double kMostHeld = 0.02;
 
 constexpr int kMostHolds = 3;  // times that faces are held and the rest is solved again
 
-// The reached share of a target below which it falls short, and the wanted change, relative to the lines' gradient,
+// The reached fraction of a target below which it falls short, and the wanted change, relative to the lines' gradient,
 // below which it does not: lines that are already as wanted differ by as much.
-constexpr double kSmallShare = 0.2, kSmallChange = 0.01;
+constexpr double kSmallFraction = 0.2, kSmallChange = 0.01;
 
 // Returns the root mean square of values (#F), weighted as the residual is.
 double mean_of(const ShapeOptimizer& optimizer, const Target& target, const Vector& values) {
@@ -41,7 +41,7 @@ class LimitedSolve {
 
   // Returns the report, with the count of vertices that the limit holds back. `held` (#V): vertices that stay.
   Report run(const Mask& held) {
-    if (options_.limit_share.exists()) return count_limited(solve(share_out(held)), held);
+    if (options_.limit_share.exists()) return count_limited(solve(spread_limit(held)), held);
     const Report free = solve(held.any() ? bound(kInfinity, held) : MoveLimit::none());
     if (free.largest_move <= options_.limit || free.termination == Termination::kCancelled) return unlimited(free);
     const int beyond = optimizer_.keep_within(options_.limit);
@@ -65,9 +65,10 @@ class LimitedSolve {
     return {-highest, highest};
   }
 
-  MoveLimit share_out(const Mask& held) const {
-    const auto scale = [&](const Vector& share) -> Vector {  // without the product of zero and infinity
-      return (held || share.array() == 0).select(Vector::Zero(share.size()).array(), options_.limit * share.array());
+  MoveLimit spread_limit(const Mask& held) const {
+    const auto scale = [&](const Vector& fraction) -> Vector {  // without the product of zero and infinity
+      return (held || fraction.array() == 0)
+          .select(Vector::Zero(fraction.size()).array(), options_.limit * fraction.array());
     };
     return {scale(options_.limit_share.lowest), scale(options_.limit_share.highest)};
   }
@@ -132,7 +133,7 @@ void measure_result(ShapeOptimizer& optimizer, const Target& wanted, const Solve
   result.residual_after = mean_of(optimizer, wanted, result.residual);
   result.score_after = optimizer.score(options.length, 0);
   const double steepness = mean_of(optimizer, wanted, optimizer.field(wanted.family).rowwise().norm());
-  result.falls_short = result.residual_after > (1.0 - kSmallShare) * result.residual_before &&
+  result.falls_short = result.residual_after > (1.0 - kSmallFraction) * result.residual_before &&
                        result.residual_before > kSmallChange * steepness;
   result.rim_bend = measure_rim_bend(optimizer.start(), optimizer.positions(), optimizer.triangles(), options.around);
 }

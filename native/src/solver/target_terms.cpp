@@ -76,13 +76,13 @@ EnergyTerm TargetTerms::build_companion(const Target& target) const {
   return result;
 }
 
-EnergyTerm TargetTerms::build_crossing(const PlaneVectors& start, const Vector& share) const {
+EnergyTerm TargetTerms::build_crossing(const PlaneVectors& start, const Vector& fraction) const {
   const int last = static_cast<int>(families_.size()) - 1;
   EnergyTerm term{families_[last], PlaneVectors(row_count_, 2), {}, Vector(row_count_)};
   for (int k = 0; k < row_count_; ++k) {
     const int t = quadrature_.triangle_of(k);
     term.gradient.row(k) = start.row(t);
-    term.weight(k) = kCrossingWeight * quadrature_.weight_of(k) * field_.area(t) * trust_[last](t) * share(t);
+    term.weight(k) = kCrossingWeight * quadrature_.weight_of(k) * field_.area(t) * trust_[last](t) * fraction(t);
   }
   return term;
 }

@@ -21,8 +21,8 @@ class TargetTerms {
   // build_companion. Throws InvalidInput where the gradient beside a value fit is not finite.
   std::vector<EnergyTerm> build(const std::vector<Target>& targets) const;
 
-  // Builds the term whose target for the last family is its field `start` (#T x 2); `share` (#T) weighs triangles.
-  EnergyTerm build_crossing(const PlaneVectors& start, const Vector& share) const;
+  // Builds the term whose target for the last family is its field `start` (#T x 2); `fraction` (#T) weighs triangles.
+  EnergyTerm build_crossing(const PlaneVectors& start, const Vector& fraction) const;
 
   // The misfit of heights with the derivatives u (one row for each triangle in the energy), over the triangles that can
   // change: sum of area |grad theta - wanted|^2 (of a value fit: of the difference of theta), and of areas.

@@ -7,8 +7,8 @@
 namespace reflines {
 namespace {
 
-// The share of the way between two places that must lead across the lines: of places along one line the order changes
-// as soon as the line tilts.
+// The fraction of the way between two places that must lead across the lines: of places along one line the order
+// changes as soon as the line tilts.
 constexpr double kAcross = 0.5;
 constexpr double kSteepest = 20.0;  // how many times denser than now lines can be
 constexpr double kRounding = 1e-9;  // radians

@@ -22,9 +22,9 @@ constexpr double kPlaceWeight = 1e4;
 // again somewhere.
 constexpr double kStayWeight = 1e4;
 constexpr double kFirmest = kStayWeight - 1;  // where the map is 0
-// The weight of the values around a pull, for an area of radius^2, and the share of the radius where it falls to 0.
-// Heights under a held border reach a third to three quarters of c; without it the rest is a corner of the line at the
-// handle. At a fifth of the radius along the line 0.74 of the pull are left without it, and 0.80 with it.
+// The weight of the values around a pull, for an area of radius^2, and the fraction of the radius where it falls to 0.
+// Heights under a held border come to a third to three quarters of c; without it the rest is a corner of the line at
+// the handle. At a fifth of the radius along the line 0.74 of the pull are left without it, and 0.80 with it.
 constexpr double kRoundWeight = 500;
 constexpr double kRound = 1.0 / 3;
 constexpr double kPlaceEdges = 2.5;  // edges that the triangles around a place measure across
@@ -274,10 +274,10 @@ double LineHandles::weigh_values(const std::vector<Handle>& handles, const Mask&
   double weight = stays * value_scale_ / (radius * radius);
   for (const Handle& handle : handles) {
     if (handle.kind != HandleKind::kPull || field_->feature(triangle)) continue;
-    const double share = measure_distance(field_->center.row(triangle), handle.points) / (kRound * handle.radius);
-    if (share >= 1) continue;
+    const double fraction = measure_distance(field_->center.row(triangle), handle.points) / (kRound * handle.radius);
+    if (fraction >= 1) continue;
     const double most = kRoundWeight * value_scale_ / (handle.radius * handle.radius);
-    weight = std::max(weight, most * std::pow(1 - share * share, 2));
+    weight = std::max(weight, most * std::pow(1 - fraction * fraction, 2));
   }
   return weight;
 }
@@ -341,14 +341,14 @@ Mask LineHandles::can_follow(const PlanePositions& points) const {
   return result;
 }
 
-std::vector<HandleReach> LineHandles::measure(const std::vector<Handle>& handles, const RegionField& now,
-                                              double line_step) const {
+std::vector<HandleResidual> LineHandles::measure(const std::vector<Handle>& handles, const RegionField& now,
+                                                 double line_step) const {
   if (now.F.rows() != field_->F.rows() || now.xy.rows() != field_->xy.rows()) {
     throw InvalidInput("The handles belong to another region; make them for this one.");
   }
   if (!(line_step > 0)) throw InvalidInput("The step from line to line must be positive; give 2 pi / their count.");
   const Places places = find_places(handles);
-  std::vector<HandleReach> result(handles.size());
+  std::vector<HandleResidual> result(handles.size());
   for (size_t k = 0; k < handles.size(); ++k) {
     for (const HandlePlace& place : places[k]) {
       const double theta = evaluate_theta_near(now, place.at, place.point, place.theta + place.change);

@@ -5,7 +5,7 @@
 namespace reflines {
 namespace {
 
-// Weiszfeld's iteration halves its error at least in each step on the fields of car panels; 30 reach 1e-10 there.
+// Weiszfeld's iteration halves its error at least in each step on the fields of car panels; 30 come to 1e-10 there.
 constexpr int kMostSteps = 100;
 constexpr double kNegligible = 1e-10;  // relative: changes and distances
 

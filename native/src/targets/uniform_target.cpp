@@ -79,8 +79,8 @@ Target build_turned_target(const RegionField& field, const TurnOptions& options,
   const Vector density = read_densities(field, options.density, options.density_end, options.axis);
   Target target{field.gradient, {}, {}, field.family, true};
   for (int t = 0; t < field.F.rows(); ++t) {
-    const double share = read_influence(field, influence, t), own = options.angle * share;
-    const double factor = 1 + share * (density(t) - 1);
+    const double fraction = read_influence(field, influence, t), own = options.angle * fraction;
+    const double factor = 1 + fraction * (density(t) - 1);
     if (own == 0 && factor == 1) continue;
     const double x = factor * field.gradient(t, 0), y = factor * field.gradient(t, 1);
     target.gradient.row(t) << std::cos(own) * x - std::sin(own) * y, std::sin(own) * x + std::cos(own) * y;

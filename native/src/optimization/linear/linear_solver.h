@@ -59,7 +59,8 @@ class LinearSolver {
   // vectors that are sorted by elimination take as long as 1.5 solves of 100,000 unknowns, and 0.17 of a factorization.
   std::vector<SparseColumns> solve_lower(const SparseMatrix& B);
 
-  // Returns the unknowns in the order of elimination: neighbours follow each other, and share most of their paths.
+  // Returns the unknowns in the order of elimination: neighbours follow each other, and have most of their paths in
+  // common.
   std::vector<int> sort_by_elimination(std::vector<int> unknowns) const;
 
  private:

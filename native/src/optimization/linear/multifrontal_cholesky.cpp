@@ -28,7 +28,7 @@ void MultifrontalCholesky::find_targets(const SparseMatrix& pattern, const int* 
   for (int j = 0; j < factor_.size; ++j) place[order[j]] = j;
   target_.resize(pattern.nonZeros());
 #pragma omp parallel for schedule(static)
-  for (int first = 0; first < factor_.size; ++first) {  // neighbours in this order share rows of the factor
+  for (int first = 0; first < factor_.size; ++first) {  // neighbours in this order have common rows of the factor
     const int column = order[first];
     for (int k = pattern.outerIndexPtr()[column]; k < pattern.outerIndexPtr()[column + 1]; ++k) {
       const auto [j, i] = std::minmax(first, place[pattern.innerIndexPtr()[k]]);

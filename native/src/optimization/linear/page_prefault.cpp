@@ -29,10 +29,10 @@ void ask_for_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size
 void provide_pages(void* block, std::size_t bytes) {
   ask_for_huge_pages(block, bytes);
   volatile char* const memory = static_cast<char*>(block);
-  constexpr std::size_t kShare = 2 * kHugePage;
-#pragma omp parallel for schedule(dynamic) if (bytes > kShare)
-  for (std::size_t begin = 0; begin < bytes; begin += kShare) {
-    const std::size_t end = std::min(begin + kShare, bytes);
+  constexpr std::size_t kBlock = 2 * kHugePage;
+#pragma omp parallel for schedule(dynamic) if (bytes > kBlock)
+  for (std::size_t begin = 0; begin < bytes; begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, bytes);
     for (std::size_t place = begin; place < end; place += kPage) memory[place] = 0;
   }
 }

@@ -7,7 +7,7 @@
 
 namespace reflines {
 
-struct FlawlessSurface {
+struct ReferenceSurface {
   PlaneVectors slopes;  // #T x 2, of the surface without flaws
   Vector flaws;         // #V: height of the field over it along the view
 };
@@ -15,6 +15,6 @@ struct FlawlessSurface {
 // Compares the field with two others: the one smoothed by place as in a press, which keeps what is design but is biased
 // at borders and on irregular meshes, and polynomials around each place (see local_surface.h), which are exact there
 // but know no design. A flaw is what both say. `length` is the size of flaws; `progress` may be null; throws Cancelled.
-FlawlessSurface find_flawless_surface(const HeightField& field, double length, Progress* progress);
+ReferenceSurface find_reference_surface(const HeightField& field, double length, Progress* progress);
 
 }  // namespace reflines

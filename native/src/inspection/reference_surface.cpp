@@ -1,4 +1,4 @@
-#include "inspection/flawless_surface.h"
+#include "inspection/reference_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,15 +41,15 @@ double agree(double smoothed, double fitted) {
 
 }  // namespace
 
-FlawlessSurface find_flawless_surface(const HeightField& field, double length, Progress* progress) {
+ReferenceSurface find_reference_surface(const HeightField& field, double length, Progress* progress) {
   const Vector smoothed = field.z - smooth_by_place(field, length, progress);
   if (progress) progress->enter(kFitting, "fitting the surface around each place");
   const Vector fitted = field.z - fit_local_surface(field, kDisk * length, progress);
-  FlawlessSurface result{find_slopes(field.xy, field.F, field.z), smoothed.binaryExpr(fitted, &agree)};
+  ReferenceSurface result{find_slopes(field.xy, field.F, field.z), smoothed.binaryExpr(fitted, &agree)};
   const PlaneVectors one = find_slopes(field.xy, field.F, smoothed), other = find_slopes(field.xy, field.F, fitted);
   for (Eigen::Index t = 0; t < one.rows(); ++t) {
-    const double share = one.row(t).dot(other.row(t)) / std::max(one.row(t).squaredNorm(), 1e-300);
-    result.slopes.row(t) -= std::clamp(share, 0.0, kAtMost) * one.row(t);
+    const double fraction = one.row(t).dot(other.row(t)) / std::max(one.row(t).squaredNorm(), 1e-300);
+    result.slopes.row(t) -= std::clamp(fraction, 0.0, kAtMost) * one.row(t);
   }
   return result;
 }
