@@ -22,8 +22,8 @@ def surface() -> "reflines.ShapeOptimizer":
 def test_the_density_varies_along_or_across_the_lines(surface, axis: str, varies: tuple[float, float]) -> None:
     """From 1 at the first triangle to 2 at the last, and not at all along the other direction. The lines run along y;
     in the picture that is (0, 1) up to the light's slant."""
-    wish = direction.Direction(np.array([0.0, 1.0, 0.0]), density=1.0, density_end=2.0, axis=axis)
-    wanted = native_call.run_now(direction.build_direction_target(surface, wish)).gradient
+    asked = direction.Direction(np.array([0.0, 1.0, 0.0]), density=1.0, density_end=2.0, axis=axis)
+    wanted = native_call.run_now(direction.build_direction_target(surface, asked)).gradient
     density = np.linalg.norm(wanted, axis=1)
     density /= density.min()
     world = surface.centers @ surface.frame[:2, :2]
