@@ -4,64 +4,86 @@
 #include <utility>
 
 #include "geometry/bounding_box.h"
+#include "restoration/mean_plane.h"
+#include "restoration/mirror_evidence.h"
 #include "restoration/press_rules.h"
 
 namespace reflines {
 namespace {
 
-// Projects the axes of the object's space to the image plane: mirror planes are looked for across them.
-PlanePositions project_axes(const ImagePlane& frame) {
-  PlanePositions axes(3, 2);
-  for (int k = 0; k < 3; ++k) axes.row(k) = frame.to_frame(Vector3::Unit(k)).head<2>();
+// Returns the axes of the object's space in the coordinates of the view: mirror planes are looked for across them.
+Positions turn_axes(const ImagePlane& frame) {
+  Positions axes(3, 3);
+  for (int k = 0; k < 3; ++k) axes.row(k) = frame.to_frame(Vector3::Unit(k));
   return axes;
 }
 
-// Returns true where the control vertices that stay are as high as their partners.
-bool is_held_symmetrically(ControlledSurface& surface, const IndexVector& partner) {
+// Returns the vertices of a cage as the view sees them, with the mean slope of its surface.
+SeenPoints see_cage(const ControlledSurface& surface, const ImagePlane& frame, const Vector2& slope) {
   const Positions& C = surface.control_positions();
-  const Vector z = surface.optimizer().frame().heights(C);
-  const Mask free = surface.control_free();
-  const double most = kRules.symmetry.held_difference * bounding_box_diagonal(C);
-  for (Eigen::Index v = 0; v < partner.size(); ++v) {
-    const bool moves = free(v) && free(partner(v));
-    if (!moves && std::abs(z(v) - z(partner(v))) > most) return false;
+  SeenPoints result{Positions(C.rows(), 3), slope.transpose().replicate(C.rows(), 1)};
+  result.P << frame.project(C), frame.heights(C);
+  result.P.rowwise() -= result.P.colwise().mean().eval();
+  return result;
+}
+
+// Leaves those images that are each other's, no deeper than flaws are apart, and not different by design.
+void keep_partners(MirrorImages& images, const Mask& design) {
+  const MirrorImages found = images;
+  for (Eigen::Index c = 0; c < design.size(); ++c) {
+    const int image = found.image(c);
+    if (found.image(image) == c && found.paired(c) && found.paired(image) && !design(c)) continue;
+    images.image(c) = static_cast<int>(c);
+    images.paired(c) = false;
   }
-  return partner.size() > 0;
+}
+
+// Returns true where the control vertices that stay are mirror images.
+bool is_held_symmetrically(const Mask& free, const SeenPoints& points, const MirrorImages& images, double diagonal) {
+  const Vector rise = find_mirrored_rise(points, images);
+  for (Eigen::Index c = 0; c < rise.size(); ++c) {
+    const bool moves = free(c) && free(images.image(c));
+    if (!moves && std::abs(rise(c)) > kRules.symmetry.held_difference * diagonal) return false;
+  }
+  return rise.size() > 0;
 }
 
 }  // namespace
 
-FlawlessShape even_halves(ControlledSurface& surface, const Vector& start, double length, bool has_partners) {
-  const ShapeOptimizer& optimizer = surface.optimizer();
-  const ImagePlane& frame = optimizer.frame();
-  const PlanePositions axes = project_axes(frame);
-  MirrorEvidence evidence = find_mirror_evidence(optimizer.xy(), start, surface.triangles(),
-                                                 bounding_box_diagonal(surface.positions()), length, axes);
-  FlawlessShape result{.heights = start + evidence.correction, .mirrored = evidence.vertices};
-  if (evidence.vertices == 0 || has_partners) return result;  // given mirror images move alike whatever was found
-  const Positions& C = surface.control_positions();
-  const Mask design = surface.controls_of(evidence.design);
-  if (!surface.controls_every_vertex())
-    evidence.partners = find_mirror_partners(frame.project(C), frame.heights(C), bounding_box_diagonal(C), axes);
-  for (MirrorPartners& found : evidence.partners) {
-    for (Eigen::Index c = 0; c < found.partner.size(); ++c) {
-      if (design(c)) found.partner(c) = static_cast<int>(c);
-    }
-    if (is_held_symmetrically(surface, found.partner)) result.partners.push_back(std::move(found));
+FlawlessShape even_halves(ControlledSurface& surface, const HeightField& field, double length, bool has_partners) {
+  const ImagePlane& frame = surface.optimizer().frame();
+  const Positions axes = turn_axes(frame);
+  MirrorEvidence evidence = find_mirror_evidence(field, bounding_box_diagonal(surface.positions()), length, axes);
+  FlawlessShape result{.correction = std::move(evidence.correction)};
+  if (evidence.images.empty()) return result;
+  result.mirrored = field.vertex_count();
+  if (has_partners) return result;  // given mirror images move alike whatever was found
+  const double diagonal = bounding_box_diagonal(surface.control_positions());
+  if (surface.controls_every_vertex()) {
+    result.control = see_vertices(field);
+  } else {
+    const MeanPlane plane(field);
+    result.control = see_cage(surface, frame, plane.slope());
+    evidence.images = find_mirror_images(result.control, diagonal, axes, plane.normal());
+  }
+  const Mask design = surface.controls_of(evidence.design), free = surface.control_free();
+  for (MirrorImages& images : evidence.images) {
+    keep_partners(images, design);
+    if (is_held_symmetrically(free, result.control, images, diagonal)) result.partners.push_back(std::move(images));
   }
   return result;
 }
 
-Vector average_partners(ControlledSurface& surface, const std::vector<MirrorPartners>& partners, const Vector& move) {
-  if (partners.empty()) return move;
+Vector average_partners(ControlledSurface& surface, const FlawlessShape& flawless, const Vector& move) {
+  if (flawless.partners.empty()) return move;
   const Mask free = surface.control_free();
-  const Vector start = surface.optimizer().frame().heights(surface.control_positions());
   Vector result = move;
-  for (const MirrorPartners& images : partners) {
-    const Vector z = start + result;
-    for (Eigen::Index v = 0; v < z.size(); ++v) {
-      const int other = images.partner(v);
-      if (free(v) && free(other)) result(v) += 0.5 * images.weight * (z(other) - z(v));
+  for (const MirrorImages& images : flawless.partners) {
+    SeenPoints moved = flawless.control;
+    moved.P.col(2) += result;
+    const Vector rise = find_mirrored_rise(moved, images);
+    for (Eigen::Index c = 0; c < rise.size(); ++c) {
+      if (free(c) && free(images.image(c))) result(c) += 0.5 * images.weight * rise(c);
     }
   }
   return result;

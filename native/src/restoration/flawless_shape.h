@@ -3,25 +3,27 @@
 
 #include <vector>
 
+#include "geometry/height_field.h"
 #include "reflines/types.h"
 #include "restoration/controlled_surface.h"
-#include "restoration/mirror_evidence.h"
+#include "restoration/mirror_images.h"
 
 namespace reflines {
 
 struct FlawlessShape {
-  Vector heights;  // #V: the start without what looks like a flaw
-  // Across each plane of symmetry the control vertices (#C) that are to move to one height; see MirrorPartners.
-  std::vector<MirrorPartners> partners = {};
-  int mirrored = 0;  // see SmoothPanelReport
+  Vector correction;  // #V: heights along the view to add to the start, which take away what looks like a flaw
+  int mirrored = 0;   // see SmoothPanelReport
+  // The control vertices at the start, and those (#C) that are to become mirror images across each plane of symmetry.
+  SeenPoints control = {};
+  std::vector<MirrorImages> partners = {};
 };
 
-// Takes out what one half of a symmetric panel has and the other has not, of the surface with heights `start` (#V).
-// `has_partners` tells that the surface's solves make mirror images move alike already.
-FlawlessShape even_halves(ControlledSurface& surface, const Vector& start, double length, bool has_partners);
+// Takes out what one half of a symmetric panel has and the other has not, of a surface as a height field whose vertices
+// move as its own do. `has_partners` tells that the surface's solves make mirror images move alike already.
+FlawlessShape even_halves(ControlledSurface& surface, const HeightField& field, double length, bool has_partners);
 
-// Returns the move (#C) with which free partners are as high as their mean. Stencils and the cut of quads are not
-// symmetric, so that smoothing leaves partners apart.
-Vector average_partners(ControlledSurface& surface, const std::vector<MirrorPartners>& partners, const Vector& move);
+// Returns the move (#C) with which free partners are mirror images, each by half of the way. Stencils and the cut of
+// quads are not symmetric, so that smoothing leaves partners apart.
+Vector average_partners(ControlledSurface& surface, const FlawlessShape& flawless, const Vector& move);
 
 }  // namespace reflines

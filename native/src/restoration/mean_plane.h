@@ -32,6 +32,9 @@ class MeanPlane {
   // Returns the change of heights along the view that changes those over this plane by so much.
   Vector change_along_view(const Vector& change) const { return change / lift_; }
 
+  const Vector2& slope() const { return slope_; }  // of the plane over the image plane
+  Vector3 normal() const { return lift_ * Vector3(-slope_.x(), -slope_.y(), 1.0); }
+
   // Returns the map to the tangent plane where the surface has this slope over this plane.
   TangentMap map_to_tangent(const Vector2& slope) const;
 

@@ -57,13 +57,12 @@ struct BumpRules {
   double core_inliers = 0.7;  // likewise, of the core's
 };
 
-// Rules of symmetry: what differs between two halves is a flaw, or design; see mirror_evidence.h and
+// Rules of symmetry: what differs between two halves is a flaw, or design; see mirror_images.h, mirror_evidence.h and
 // designed_difference.h.
 struct SymmetryRules {
-  double pair_tolerance = 1e-4;           // diagonals, in the image plane: vertices that are partners
+  double pair_tolerance = 1e-4;           // diagonals that a vertex lies aside from its partner's image
   double deepest = 3e-3;                  // diagonals: a difference of height that may be a flaw
   double unpaired = 0.95, paired = 0.98;  // of the vertices with partners: from none to all
-  double least_axis = 0.3;                // of an axis's length that lies in the image plane
   double roughness_radius = 0.56;         // lengths: over which roughness is compared
   double roughest = 2.0;          // root mean squares of the difference: roughness counts up to that, as of fillets
   double taper = 0.28;            // lengths: over which corrections rise from nothing beside designed differences

@@ -80,11 +80,12 @@ void Restoration::find_shape() {
   course_.reset();
   gain_.reset();
   longer_waves_.reset();
-  flawless_ = {.heights = start_};
-  if (options_.symmetric) flawless_ = even_halves(surface_, start_, report_.length, options_.partner.size() > 0);
-  auto smoother = std::make_unique<AdaptiveSmoother>(make_field(surface_), report_.length);
+  const HeightField field = make_field(surface_);
+  flawless_ = {.correction = Vector::Zero(start_.size())};
+  if (options_.symmetric) flawless_ = even_halves(surface_, field, report_.length, options_.partner.size() > 0);
+  auto smoother = std::make_unique<AdaptiveSmoother>(field, report_.length);
   const Vector& heights = smoother->heights();
-  shape_ = start_ + (smoother->adapt(heights + (flawless_.heights - start_), progress()) - heights);
+  shape_ = start_ + (smoother->adapt(heights + flawless_.correction, progress()) - heights);
   smoother_ = std::move(smoother);
 }
 
@@ -172,9 +173,7 @@ void Restoration::solve(const MoveLimit& limit) {
 }
 
 // Returns the last solve's moves of the control vertices (#C), those of partners averaged.
-Vector Restoration::read_move() const {
-  return average_partners(surface_, flawless_.partners, surface_.control_move());
-}
+Vector Restoration::read_move() const { return average_partners(surface_, flawless_, surface_.control_move()); }
 
 // Solves within the limit. A move that is cut there has an edge round every plateau, in lines that were even. Solved
 // for, dents three times as deep as the limit leave 0.3 of their error instead of the 0.5 of moves that saturate. After

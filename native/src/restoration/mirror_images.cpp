@@ -1,0 +1,194 @@
+#include "restoration/mirror_images.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "base/parallel_failure.h"
+#include "base/smoothstep.h"
+#include "geometry/height_field.h"
+#include "restoration/grid_cell.h"
+#include "restoration/press_rules.h"
+
+namespace reflines {
+namespace {
+
+constexpr double kSame = 1e-7;  // of the direction, and of the diagonal: far below kRules.symmetry.pair_tolerance
+constexpr double kLeastMoment = 1e-9;  // relative: a smaller one has no direction
+constexpr int kSamples = 500;          // points by which a plane is tried
+constexpr int kChunk = 1024;           // points for a thread
+
+// The plane of the mean normal.
+struct MeanFrame {
+  explicit MeanFrame(const Vector3& normal) : first(normal.unitOrthogonal()), second(normal.cross(first)) {}
+
+  PlanePositions project(const Positions& P) const {
+    PlanePositions result(P.rows(), 2);
+    result << P * first, P * second;
+    return result;
+  }
+
+  Vector3 first, second;
+};
+
+// Lists unit normals of planes across which places q (#V x 2) may be symmetric: those of a mirror image's moments sum
+// (x + iy)^p, whose argument is a multiple of the axis's angle, for p = 2 (the principal axes), 3 and 4 (those of a
+// square).
+std::vector<Vector2> list_normals(const PlanePositions& q) {
+  std::vector<Vector2> result;
+  const PlanePositions centred = q.rowwise() - q.colwise().mean();
+  for (int p = 2; p <= 4; ++p) {
+    std::complex<double> moment = 0;
+    double size = 0;
+    for (Eigen::Index v = 0; v < centred.rows(); ++v) {
+      const std::complex<double> power = std::pow(std::complex<double>(centred(v, 0), centred(v, 1)), p);
+      moment += power;
+      size += std::abs(power);
+    }
+    if (std::abs(moment) <= kLeastMoment * size) continue;
+    for (int k = 0; k < p; ++k) {
+      const double angle = (std::arg(moment) + std::numbers::pi * k) / p;
+      result.emplace_back(-std::sin(angle), std::cos(angle));
+    }
+  }
+  return result;
+}
+
+// Lists the planes that may be of symmetry, each once: across a normal through the middle and through the mean.
+std::vector<MirrorAcross> list_planes(const Positions& P, double diagonal, const Positions& axes,
+                                      const MeanFrame& frame) {
+  std::vector<Vector3> normals;
+  for (Eigen::Index k = 0; k < axes.rows(); ++k) normals.emplace_back(axes.row(k).normalized());
+  for (const Vector2& n : list_normals(frame.project(P)))
+    normals.emplace_back(frame.first * n.x() + frame.second * n.y());
+  std::vector<MirrorAcross> result;
+  for (const Vector3& n : normals) {
+    const Vector across = P * n;
+    for (const double offset : {(across.minCoeff() + across.maxCoeff()) / 2, across.mean()}) {
+      const auto is_same = [&](const MirrorAcross& plane) {
+        const double turn = std::min((plane.normal - n).norm(), (plane.normal + n).norm());
+        const double shift = std::abs(plane.offset - std::copysign(offset, offset * plane.normal.dot(n)));
+        return turn < kSame && shift < kSame * diagonal;
+      };
+      if (std::none_of(result.begin(), result.end(), is_same)) result.push_back({n, offset});
+    }
+  }
+  return result;
+}
+
+// Points in square cells of the image plane.
+class PointGrid {
+ public:
+  PointGrid(const Positions& P, double cell) : P_(P), cell_(cell) {
+    for (int v = 0; v < P.rows(); ++v) cells_[key(P.row(v))].push_back(v);
+  }
+
+  // Returns the point that is seen nearest to a place, -1 where there is none within a cell's size.
+  int find_nearest(const Vector3& place) const {
+    const auto [i, j] = key(place);
+    int best = -1;
+    double least = cell_ * cell_;
+    for (int k = 0; k < 9; ++k) {
+      const auto cell = cells_.find({i + k % 3 - 1, j + k / 3 - 1});
+      if (cell == cells_.end()) continue;
+      for (const int v : cell->second) {
+        const double squared = (P_.row(v).transpose() - place).head<2>().squaredNorm();
+        if (squared >= least) continue;
+        best = v;
+        least = squared;
+      }
+    }
+    return best;
+  }
+
+ private:
+  std::pair<int, int> key(const Vector3& p) const { return find_grid_cell(p.head<2>(), cell_); }
+
+  const Positions& P_;
+  double cell_;
+  std::map<std::pair<int, int>, std::vector<int>> cells_;
+};
+
+// The mirrored tangent plane at a point's image, beside the point.
+struct MirroredPlace {
+  double rise = 0;     // of that plane at the point, along the view
+  double depth = 0;    // of the point below that plane
+  double aside = 0;    // how far from the image, in that plane, the view meets it
+  double allowed = 0;  // how far aside a flaw of that rise goes along the mirror image of the view
+  bool seen = false;   // the mirrored surface faces the view
+};
+
+MirroredPlace mirror_place(const SeenPoints& points, const MirrorAcross& plane, int v, int image) {
+  const Vector3 off = plane.of_point(points.P.row(image)) - points.P.row(v).transpose();
+  const Vector3 normal = plane.of_direction({-points.slope(image, 0), -points.slope(image, 1), 1.0});
+  if (normal.z() < kSilhouette * normal.norm()) return {};
+  const double rise = normal.dot(off) / normal.z();
+  const Vector3 view = Vector3::UnitZ();
+  const Vector3 slip = normal.z() * plane.of_direction(view) - view;
+  return {rise, std::abs(normal.dot(off)) / normal.norm(), (off - rise * view).norm(), std::abs(rise) * slip.norm(),
+          true};
+}
+
+// Finds the images of every `stride`th point, and how surely they are images; returns the norm of the rises of those.
+double find_images(const SeenPoints& points, const PointGrid& grid, double diagonal, int stride, MirrorImages& images) {
+  const int count = static_cast<int>(points.P.rows());
+  images.image = IndexVector::LinSpaced(count, 0, count - 1);
+  images.paired = Mask::Constant(count, false);
+  Vector rise = Vector::Zero(count);
+  run_parallel((count + stride - 1) / stride, kChunk, [&](int k) {
+    const int v = k * stride, near = grid.find_nearest(images.plane.of_point(points.P.row(v)));
+    if (near < 0) return;
+    const MirroredPlace place = mirror_place(points, images.plane, v, near);
+    if (!place.seen) return;
+    images.image(v) = near;
+    images.paired(v) = place.depth < kRules.symmetry.deepest * diagonal &&
+                       place.aside <= kRules.symmetry.pair_tolerance * diagonal + place.allowed;
+    if (images.paired(v)) rise(v) = place.rise;
+  });
+  const double fraction = static_cast<double>(images.paired.count() * stride) / count;
+  images.weight = smoothstep(kRules.symmetry.unpaired, kRules.symmetry.paired, fraction);
+  return rise.norm();
+}
+
+// Returns true where two planes have the same images for the most part: they are one plane but for flaws.
+bool are_alike(const MirrorImages& one, const MirrorImages& other) {
+  return 2 * (one.image.array() == other.image.array()).count() > one.image.size();
+}
+
+}  // namespace
+
+std::vector<MirrorImages> find_mirror_images(const SeenPoints& points, double diagonal, const Positions& axes,
+                                             const Vector3& mean) {
+  const PointGrid grid(points.P, kRules.symmetry.deepest * diagonal);
+  const int count = static_cast<int>(points.P.rows()), stride = std::max(1, count / kSamples);
+  std::vector<std::pair<double, MirrorImages>> found;
+  for (const MirrorAcross& plane : list_planes(points.P, diagonal, axes, MeanFrame(mean))) {
+    MirrorImages images{plane, {}, {}, 0};
+    find_images(points, grid, diagonal, stride, images);
+    if (2 * images.paired.count() * stride < count) continue;  // some would do for no weight, few spare the rest
+    const double difference = find_images(points, grid, diagonal, 1, images);
+    if (images.weight > 0) found.emplace_back(difference, std::move(images));
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<MirrorImages> result;
+  for (auto& [difference, images] : found) {
+    const auto is_same = [&](const MirrorImages& other) { return are_alike(images, other); };
+    if (std::none_of(result.begin(), result.end(), is_same)) result.push_back(std::move(images));
+  }
+  return result;
+}
+
+Vector find_mirrored_rise(const SeenPoints& points, const MirrorImages& images) {
+  Vector result = Vector::Zero(images.image.size());
+  for (int v = 0; v < result.size(); ++v) {
+    if (images.image(v) != v || images.paired(v))
+      result(v) = mirror_place(points, images.plane, v, images.image(v)).rise;
+  }
+  return result;
+}
+
+}  // namespace reflines
