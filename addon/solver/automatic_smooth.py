@@ -91,7 +91,7 @@ async def preview_press(kept: KeptPress, settings: AutomaticSmooth,
     """Presses without measuring the result; raises the native module's errors."""
     problem, patch = kept.problem, kept.problem.patch
     positions, report = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
-                                   limit_share=problem.limit_range, progress=progress, judged=False)
+                                   limit_range=problem.limit_range, progress=progress, judged=False)
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), report.region.closed)
     return Preview(read_own(problem, positions), "" if report.applied else word_note(report.notes[0]))
 
@@ -105,7 +105,7 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
     """
     begin = time.perf_counter()
     positions, report = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
-                                   limit_share=kept.problem.limit_range, progress=progress)
+                                   limit_range=kept.problem.limit_range, progress=progress)
     return build_solution(kept.problem, positions, report, settings, time.perf_counter() - begin)
 
 

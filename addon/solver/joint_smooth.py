@@ -59,7 +59,7 @@ async def press_joint(kept: KeptJoint, settings: AutomaticSmooth,
     begin = time.perf_counter()
     count = len(kept.problems)
     results = await call(kept.smoother.press, strengths=[settings.strength] * count, limits=[settings.limit] * count,
-                         limit_shares=[problem.limit_range for problem in kept.problems], progress=progress)
+                         limit_ranges=[problem.limit_range for problem in kept.problems], progress=progress)
     seconds = time.perf_counter() - begin
     return [build_solution(problem, positions, report, settings, seconds)
             for problem, (positions, report) in zip(kept.problems, results, strict=True)]

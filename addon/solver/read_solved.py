@@ -59,7 +59,7 @@ def read_residual(problem: PanelProblem, optimizer: "native.ShapeOptimizer", res
 
 def read_press(problem: PanelProblem, positions: np.ndarray, report: "native.SmoothPanelReport") -> Press:
     """Converts what the native smoother returns to arrays of the patch."""
-    deviation, verdict, own = report.stray, report.verdict, len(problem.patch.F)
+    deviation, verdict, own = report.line_deviation, report.verdict, len(problem.patch.F)
     if problem.is_cage:
         return Press(read_own(problem, positions), repeat_on_triangles(problem, deviation),
                      repeat_on_triangles(problem, verdict), report.largest_control_move)

@@ -35,7 +35,7 @@ async def solve_patch(live: LiveOptimizer, build_target: BuildTarget, settings: 
     lacking = None if wanted.is_plain else await wanted.measure(optimizer)
     limit, problem = choose_limit(live.patch, settings), live.problem
     report = await call(native.reflines.solve_panel, optimizer, wanted.targets, length=length, limit=limit,
-                        limit_share=await choose_ranges(live), around=choose_rim(live), progress=progress)
+                        limit_range=await choose_ranges(live), around=choose_rim(live), progress=progress)
     worse = await judge(live, settings.judges, progress)
     left = report.residual_after if wanted.is_plain else await wanted.measure(optimizer)
     lacking = report.residual_before if wanted.is_plain else lacking

@@ -80,13 +80,13 @@ py::object convert_results(std::vector<SmoothPanelResult> results) {
 }
 
 py::object press(JointSmoother& smoother, const std::vector<double>& strengths,
-                 const std::vector<std::optional<double>>& limits, const std::vector<LimitRange>& limit_shares,
+                 const std::vector<std::optional<double>>& limits, const std::vector<LimitRange>& limit_ranges,
                  const std::shared_ptr<Progress>& progress) {
-  if (limits.size() != strengths.size() || limit_shares.size() != strengths.size())
+  if (limits.size() != strengths.size() || limit_ranges.size() != strengths.size())
     throw InvalidInput("Each panel needs a strength, a limit and shares of it, or None.");
   std::vector<PressAmount> amounts;
   for (size_t k = 0; k < strengths.size(); ++k)
-    amounts.push_back(amount_of(strengths[k], limits[k], limit_shares[k], progress));
+    amounts.push_back(amount_of(strengths[k], limits[k], limit_ranges[k], progress));
   check_single_call();
   const auto exclusive_use = std::make_shared<const ExclusiveUse>(smoother, ExclusiveUse::Use::kChanges);
   return run_native([exclusive_use, &smoother, amounts] { return smoother.press(amounts); }, convert_results);
@@ -119,7 +119,7 @@ void bind_joint_smoother(py::module_& module) {
   py::class_<JointSmoother>(module, "JointSmoother", py::module_local())
       .def(py::init(construct(&prepare_smoother)), py::arg("panels"))
       .def_static("create", create(&prepare_smoother), py::arg("panels"))
-      .def("press", &press, py::kw_only(), py::arg("strengths"), py::arg("limits"), py::arg("limit_shares"),
+      .def("press", &press, py::kw_only(), py::arg("strengths"), py::arg("limits"), py::arg("limit_ranges"),
            py::arg("progress") = py::none());
 }
 

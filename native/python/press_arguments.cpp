@@ -19,10 +19,10 @@ double given(const std::optional<double>& length, const char* name) {
   return length.value_or(0.0);
 }
 
-PressAmount amount_of(double strength, const std::optional<double>& limit, const LimitRange& limit_share,
+PressAmount amount_of(double strength, const std::optional<double>& limit, const LimitRange& limit_range,
                       std::shared_ptr<Progress> progress) {
   PressAmount amount{strength, given(limit, "The limit"), {}, std::move(progress)};
-  if (limit_share) amount.limit_share = {limit_share->col(0), limit_share->col(1)};
+  if (limit_range) amount.limit_range = {limit_range->col(0), limit_range->col(1)};
   return amount;
 }
 

@@ -16,7 +16,7 @@ using LimitRange = std::optional<PlanePositions>;  // #V x 2, lowest and highest
 // Refuses a given length that is not positive: in the C++ options 0 means automatic.
 double given(const std::optional<double>& length, const char* name);
 
-PressAmount amount_of(double strength, const std::optional<double>& limit, const LimitRange& limit_share,
+PressAmount amount_of(double strength, const std::optional<double>& limit, const LimitRange& limit_range,
                       std::shared_ptr<Progress> progress);
 
 SmoothPanelOptions options_of(const std::string& lights, const std::optional<LightSet>& set,

@@ -247,7 +247,7 @@ class SmoothPanelReport:
     unevenness_after: list[float]   # length, degrees, root mean square; creases are those of both shapes
     seen: list[float]          # one for each light: fraction of the panel's area that its eye sees; 1 along the view
     healed: HealedFlaws
-    stray: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,
+    line_deviation: np.ndarray          # #F: how far the field of the light given is from its smoothed self in the shape that is returned,
                                # radians / length; by area its root mean square is the first unevenness over the length
     verdict: np.ndarray        # #F: 1 where flaws were healed, -1 where the surface counts as design and was kept, 0 where there was
                                # nothing to heal; between them by degree
@@ -267,7 +267,7 @@ class LightSet:
 class PanelSmoother:
     """Presses of Smooth on one panel, of which the second costs a tenth of the first: the flaws are found once.
 
-    The arguments are those of smooth_panel and, of `create_for_cage`, of smooth_cage_panel, but for strength, limit, limit_share
+    The arguments are those of smooth_panel and, of `create_for_cage`, of smooth_cage_panel, but for strength, limit, limit_range
     and progress, which each press has. It computes without the GIL, for one caller at a time: a second one gets InvalidInput."""
     def __init__(self, V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float], line_direction: Sequence[float],
                  border: Border | np.ndarray = "clamped", fixed: np.ndarray | None = None, partner: np.ndarray | None = None,
@@ -293,7 +293,7 @@ class PanelSmoother:
                         corners: np.ndarray = ..., corner_sharpness: np.ndarray = ..., limit_surface: bool = True,
                         lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None,
                         flaw_size: float = 1.0, symmetric: bool = True) -> PanelSmoother: ...
-    def press(self, *, strength: float = 1.0, limit: float | None = None, limit_share: np.ndarray | None = None,
+    def press(self, *, strength: float = 1.0, limit: float | None = None, limit_range: np.ndarray | None = None,
               progress: Progress | None = None, judged: bool = True) -> tuple[np.ndarray, SmoothPanelReport]:
         """Presses the panel as it was given: returns what smooth_panel returns, bit for bit, whatever was pressed before.
 
@@ -315,11 +315,11 @@ class SolvePanelReport:
     rim_bend: float            # by which the edges to the faces around bend more than before, at most, radians
 
 def solve_panel(optimizer: ShapeOptimizer, targets: list[Target], *, length: float, limit: float,
-                limit_share: np.ndarray | None = None, around: tuple[np.ndarray, np.ndarray] | None = None,
+                limit_range: np.ndarray | None = None, around: tuple[np.ndarray, np.ndarray] | None = None,
                 most_bounded: int = 0, progress: Progress | None = None) -> SolvePanelReport:
     """Solves for a tool's targets from the optimizer's present heights, with the rules that hold for every tool: freely, and where
     a vertex moved beyond the limit again within it; where few faces turn by more than 45 degrees again with these held. Scores
-    are taken at `length`; `limit_share` (#V x 2) has each vertex's fractions of the limit, `around` the faces that the rim is bent
+    are taken at `length`; `limit_range` (#V x 2) has each vertex's fractions of the limit, `around` the faces that the rim is bent
     against. More than `most_bounded` unknowns (0: MOST_BOUNDED, of a cage MOST_BOUNDED_CAGE) have all moves scaled to the limit.
 
     Raises InvalidInput, SolverFailure; a cancelled solve leaves the heights and says so."""
@@ -366,7 +366,7 @@ class JointSmoother:
     def create(panels: Sequence[JointPanel]) -> JointSmoother:
         """Builds one as the constructor does; `start` runs it in the background."""
     def press(self, *, strengths: Sequence[float], limits: Sequence[float | None],
-              limit_shares: Sequence[np.ndarray | None],
+              limit_ranges: Sequence[np.ndarray | None],
               progress: Progress | None = None) -> list[tuple[np.ndarray, SmoothPanelReport]]:
         """Presses the panels as they were given, each by an amount of its own: returns what smooth_panel returns for each."""
 
@@ -386,7 +386,7 @@ def smooth_panel(V: np.ndarray, F: np.ndarray, *, view_direction: Sequence[float
                  flaw_size: float = 1.0,
                  strength: float = 1.0,                             # fraction of the move that is made, 0 to 1
                  limit: float | None = None,                        # largest move along the view; None: length / 20
-                 limit_share: np.ndarray | None = None,             # #V x 2 fractions of it: lowest -1 to 0, highest 0 to 1
+                 limit_range: np.ndarray | None = None,             # #V x 2 fractions of it: lowest -1 to 0, highest 0 to 1
                  symmetric: bool = True,                            # what one half of a symmetric panel has alone is a flaw
                  even_flush: bool = False,                          # of parts that move with each other, see JointSmoother
                  progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
@@ -414,7 +414,7 @@ def smooth_cage_panel(V: np.ndarray, face_offsets: np.ndarray, face_vertices: np
                       lights: Literal["crossed", "single"] = "crossed", light_set: LightSet | None = None, judges: LightSet | None = None, length: float | None = None,
                       flaw_size: float = 1.0, strength: float = 1.0,
                       limit: float | None = None,          # largest move along the view, of the cage and so of its surface
-                      limit_share: np.ndarray | None = None,  # #V x 2, of the cage
+                      limit_range: np.ndarray | None = None,  # #V x 2, of the cage
                       symmetric: bool = True,
                       progress: Progress | None = None) -> tuple[np.ndarray, SmoothPanelReport]:
     """Does what smooth_panel does for the cage of a subdivision surface: flaws are looked for in the surface, and the cage's

@@ -69,8 +69,8 @@ py::object convert_result(SmoothPanelResult result) {
 }
 
 py::object press(PanelSmoother& smoother, double strength, const std::optional<double>& limit,
-                 const LimitRange& limit_share, std::shared_ptr<Progress> progress, bool judged) {
-  PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
+                 const LimitRange& limit_range, std::shared_ptr<Progress> progress, bool judged) {
+  PressAmount amount = amount_of(strength, limit, limit_range, std::move(progress));
   amount.judged = judged;
   check_single_call();
   const auto exclusive_use = std::make_shared<const ExclusiveUse>(smoother, ExclusiveUse::Use::kChanges);
@@ -81,8 +81,8 @@ py::object press(PanelSmoother& smoother, double strength, const std::optional<d
 template <typename... Arguments>
 auto press_once(BuildSmoother (*prepare)(Arguments...)) {
   return [prepare](Arguments... arguments, double strength, const std::optional<double>& limit,
-                   const LimitRange& limit_share, std::shared_ptr<Progress> progress) {
-    const PressAmount amount = amount_of(strength, limit, limit_share, std::move(progress));
+                   const LimitRange& limit_range, std::shared_ptr<Progress> progress) {
+    const PressAmount amount = amount_of(strength, limit, limit_range, std::move(progress));
     const BuildSmoother build = prepare(std::forward<Arguments>(arguments)...);
     return run_native([build, amount] { return build()->press(amount); }, convert_result);
   };
@@ -124,7 +124,7 @@ void bind_press_report(py::module_& module) {
       .def_readonly("unevenness_after", &Result::unevenness_after)
       .def_readonly("seen", &Result::seen)
       .def_readonly("healed", &Result::healed)
-      .def_readonly("stray", &Result::stray)
+      .def_readonly("line_deviation", &Result::line_deviation)
       .def_readonly("verdict", &Result::verdict)
       .def_readonly("region", &Result::region)
       .def_readonly("flush_before", &Result::flush_before)
@@ -145,7 +145,7 @@ void bind_smooth_panel(py::module_& module) {
   const PressAmount whole;
   const auto define_press = [&](const auto& define, const auto&... own) {
     define(own..., py::arg("strength") = whole.strength, py::arg("limit") = py::none(),
-           py::arg("limit_share") = py::none(), py::arg("progress") = py::none());
+           py::arg("limit_range") = py::none(), py::arg("progress") = py::none());
   };
   const auto define_mesh = [&](const auto& define) {
     define(py::arg("V"), py::arg("F"), py::kw_only(), py::arg("view_direction"), py::arg("line_direction"),

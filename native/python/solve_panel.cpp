@@ -18,10 +18,10 @@ namespace reflines {
 namespace {
 
 py::object solve(ShapeOptimizer& optimizer, const std::vector<Target>& targets, double length, double limit,
-                 const std::optional<PlanePositions>& limit_share, const Around& around, int most_bounded,
+                 const std::optional<PlanePositions>& limit_range, const Around& around, int most_bounded,
                  const std::shared_ptr<Progress>& progress) {
   SolvePanelOptions options{length, limit, {}, surroundings_of(around), most_bounded};
-  if (limit_share) options.limit_share = {limit_share->col(0), limit_share->col(1)};
+  if (limit_range) options.limit_range = {limit_range->col(0), limit_range->col(1)};
   return call_native(optimizer, [&optimizer, targets, options, progress] {
     return solve_panel(optimizer, targets, options, progress.get());
   });
@@ -51,7 +51,7 @@ void bind_solve_panel(py::module_& module) {
       .def_readonly("turned_faces", &Result::turned_faces)
       .def_readonly("rim_bend", &Result::rim_bend);
   module.def("solve_panel", &solve, py::arg("optimizer"), py::arg("targets"), py::kw_only(), py::arg("length"),
-             py::arg("limit"), py::arg("limit_share") = py::none(), py::arg("around") = py::none(),
+             py::arg("limit"), py::arg("limit_range") = py::none(), py::arg("around") = py::none(),
              py::arg("most_bounded") = SolvePanelOptions().most_bounded, py::arg("progress") = py::none());
   module.def("measure_residual", &residual_of, py::arg("optimizer"), py::arg("target"));
 }

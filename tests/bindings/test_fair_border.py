@@ -156,7 +156,7 @@ def test_the_report_is_of_the_region_alone() -> None:
     panel = Panel(clean, F)
     V, told = fair(panel)
     move = (V - panel.V)[panel.used, 2]
-    assert len(told.stray) == len(panel.own)
+    assert len(told.line_deviation) == len(panel.own)
     assert told.largest_move == pytest.approx(np.abs(move).max(), rel=1e-9)
     assert told.score_after[0].shift < told.score_before[0].shift
 
@@ -201,7 +201,7 @@ def test_the_vertices_that_the_limit_holds_back_are_counted(strength: float, sid
     share = np.tile(side, (len(panel.used), 1))
     for border in (press, fair):
         free = free_moves(border)
-        _, told = border(panel, limit=limit, limit_share=share, strength=strength)
+        _, told = border(panel, limit=limit, limit_range=share, strength=strength)
         beyond = int(((free < limit * side[0]) | (free > limit * side[1])).sum())
         assert beyond > 100 and told.limited == beyond
         assert [note.count for note in told.notes if note.kind == "limited"] == [told.limited]

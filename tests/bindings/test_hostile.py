@@ -49,7 +49,7 @@ def test_arrays_of_a_press_get_a_sentence_too() -> None:
     V, F = panel(8)
     seen = {"view_direction": VIEW, "line_direction": LINE}
     with pytest.raises(reflines.InvalidInput, match=r"shape \(9, 3\) was given where rows of two numbers are needed"):
-        reflines.smooth_panel(V, F, limit_share=np.zeros((9, 3)), **seen)
+        reflines.smooth_panel(V, F, limit_range=np.zeros((9, 3)), **seen)
     with pytest.raises(reflines.InvalidInput, match=r"shape \(3,\) was given where two numbers are needed"):
         reflines.uniform(reflines.ShapeOptimizer(V, F, **seen), direction=(1, 0, 0))
     plain = reflines.ShapeOptimizer(V.tolist(), F.tolist(), **seen)  # lists, other layouts and other numbers are taken

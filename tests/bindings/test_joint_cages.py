@@ -49,7 +49,7 @@ def look_at(cage: Cage) -> Array:
 def press(*panels: reflines.JointPanel, **amount: object) -> list:
     count = len(panels)
     return reflines.JointSmoother(panels).press(**{"strengths": [1.0] * count, "limits": [None] * count,
-                                                   "limit_shares": [None] * count, **amount})
+                                                   "limit_ranges": [None] * count, **amount})
 
 
 def panel(mesh: tuple[Array, Array]) -> reflines.JointPanel:

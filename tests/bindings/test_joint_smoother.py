@@ -13,7 +13,7 @@ def press(*meshes: Mesh, strength: float = 1.0, limit: float | None = None, **op
     smoother = reflines.JointSmoother([reflines.JointPanel(*mesh, **DIRECTIONS, margin=REACH, **options)
                                        for mesh in meshes])
     count = len(meshes)
-    return smoother.press(strengths=[strength] * count, limits=[limit] * count, limit_shares=[None] * count)
+    return smoother.press(strengths=[strength] * count, limits=[limit] * count, limit_ranges=[None] * count)
 
 
 def dent(V: Array) -> Array:
@@ -103,7 +103,7 @@ def test_a_second_press_is_that_of_a_new_smoother() -> None:
     (V, F), (W, G) = halves(0.004)
     panels = [reflines.JointPanel(change(P, dent(P)), T, **DIRECTIONS, margin=REACH) for P, T in ((V, F), (W, G))]
     smoother = reflines.JointSmoother(panels)
-    amount = {"limits": [None] * 2, "limit_shares": [None] * 2}
+    amount = {"limits": [None] * 2, "limit_ranges": [None] * 2}
     smoother.press(strengths=[1.0, 1.0], **amount)
     again = smoother.press(strengths=[0.5, 0.5], **amount)
     fresh = reflines.JointSmoother(panels).press(strengths=[0.5, 0.5], **amount)
@@ -126,7 +126,7 @@ def test_a_panel_that_faces_others_with_held_vertices_alone_is_pressed_alone() -
     panels = (reflines.JointPanel(change(V, dent(V)), F, **DIRECTIONS, margin=REACH, border=border),
               reflines.JointPanel(W, G, **DIRECTIONS, margin=REACH))
     (left, _), (right, _) = reflines.JointSmoother(panels).press(strengths=[1.0] * 2, limits=[None] * 2,
-                                                                 limit_shares=[None] * 2)
+                                                                 limit_ranges=[None] * 2)
     assert np.array_equal(left, reflines.smooth_panel(change(V, dent(V)), F, **DIRECTIONS)[0])
     assert right.shape == W.shape
 
@@ -138,7 +138,7 @@ def test_what_stays_beside_is_followed_and_the_other_panels_move() -> None:
     stays = reflines.JointPanel(bent, F, **DIRECTIONS, margin=REACH, beside=(W, G))
     other = reflines.JointPanel(W + [3.0, 0.0, 0.0], G, **DIRECTIONS, margin=REACH)
     smoother = reflines.JointSmoother([stays, other])
-    (left, _), _ = smoother.press(strengths=[1.0] * 2, limits=[None] * 2, limit_shares=[None] * 2)
+    (left, _), _ = smoother.press(strengths=[1.0] * 2, limits=[None] * 2, limit_ranges=[None] * 2)
     at = np.flatnonzero(rim(V, 0.004) & (np.abs(V[:, 1]) < 0.38))
     assert tilt(left, F, at).max() < 0.3 and np.array_equal(left[rim(V, 0.004)], bent[rim(V, 0.004)])
 
@@ -156,6 +156,6 @@ def test_what_cannot_be_pressed_is_refused() -> None:
     (V, F), _ = halves(0.004)
     smoother = reflines.JointSmoother([reflines.JointPanel(V, F, **DIRECTIONS)])
     with pytest.raises(reflines.InvalidInput, match="strength, a limit"):
-        smoother.press(strengths=[1.0], limits=[], limit_shares=[None])
+        smoother.press(strengths=[1.0], limits=[], limit_ranges=[None])
     with pytest.raises(reflines.InvalidInput, match="amount of its own"):
-        smoother.press(strengths=[1.0] * 2, limits=[None] * 2, limit_shares=[None] * 2)
+        smoother.press(strengths=[1.0] * 2, limits=[None] * 2, limit_ranges=[None] * 2)

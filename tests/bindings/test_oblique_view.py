@@ -47,3 +47,39 @@ def test_a_dent_along_the_normal_of_a_symmetric_panel_goes(angle: float) -> None
     before, after = (np.linalg.norm((RADIUS - np.hypot(each[:, 0], each[:, 2]))[near]) for each in (V, P))
     assert report.mirrored == len(V)
     assert after < 0.13 * before   # measured: 0.05 to 0.10
+
+
+def ribbed(x: Array, y: Array) -> Array:
+    """The heights of a panel that is symmetric in x and not in y, with a rib and a step on both halves."""
+    rib = 0.006 * np.exp(-((np.abs(x) - 0.45) / 0.05) ** 2) * np.cos(7 * y)
+    return -0.15 * x * x - 0.1 * y * y - 0.05 * y**3 + rib + 0.004 * np.tanh((np.abs(x) - 0.25) / 0.03)
+
+
+def dents_on_ribs(x: Array, y: Array) -> Array:
+    return -0.002 * (np.exp(-((x - 0.4) ** 2 + (y - 0.1) ** 2) / 0.09**2)
+                     + np.exp(-((x + 0.5) ** 2 + (y + 0.3) ** 2) / 0.08**2))
+
+
+@pytest.mark.parametrize(("degrees", "azimuth"), [(0, 0), (30, 0), (30, 40), (45, 60), (50, 90)])
+def test_the_other_half_tells_a_dent_from_every_view(degrees: float, azimuth: float) -> None:
+    """Dents that lie on ribs can be told by the other half alone. Halves were looked for across planes that contain the
+    view: from 30 degrees aside 0.98 of the dents stayed, and from 50 degrees in the plane of symmetry 0.77."""
+    a, turn = np.radians((degrees, azimuth))
+    view = np.array([np.sin(a) * np.cos(turn), np.sin(a) * np.sin(turn), np.cos(a)])
+    V, F = grid(lambda x, y: ribbed(x, y) + dents_on_ribs(x, y))
+    there = dents_on_ribs(V[:, 0], V[:, 1]) < -1e-4
+    left = []
+    for symmetric in (True, False):
+        P, report = reflines.smooth_panel(V, F, view_direction=view, line_direction=np.cross(view, (0.2, 1.0, 0.1)),
+                                          symmetric=symmetric)
+        assert report.mirrored == symmetric * len(V)
+        off, before = ((each[:, 2] - ribbed(each[:, 0], each[:, 1]))[there] for each in (P, V))
+        left.append(np.linalg.norm(off) / np.linalg.norm(before))
+    assert left[0] < 0.55 and left[1] > 0.9   # measured: 0.37 to 0.47, and 0.96 to 0.98
+
+
+def test_halves_that_differ_by_a_gentle_curve_are_no_halves() -> None:
+    """The dome differs from its mirror image by a cubic, on half of its vertices by less than flaws are deep."""
+    V, F = grid(clean)
+    P, _ = reflines.smooth_panel(V, F, view_direction=(0.4, 0.3, 1.0), line_direction=(1, 0.3, 0))
+    assert np.abs(P - V).max() < 5e-5

@@ -62,7 +62,7 @@ def test_press_of_a_cage_is_that_of_smooth_cage_panel() -> None:
     cage = V + np.outer(4e-3 * np.random.default_rng(2).standard_normal(len(V)), VIEW), offsets, corners
     share = np.tile([-1.0, 0.5], (len(V), 1))
     smoother = reflines.PanelSmoother.create_for_cage(*cage, **DIRECTIONS, level=1)
-    for amount in ({}, {"limit": 1e-3, "limit_share": share}, {"strength": 0.5}, {}):
+    for amount in ({}, {"limit": 1e-3, "limit_range": share}, {"strength": 0.5}, {}):
         again, told = smoother.press(**amount)
         assert np.array_equal(again, reflines.smooth_cage_panel(*cage, **DIRECTIONS, level=1, **amount)[0]), amount
     assert told.largest_control_move > 0
@@ -140,7 +140,7 @@ def test_press_after_a_cancelled_one_begins_anew() -> None:
 
 @pytest.mark.parametrize(("amount", "sentence"), [
     ({"strength": 1.5}, "strength must lie between 0 and 1"), ({"strength": np.nan}, "strength must lie between"),
-    ({"limit": -1.0}, "limit must be a positive length"), ({"limit_share": np.zeros((3, 2))}, "3"),
+    ({"limit": -1.0}, "limit must be a positive length"), ({"limit_range": np.zeros((3, 2))}, "3"),
 ])
 def test_bad_amount_is_refused_and_spoils_nothing(amount: dict, sentence: str) -> None:
     mesh, settings = rippled_mesh()

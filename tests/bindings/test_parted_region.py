@@ -55,7 +55,7 @@ def test_the_report_is_of_all_parts() -> None:
     (V, F), (W, G) = parts(0.0)
     far = W + [1.0, 0.0, 0.0]
     _, told = press((change(V, dent(V)), F), (change(W, dent(W)), G), (far, G))
-    assert told.region.triangles == len(F) + 2 * len(G) == len(told.stray)
+    assert told.region.triangles == len(F) + 2 * len(G) == len(told.line_deviation)
     assert told.healed.worst_after < 0.3 * told.healed.worst_before
     assert told.largest_move > 0.0029 and len(told.unevenness_after) == 2
 

@@ -34,7 +34,7 @@ def test_a_panel_cut_in_two_is_harmed_no_more_than_whole_and_does_not_tear(name:
     directions = {"view_direction": view, "line_direction": lines}
     reach = 0.15 * np.linalg.norm(np.ptp(V, axis=0))
     panels = [reflines.JointPanel(V[used], G.reshape(-1, 3), **directions, margin=reach) for used, G in parts]
-    results = reflines.JointSmoother(panels).press(strengths=[1.0] * 2, limits=[None] * 2, limit_shares=[None] * 2)
+    results = reflines.JointSmoother(panels).press(strengths=[1.0] * 2, limits=[None] * 2, limit_ranges=[None] * 2)
     moved, again = V.copy(), V.copy()
     moved[parts[0][0]], again[parts[1][0]] = results[0][0], results[1][0]
     both = np.intersect1d(parts[0][0], parts[1][0])

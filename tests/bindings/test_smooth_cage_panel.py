@@ -106,8 +106,8 @@ def test_stray_is_told_for_each_face_of_the_cage() -> None:
     region = np.ones(len(cage[1]) - 1, bool)
     region[:16] = False
     _, report = press(cage, region=region)
-    assert report.stray.shape == region.shape
-    assert (report.stray[~region] == 0).all() and (report.stray[region] > 0).all()
+    assert report.line_deviation.shape == region.shape
+    assert (report.line_deviation[~region] == 0).all() and (report.line_deviation[region] > 0).all()
 
 
 def test_bad_input_gets_a_sentence() -> None:

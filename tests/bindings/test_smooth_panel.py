@@ -213,10 +213,10 @@ def test_the_verdict_is_told_for_the_same_places_where_a_face_is_turned_away() -
 def test_the_report_tells_of_the_region_and_where_the_lines_stray(bonnet: tuple[np.ndarray, np.ndarray]) -> None:
     V, F = bonnet
     positions, report = press(flaw_of("noise", V), F)
-    assert report.region.triangles == len(F) and not report.region.closed and len(report.stray) == len(F)
+    assert report.region.triangles == len(F) and not report.region.closed and len(report.line_deviation) == len(F)
     edges = (positions[F][:, 1:] - positions[F][:, :1])[:, :, :2]
     area = np.abs(np.linalg.det(edges))
-    stray = np.degrees(np.sqrt(area @ report.stray**2 / area.sum())) * report.length
+    stray = np.degrees(np.sqrt(area @ report.line_deviation**2 / area.sum())) * report.length
     assert stray == pytest.approx(report.unevenness_after[0], rel=1e-6)
 
 

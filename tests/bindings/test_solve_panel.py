@@ -55,7 +55,7 @@ def test_beyond_the_limit_it_is_the_solve_within_it() -> None:
     assert told.residual_after < 0.9 * told_scaled.residual_after
     share = np.tile([-1.0, 0.0], (len(move), 1))
     one_way = build(*make_wavy())
-    assert solve(one_way, limit=limit, limit_share=share).limited > 100
+    assert solve(one_way, limit=limit, limit_range=share).limited > 100
     assert -limit <= (one_way.heights - build(*make_wavy()).heights).min() < -0.9 * limit
     assert (one_way.heights - build(*make_wavy()).heights).max() <= 0.0
 

@@ -169,7 +169,7 @@ def test_the_press_keeps_every_bit_symmetric(mesh: Callable[[], tuple[Array, Arr
     noise = np.random.default_rng(1).uniform(-1e-4, 1e-4, len(V))
     V[:, 2] += np.minimum(noise, noise[partner])
     press = {"view_direction": VIEW, "line_direction": LIGHTS[0], "partner": partner, "length": 0.2}
-    for more in ({}, {"limit": 1e-4, "limit_share": np.where(V[:, :1] > 0, 1.0, 0.5) * [-1.0, 1.0]}):
+    for more in ({}, {"limit": 1e-4, "limit_range": np.where(V[:, :1] > 0, 1.0, 0.5) * [-1.0, 1.0]}):
         positions, told = reflines.smooth_panel(V, F, **press, **more)
         assert told.applied and told.largest_move > 1e-5
         assert np.array_equal(mirrored(positions, partner), positions)

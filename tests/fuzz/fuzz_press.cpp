@@ -25,7 +25,7 @@ SmoothPanelOptions read_options(Bytes& bytes) {
 
 void check(const SmoothPanelResult& result, const Positions& before, const Vector3& view, const Mask& held) {
   const SmoothPanelReport& report = result.report;
-  fuzz::require(std::isfinite(report.length) && report.stray.allFinite());
+  fuzz::require(std::isfinite(report.length) && report.line_deviation.allFinite());
   for (int v = 0; v < before.rows(); ++v) {
     const bool stays = !report.applied || (held.size() > 0 && held(v));
     if (fuzz::are_same(result.positions.row(v), before.row(v))) continue;

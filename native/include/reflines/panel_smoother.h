@@ -18,7 +18,7 @@ class Press;
 struct PressAmount {
   double strength = 1.0;
   double limit = 0.0;
-  MoveLimit limit_share;
+  MoveLimit limit_range;
   std::shared_ptr<Progress> progress;  // of this press, or none
   // False: the report has no measures of the result, and a light that became worse refuses nothing. The positions are
   // those of a judged press that is applied. With another strength, as a drag shows it, that is a tenth of the work.

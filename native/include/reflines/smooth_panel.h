@@ -58,7 +58,7 @@ struct SmoothPanelOptions {
   double limit = 0.0;      // no vertex moves further along the view, in units of V; 0: kAutomaticLimit times the length
   // Fractions of the limit for each vertex (#V, of a cage its own): the lowest moves -1 to 0, the highest 0 to 1.
   // Empty: -1 and 1 everywhere.
-  MoveLimit limit_share;
+  MoveLimit limit_range;
   bool symmetric = true;               // what one half of a symmetric panel has and the other has not is a flaw
   std::shared_ptr<Progress> progress;  // or none
 };
@@ -110,8 +110,8 @@ struct SmoothPanelReport {
   std::vector<double> unevenness_before, unevenness_after;  // degrees, one for each family of lights
   std::vector<double> seen;  // likewise: fraction of the region's area that its eye sees; 1 along the view
   HealedFlaws healed;        // of a press that was not applied nothing: the worst place after it is that before
-  Vector stray;    // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in the
-                   // result, radians / length
+  Vector line_deviation;  // #F, or of a cage #faces: how far the field of the light given is from its smoothed self in
+                          // the result, radians / length
   Vector verdict;  // #F or #faces: 1 where flaws were healed, -1 where the surface counts as design and was kept, 0
                    // where there was nothing to heal; between them by degree
   Region region;   // of the shape at the start

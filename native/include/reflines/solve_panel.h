@@ -25,7 +25,7 @@ struct SolvePanelOptions {
   double limit = 0.0;   // no vertex moves further along the view, in units of V; may be infinite
   // Fractions of the limit for each vertex of the optimizer (#V): the lowest moves -1 to 0, the highest 0 to 1. Empty:
   // -1 and 1 everywhere.
-  MoveLimit limit_share;
+  MoveLimit limit_range;
   Surroundings around;   // or none: faces that the region's rim is bent against
   int most_bounded = 0;  // unknowns up to which moves are bounded; 0: kMostBounded, of a cage kMostBoundedCage
 };

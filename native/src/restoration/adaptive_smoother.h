@@ -37,8 +37,8 @@ class AdaptiveSmoother {
   int bumps() const { return bumps_; }  // that the last call took out
 
   // Returns how far each triangle of the surface (#F) counts as design since the last call of `adapt`, 0 to 1: the
-  // share of the lengths that it was not smoothed up to. One that is not of the field, since it is turned away, counts
-  // as 0.
+  // fraction of the lengths that it was not smoothed up to. One that is not of the field, since it is turned away,
+  // counts as 0.
   Vector design() const;
 
   PressWork take_work() { return system_.take_work(); }  // since the last call

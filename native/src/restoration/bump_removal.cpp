@@ -51,7 +51,7 @@ class BumpGain {
   BumpGain(const CurvatureVariation& variation, const PlanePositions& centers, const TriangleFields& hessian)
       : variation_(variation), centers_(centers), hessian_(hessian) {}
 
-  // Returns the share of the variation around a bump that goes with it; below 0 where it grows.
+  // Returns the fraction of the variation around a bump that goes with it; below 0 where it grows.
   double of(const Bump& bump) const {
     double sum = 0, weights = 0;
     const Eigen::Matrix3d from_tangent = substitute(bump.map.stretch);

@@ -33,8 +33,8 @@ class DiskIndex {
     for (int t = 0; t < samples.area.size(); t += stride) cells_[key(samples.center.row(t))].push_back(t);
   }
 
-  // Samples within `reach` of p, ascending by cell; at most about kRules.bump.most_samples, picked at random.
-  std::vector<int> gather(const Vector2& p, double reach) const {
+  // Samples within `radius` of p, ascending by cell; at most about kRules.bump.most_samples, picked at random.
+  std::vector<int> gather(const Vector2& p, double radius) const {
     std::vector<int> found;
     const auto [i, j] = key(p);
     for (int di = -1; di <= 1; ++di) {
@@ -42,7 +42,7 @@ class DiskIndex {
         const auto cell = cells_.find({i + di, j + dj});
         if (cell == cells_.end()) continue;
         for (const int t : cell->second) {
-          if ((samples_.center.row(t).transpose() - p).squaredNorm() < reach * reach) found.push_back(t);
+          if ((samples_.center.row(t).transpose() - p).squaredNorm() < radius * radius) found.push_back(t);
         }
       }
     }

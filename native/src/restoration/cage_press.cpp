@@ -20,7 +20,7 @@ class CagePress : public Press {
 
   SmoothPanelResult run(const PressAmount& amount) override {
     PressAmount own = amount;
-    own.limit_share = intersect_limits(amount.limit_share, partner_);
+    own.limit_range = intersect_limits(amount.limit_range, partner_);
     return press_->run(own);
   }
 

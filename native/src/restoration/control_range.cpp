@@ -11,7 +11,7 @@ namespace {
 
 // Keeps a move, in units of the limit, within it by a function that is C^2, since an edge in the moves would be seen in
 // the lines. Moves of twice the limit less where it begins, and more, are the limit itself.
-double saturate_share(double move) {
+double saturate_fraction(double move) {
   constexpr double kBegin = kRules.verdict.saturating;
   const double size = std::abs(move), t = std::clamp((size - kBegin) / (2 * (1 - kBegin)), 0.0, 1.0);
   if (t == 0) return move;
@@ -20,9 +20,9 @@ double saturate_share(double move) {
 
 }  // namespace
 
-ControlRange::ControlRange(double limit, const MoveLimit& share, Eigen::Index control_count)
+ControlRange::ControlRange(double limit, const MoveLimit& fraction, Eigen::Index control_count)
     : limits_(MoveLimit::within(limit, static_cast<int>(control_count))) {
-  if (share.exists()) limits_ = {limit * share.lowest, limit * share.highest};
+  if (fraction.exists()) limits_ = {limit * fraction.lowest, limit * fraction.highest};
 }
 
 // Returns how far a control vertex may go in the direction of a move.
@@ -40,17 +40,17 @@ Vector ControlRange::saturate(const Vector& move) const {
   Vector result = move;
   for (Eigen::Index c = 0; c < move.size(); ++c) {
     const double end = end_towards(c, move(c));
-    result(c) = end > 0 ? end * saturate_share(move(c) / end) : 0;
+    result(c) = end > 0 ? end * saturate_fraction(move(c) / end) : 0;
   }
   return result;
 }
 
-double ControlRange::share_within(const Vector& move) const {
-  double share = 1;
+double ControlRange::fraction_within(const Vector& move) const {
+  double fraction = 1;
   for (Eigen::Index c = 0; c < move.size(); ++c) {
-    if (move(c) != 0) share = std::min(share, end_towards(c, move(c)) / std::abs(move(c)));
+    if (move(c) != 0) fraction = std::min(fraction, end_towards(c, move(c)) / std::abs(move(c)));
   }
-  return share;
+  return fraction;
 }
 
 Positions ControlRange::apply(const Positions& C, const Vector3& view, const Vector& move) const {

@@ -8,14 +8,14 @@
 
 namespace reflines {
 
-// The largest limit, which stands for an infinite one, since a vertex with a share of 0 stays: infinity times 0 is no
-// number.
+// The largest limit, which stands for an infinite one, since a vertex with a fraction of 0 stays: infinity times 0 is
+// no number.
 inline constexpr double kNoLimit = std::numeric_limits<double>::max();
 
 class ControlRange {
  public:
-  // `limit` is a length up to kNoLimit; `share` holds each control vertex's shares of it (#C), or none: -1 and 1.
-  ControlRange(double limit, const MoveLimit& share, Eigen::Index control_count);
+  // `limit` is a length up to kNoLimit; `fraction` holds each control vertex's fractions of it (#C), or none: -1 and 1.
+  ControlRange(double limit, const MoveLimit& fraction, Eigen::Index control_count);
 
   const MoveLimit& limits() const { return limits_; }  // #C, lengths
 
@@ -25,8 +25,8 @@ class ControlRange {
   // Returns a move each of whose parts saturates at the end of its range, without an edge.
   Vector saturate(const Vector& move) const;
 
-  // Returns the largest share of a move that lies within the range everywhere.
-  double share_within(const Vector& move) const;
+  // Returns the largest fraction of a move that lies within the range everywhere.
+  double fraction_within(const Vector& move) const;
 
   // Returns the control vertices C (#C x 3) after a move (#C) along `view`, rounded so that none is beyond its range by
   // a bit; those that do not move keep their bits.

@@ -50,7 +50,7 @@ class FollowedBorderPress : public Press {
     amount.judged = true;  // the measures choose between the borders
     alone_.choose(amount);
     const double limit = alone_.report().limit;
-    const ControlRange range(limit, amount.limit_share, V_.rows());
+    const ControlRange range(limit, amount.limit_range, V_.rows());
     const PressAmount joined_amount = join_amount(amount, limit, joined_.V.rows() - V_.rows());
     const Vector turned = pad(turn(range, limit, Vector::Zero(V_.rows()), kRules.border.turned_before));
     begin(turned);

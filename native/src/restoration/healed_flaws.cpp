@@ -72,8 +72,8 @@ WorsePlace judge(ControlledSurface& surface, const Vector& before, const Vector&
   const Triangles& F = surface.triangles();
   const Families lights = make_families(surface.positions(), F, optimizer.frame(), judges.line_directions, judges.eyes);
   const auto slopes = [&](const Vector& z) { return find_slopes(optimizer.xy(), F, z); };
-  const PlaneVectors flawless = slopes(course);
-  return find_worse_place(lights, {slopes(before), flawless, slopes(after), flawless}, around, surface.positions(), F,
+  const PlaneVectors reference = slopes(course);
+  return find_worse_place(lights, {slopes(before), reference, slopes(after), reference}, around, surface.positions(), F,
                           kWorsened);
 }
 

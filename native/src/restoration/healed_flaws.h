@@ -9,7 +9,7 @@ namespace reflines {
 
 struct HealedPlaces {
   HealedFlaws flaws;
-  Vector share;  // #F: how far each triangle counts as healed, 0 to 1
+  Vector fraction;  // #F: how far each triangle counts as healed, 0 to 1
 };
 
 // Compares how far the lines of heights `before` and `after` (#V) a press are from those of the heights `course` (#V);

@@ -55,9 +55,9 @@ SmoothPanelOptions join_options(const SmoothPanelOptions& options, double length
 PressAmount join_amount(const PressAmount& amount, double limit, Eigen::Index beside) {
   PressAmount result = amount;
   result.limit = limit;
-  if (amount.limit_share.exists()) {
-    result.limit_share = {append(amount.limit_share.lowest, beside, -1.0),
-                          append(amount.limit_share.highest, beside, 1.0)};
+  if (amount.limit_range.exists()) {
+    result.limit_range = {append(amount.limit_range.lowest, beside, -1.0),
+                          append(amount.limit_range.highest, beside, 1.0)};
   }
   return result;
 }
@@ -67,9 +67,9 @@ PressAmount begin_after(const PressAmount& amount, const Vector& move) {
   result.strength = 1;
   if (move.isZero(0)) return result;
   const Vector fraction = move / amount.limit;
-  if (!result.limit_share.exists()) result.limit_share = MoveLimit::within(1, static_cast<int>(move.size()));
-  result.limit_share.lowest = (result.limit_share.lowest - fraction).cwiseMax(-1).cwiseMin(0);
-  result.limit_share.highest = (result.limit_share.highest - fraction).cwiseMin(1).cwiseMax(0);
+  if (!result.limit_range.exists()) result.limit_range = MoveLimit::within(1, static_cast<int>(move.size()));
+  result.limit_range.lowest = (result.limit_range.lowest - fraction).cwiseMax(-1).cwiseMin(0);
+  result.limit_range.highest = (result.limit_range.highest - fraction).cwiseMin(1).cwiseMax(0);
   return result;
 }
 

@@ -14,11 +14,11 @@ namespace {
 
 // Returns the amount for the vertices of a panel that are in faces.
 PressAmount narrow(const JointSide& side, const JointPanel& panel, PressAmount amount) {
-  if (amount.limit_share.exists() && !panel.cage) {
+  if (amount.limit_range.exists() && !panel.cage) {
     const UsedVertices used = find_used_vertices(panel.F, static_cast<int>(panel.V.rows()));
-    amount.limit_share = {amount.limit_share.lowest(used.index), amount.limit_share.highest(used.index)};
+    amount.limit_range = {amount.limit_range.lowest(used.index), amount.limit_range.highest(used.index)};
   }
-  amount.limit_share = intersect_limits(amount.limit_share, side.partner());
+  amount.limit_range = intersect_limits(amount.limit_range, side.partner());
   return amount;
 }
 

@@ -175,8 +175,8 @@ void JointSide::begin(const PressAmount& amount) {
   if (!region_) build_region();
   alone_->choose(amount);
   const double limit = alone_->report().limit;
-  range_ = std::make_unique<ControlRange>(limit, is_cage() ? MoveLimit{} : amount.limit_share, V_.rows());
-  if (is_cage()) control_range_ = std::make_unique<ControlRange>(limit, amount.limit_share, panel_.cage->V.rows());
+  range_ = std::make_unique<ControlRange>(limit, is_cage() ? MoveLimit{} : amount.limit_range, V_.rows());
+  if (is_cage()) control_range_ = std::make_unique<ControlRange>(limit, amount.limit_range, panel_.cage->V.rows());
   firm_ = false;
   move_ = turned_ = evened_ = Vector::Zero(V_.rows());
 }
@@ -272,7 +272,7 @@ void JointSide::press(const Skin& others, const PressAmount& amount) {
     press_ =
         std::make_unique<Restoration>(*surface_, join_options(joint_options_, alone_->report().length, shape.partner));
   }
-  PressAmount unlimited = {.strength = 1, .limit = kNoLimit, .limit_share = {}, .progress = amount.progress};
+  PressAmount unlimited = {.strength = 1, .limit = kNoLimit, .limit_range = {}, .progress = amount.progress};
   const Vector found = press_->find_move(unlimited);
   move_ = turned_ + found.head(V_.rows());
   beside_ = found.tail(joined_.V.rows() - V_.rows());
@@ -316,7 +316,7 @@ SmoothPanelResult JointSide::read_cage(SmoothPanelResult surface, const PressAmo
   SmoothPanelReport& report = surface.report;
   surface.positions = control_range_->apply(panel_.cage->V, axis(), move);
   report.largest_control_move = move.cwiseAbs().maxCoeff();
-  for (Vector* values : {&report.stray, &report.verdict}) {
+  for (Vector* values : {&report.line_deviation, &report.verdict}) {
     if (values->size() > 0) *values = cage_->gather_faces(*values);
   }
   return surface;

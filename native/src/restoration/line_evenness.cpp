@@ -65,7 +65,7 @@ Unevenness measure_unevenness(ControlledSurface& surface, const Vector& z, const
     LineScore score = compare_lines(lines.target.gradient, course.target.gradient, seen, length).score();
     score.shift = kDegrees * seen.dot(off) / sum;
     result.score.push_back(score);
-    if (k == 0) result.stray = surface.gather_faces(off / length);
+    if (k == 0) result.line_deviation = surface.gather_faces(off / length);
   }
   return result;
 }

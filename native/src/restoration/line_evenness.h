@@ -15,7 +15,7 @@ struct Unevenness {
   std::vector<LineScore> score;  // likewise
   std::vector<double> seen;      // fraction of the area that the light's eye sees, likewise
   Eigen::MatrixXd squares;       // #F x lights: of the offsets of theta, degrees^2, as the light's eye sees them
-  Vector stray;                  // #F or of a cage #faces: see SmoothPanelReport::stray
+  Vector line_deviation;         // #F or of a cage #faces: see SmoothPanelReport::line_deviation
 };
 
 // Returns how far the lines of heights z (#V) are from those of the heights `course` (#V) in the light with index

@@ -87,7 +87,7 @@ SmoothPanelReport merge_reports(const std::vector<PressedPart>& parts, Eigen::In
   total.solve = parts.front().report.solve;
   total.applied = false;
   total.region.closed = true;
-  total.stray = total.verdict = Vector::Zero(triangle_count);
+  total.line_deviation = total.verdict = Vector::Zero(triangle_count);
   double area = 0;
   for (const PressedPart& part : parts) area += part.area;
   for (const PressedPart& part : parts) {
@@ -99,7 +99,7 @@ SmoothPanelReport merge_reports(const std::vector<PressedPart>& parts, Eigen::In
     add_means(part.report.unevenness_after, fraction, total.unevenness_after);
     add_means(part.report.seen, fraction, total.seen);
     add_healed(part.report.healed, fraction, total.healed);
-    for (Vector SmoothPanelReport::*field : {&SmoothPanelReport::stray, &SmoothPanelReport::verdict}) {
+    for (Vector SmoothPanelReport::*field : {&SmoothPanelReport::line_deviation, &SmoothPanelReport::verdict}) {
       if ((part.report.*field).size() == static_cast<Eigen::Index>(part.triangles.size()))
         (total.*field)(part.triangles) = part.report.*field;
     }

@@ -12,8 +12,9 @@
 namespace reflines {
 namespace {
 
-// What compares the halves of a surface: over the plane of its mean normal, where it is as large as it is from every
-// view. Differences and roughness are lengths along the surface's normal.
+// Compares the halves of a surface over the plane of its mean normal, where it is as large as it is from every view.
+// The view sees a length along the normal as one along the view by their angle's cosine, which differs from half to
+// half where the view is not in the plane of symmetry.
 class Halves {
  public:
   Halves(const HeightField& field, double diagonal, double length)
@@ -30,10 +31,10 @@ class Halves {
     const Vector rise = find_mirrored_rise(points, images);
     if ((rise.array() == 0).all()) return rise;
     const DiskMean mean = average_over(kRules.symmetry.roughness_radius);
-    const Vector unbounded = cosine_.cwiseProduct(roughness_.of(rise)).cwiseAbs();
+    const Vector unbounded = roughness_.of(rise).cwiseAbs();
     const Vector typical = mean.of(unbounded.cwiseAbs2()).cwiseSqrt(), most = kRules.symmetry.roughest * typical;
-    Mask own_design = find_designed_differences(xy_, field_.F, cosine_.cwiseProduct(rise), typical,
-                                                kRules.symmetry.deepest * diagonal_, length_);
+    Mask own_design =
+        find_designed_differences(xy_, field_.F, rise, typical, kRules.symmetry.deepest * diagonal_, length_);
     // Both halves see the same difference. A dent seen at 60 degrees has moved its vertices aside, and is steeper by
     // that on its own half: 0.21 of it stayed as design, instead of 0.07.
     own_design = own_design && own_design(images.image).eval();
@@ -41,15 +42,16 @@ class Halves {
     // Bounded as that of the heights is: else the peak of a dent would count in the difference only, and a quarter of
     // it would be taken for a bump of the other side.
     const Vector own = mean.of(unbounded.cwiseMin(most).cwiseAbs2());
-    const Vector rough = cosine_.cwiseProduct(roughness_.of(points.P.col(2))).cwiseAbs().cwiseMin(most).cwiseAbs2();
+    const Vector rough = roughness_.of(points.P.col(2)).cwiseAbs().cwiseMin(most);
     // With z = s + a here and s + b there, a - b the difference: E(|rough(z)|^2 - |rough(z')|^2) = |rough(a)|^2 -
-    // |rough(b)|^2, so that the share is 1 where only this side has a flaw, 0 where only the other has, half where both
-    // do.
-    const Vector excess = mean.of(rough - rough(images.image).eval());
+    // |rough(b)|^2, so that the fraction is 1 where only this side has a flaw, 0 where only the other has, half where
+    // both do.
+    const Vector mirrored = rough(images.image).cwiseProduct(cosine_(images.image)).cwiseQuotient(cosine_);
+    const Vector excess = mean.of(rough.cwiseAbs2() - mirrored.cwiseAbs2());
     Vector result = Vector::Zero(rise.size());
     for (Eigen::Index v = 0; v < rise.size(); ++v) {
-      const double share = own(v) > 0 ? std::clamp(0.5 + 0.5 * excess(v) / own(v), 0.0, 1.0) : 0.5;
-      if (!own_design(v)) result(v) = images.weight * share * spared(v) * rise(v);
+      const double fraction = own(v) > 0 ? std::clamp(0.5 + 0.5 * excess(v) / own(v), 0.0, 1.0) : 0.5;
+      if (!own_design(v)) result(v) = images.weight * fraction * spared(v) * rise(v);
     }
     design = design || own_design;
     return result;

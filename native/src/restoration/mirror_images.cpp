@@ -117,8 +117,8 @@ class PointGrid {
 struct MirroredPlace {
   double rise = 0;     // of that plane at the point, along the view
   double depth = 0;    // of the point below that plane
-  double aside = 0;    // how far from the image, in that plane, the view meets it
-  double allowed = 0;  // how far aside a flaw of that rise goes along the mirror image of the view
+  double aside = 0;    // how far from the point the view sees the image
+  double allowed = 0;  // how far aside a flaw of that rise goes along the mirror image of the view, or the normal
   bool seen = false;   // the mirrored surface faces the view
 };
 
@@ -127,10 +127,10 @@ MirroredPlace mirror_place(const SeenPoints& points, const MirrorAcross& plane, 
   const Vector3 normal = plane.of_direction({-points.slope(image, 0), -points.slope(image, 1), 1.0});
   if (normal.z() < kSilhouette * normal.norm()) return {};
   const double rise = normal.dot(off) / normal.z();
-  const Vector3 view = Vector3::UnitZ();
-  const Vector3 slip = normal.z() * plane.of_direction(view) - view;
-  return {rise, std::abs(normal.dot(off)) / normal.norm(), (off - rise * view).norm(), std::abs(rise) * slip.norm(),
-          true};
+  const Vector2 by_view = normal.z() * plane.of_direction(Vector3::UnitZ()).head<2>();
+  const Vector2 by_normal = normal.z() / normal.squaredNorm() * normal.head<2>();
+  const double slip = std::sqrt(std::max(by_view.squaredNorm(), by_normal.squaredNorm()));
+  return {rise, std::abs(normal.dot(off)) / normal.norm(), off.head<2>().norm(), std::abs(rise) * slip, true};
 }
 
 // Finds the images of every `stride`th point, and how surely they are images; returns the norm of the rises of those.
@@ -154,7 +154,8 @@ double find_images(const SeenPoints& points, const PointGrid& grid, double diago
   return rise.norm();
 }
 
-// Returns true where two planes have the same images for the most part: they are one plane but for flaws.
+// Returns true where two planes have the same images for the most part: they are one plane but for flaws, which do not
+// turn those across axes, the first to be tried.
 bool are_alike(const MirrorImages& one, const MirrorImages& other) {
   return 2 * (one.image.array() == other.image.array()).count() > one.image.size();
 }
@@ -171,14 +172,13 @@ std::vector<MirrorImages> find_mirror_images(const SeenPoints& points, double di
     find_images(points, grid, diagonal, stride, images);
     if (2 * images.paired.count() * stride < count) continue;  // some would do for no weight, few spare the rest
     const double difference = find_images(points, grid, diagonal, 1, images);
-    if (images.weight > 0) found.emplace_back(difference, std::move(images));
+    const auto is_same = [&](const auto& other) { return are_alike(images, other.second); };
+    if (images.weight > 0 && std::none_of(found.begin(), found.end(), is_same))
+      found.emplace_back(difference, std::move(images));
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<MirrorImages> result;
-  for (auto& [difference, images] : found) {
-    const auto is_same = [&](const MirrorImages& other) { return are_alike(images, other); };
-    if (std::none_of(result.begin(), result.end(), is_same)) result.push_back(std::move(images));
-  }
+  for (auto& [difference, images] : found) result.push_back(std::move(images));
   return result;
 }
 

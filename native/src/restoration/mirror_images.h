@@ -32,9 +32,9 @@ struct MirrorImages {
 // Finds the images across all planes of symmetry, the nearest to a symmetry first: an order that a turned or scaled
 // panel keeps. Tried are planes across `axes` (#A x 3, in the coordinates of the points), and those that the moments
 // of the points over the plane of the normal `mean` allow: the principal axes and those of a square and a triangle.
-// A point is paired with an image that lies, but for 1e-4 of the diagonal, along the view or its mirror image from it,
-// no further than flaws are deep. A surface is symmetric where 98 % of its points are paired, and less and less down to
-// 95 %.
+// A point is paired with an image that lies, but for 1e-4 of the diagonal, no further from it than flaws are deep along
+// the view, its mirror image or the normal. A surface is symmetric where 98 % of its points are paired, and less and
+// less down to 95 %.
 std::vector<MirrorImages> find_mirror_images(const SeenPoints& points, double diagonal, const Positions& axes,
                                              const Vector3& mean);
 

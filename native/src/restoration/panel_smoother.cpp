@@ -45,9 +45,9 @@ class MeshPress : public Press {
 
   SmoothPanelResult run(const PressAmount& amount) override {
     PressAmount own = amount;
-    if (amount.limit_share.exists())
-      own.limit_share = {amount.limit_share.lowest(used_.index), amount.limit_share.highest(used_.index)};
-    own.limit_share = intersect_limits(own.limit_share, partner_);
+    if (amount.limit_range.exists())
+      own.limit_range = {amount.limit_range.lowest(used_.index), amount.limit_range.highest(used_.index)};
+    own.limit_range = intersect_limits(own.limit_range, partner_);
     SmoothPanelResult result = press_->run(own);
     Positions all = V_;
     all(used_.index, Eigen::all) = result.positions;
@@ -72,7 +72,7 @@ std::unique_ptr<Press> prepare_mesh(const Positions& V, const Triangles& F, cons
 }  // namespace
 
 PressAmount amount_of(const SmoothPanelOptions& options) {
-  return {options.strength, options.limit, options.limit_share, options.progress};
+  return {options.strength, options.limit, options.limit_range, options.progress};
 }
 
 PanelSmoother::PanelSmoother(const Positions& V, const Triangles& F, const Vector3& view_direction,

@@ -49,7 +49,7 @@ void check_set(const LightSet& set) {
 void check_amount(const PressAmount& amount, Eigen::Index vertex_count) {
   require(amount.limit >= 0, "The limit must be a positive length, or 0 for automatic.");
   require(amount.strength >= 0 && amount.strength <= 1, "The strength must lie between 0 and 1.");
-  check_fraction(amount.limit_share, vertex_count);
+  check_fraction(amount.limit_range, vertex_count);
 }
 
 void check_press_options(const SmoothPanelOptions& options, Eigen::Index vertex_count) {

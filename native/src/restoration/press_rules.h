@@ -1,4 +1,4 @@
-// The rules of a press: every number that decides what is a flaw, what is design, and what is told, with its unit.
+// The rules of a press: every number that decides what is a flaw, what is design, and what is reported, with its unit.
 //
 // Numbers without a unit are fractions. "Lengths" are the length of flaws of SmoothPanelOptions, "diagonals" that of
 // the panel's bounds. Two names with "from none to all" are the ends of a smoothstep, so that no decision has a cliff.
@@ -103,7 +103,7 @@ struct CageRules {
   double no_gain = 0.1, whole_gain = 0.6;  // of its unevenness that goes: from none of the move to all
 };
 
-// Rules of the verdict and of what is told of a result; see healed_flaws.h and line_evenness.h.
+// Rules of the verdict and of what is reported of a result; see healed_flaws.h and line_evenness.h.
 struct VerdictRules {
   int retries = 3;             // each with the triangles held that turned too far before
   double worse = 1.01;         // times its unevenness at the start: not worse to the eye
@@ -118,8 +118,8 @@ struct VerdictRules {
   double healed = 0.3, healed_whole = 0.7;  // of that which went: from none to all
   double worse_place = 1.05;                // times the worst deviation before, and
   double worse_place_degrees = 0.3;         // degrees of it: with both a result has a worse place
-  double told_turn = 0.3;                   // degrees of the border's tangents that are worth a word
-  double saturating = 0.6;                  // of the limit: moves from here on are less, and reach it without an edge
+  double reported_turn = 0.3;               // degrees of the border's tangents that are worth a word
+  double saturating = 0.6;                  // of the limit: moves from here on are less, and come to it without an edge
 };
 
 struct PressRules {

@@ -15,14 +15,14 @@ SmoothPanelResult take_region(const JoinedResult& result, const TangentMatch& ma
                               const Vector& turned) {
   SmoothPanelResult own{result.range.apply(result.V, match.frame.z(), move), result.joined.report};
   SmoothPanelReport& report = own.report;
-  for (Vector* values : {&report.stray, &report.verdict})  // empty in a result that was not judged
+  for (Vector* values : {&report.line_deviation, &report.verdict})  // empty in a result that was not judged
     *values = values->head(std::min<Eigen::Index>(values->size(), match.triangles)).eval();
   report.region = result.region;
   report.limit = result.limit;
   report.largest_move = report.largest_control_move = move.cwiseAbs().maxCoeff();
   if (!turned.isZero(0)) report.notes = tell_result(report);
   const double angle = find_turn(match, turned);
-  if (angle >= kRules.verdict.told_turn) report.notes.push_back({.kind = NoteKind::kBorderTurned, .after = angle});
+  if (angle >= kRules.verdict.reported_turn) report.notes.push_back({.kind = NoteKind::kBorderTurned, .after = angle});
   return own;
 }
 

@@ -64,7 +64,7 @@ void Restoration::choose(const PressAmount& amount) {
   report.length = report_.length;
   report.limit = amount.limit > 0 ? std::min(amount.limit, kNoLimit) : kAutomaticLimit * report_.length;
   report_ = std::move(report);
-  range_ = ControlRange(report_.limit, amount.limit_share, surface_.control_positions().rows());
+  range_ = ControlRange(report_.limit, amount.limit_range, surface_.control_positions().rows());
 }
 
 void Restoration::forget_shape() {
@@ -81,11 +81,11 @@ void Restoration::find_shape() {
   gain_.reset();
   longer_waves_.reset();
   const HeightField field = make_field(surface_);
-  flawless_ = {.correction = Vector::Zero(start_.size())};
-  if (options_.symmetric) flawless_ = even_halves(surface_, field, report_.length, options_.partner.size() > 0);
+  reference_ = {.correction = Vector::Zero(start_.size())};
+  if (options_.symmetric) reference_ = even_halves(surface_, field, report_.length, options_.partner.size() > 0);
   auto smoother = std::make_unique<AdaptiveSmoother>(field, report_.length);
   const Vector& heights = smoother->heights();
-  shape_ = start_ + (smoother->adapt(heights + flawless_.correction, progress()) - heights);
+  shape_ = start_ + (smoother->adapt(heights + reference_.correction, progress()) - heights);
   smoother_ = std::move(smoother);
 }
 
@@ -111,7 +111,7 @@ Vector Restoration::find_move(const PressAmount& amount) {
   return *gain_ * move;
 }
 
-// Returns the share by how much more even the whole move, which no limit holds back, makes the lines. A cage follows
+// Returns the fraction by how much more even the whole move, which no limit holds back, makes the lines. A cage follows
 // the shape without flaws only roughly: clean doors were bent by 1.0 to 1.8 degrees for 2 % less unevenness.
 double Restoration::weigh_gain(const Vector& move) {
   const Unevenness& before = measure_start();
@@ -139,7 +139,7 @@ SmoothPanelResult Restoration::judge_move(const Vector& move, const SmoothPanelR
 Vector Restoration::make_move() {
   if (!smoother_) find_shape();
   if (unlimited_.size() == 0) find_unlimited();
-  report_.mirrored = flawless_.mirrored;
+  report_.mirrored = reference_.mirrored;
   report_.bumps = smoother_->bumps();
   report_.solve = unlimited_solve_;
   limited_ = range_.find_beyond(unlimited_);
@@ -173,7 +173,7 @@ void Restoration::solve(const MoveLimit& limit) {
 }
 
 // Returns the last solve's moves of the control vertices (#C), those of partners averaged.
-Vector Restoration::read_move() const { return average_partners(surface_, flawless_, surface_.control_move()); }
+Vector Restoration::read_move() const { return average_partners(surface_, reference_, surface_.control_move()); }
 
 // Solves within the limit. A move that is cut there has an edge round every plateau, in lines that were even. Solved
 // for, dents three times as deep as the limit leave 0.3 of their error instead of the 0.5 of moves that saturate. After
@@ -226,16 +226,16 @@ void Restoration::compare_with_start(const Vector& end, Unevenness after) {
   report_.unevenness_before = before.degrees;
   report_.unevenness_after = after.degrees;
   report_.seen = before.seen;
-  report_.stray = std::move(after.stray);
+  report_.line_deviation = std::move(after.line_deviation);
   // The course of the lines is that of the shape without flaws, smoothed: what counts as design is in it, and what a
   // limit or the strength leaves of a flaw is not.
   if (!course_) course_ = smooth(shape_);
   HealedPlaces healed = measure_healed(surface_, start_, end, *course_, report_.length, options_.judges);
   report_.healed = healed.flaws;
-  report_.verdict = tell_places(healed.share);
+  report_.verdict = tell_places(healed.fraction);
 }
 
-// Returns SmoothPanelReport::verdict for shares (#F) by which triangles were healed.
+// Returns SmoothPanelReport::verdict for fractions (#F) by which triangles were healed.
 Vector Restoration::tell_places(const Vector& healed) const {
   const Vector gone = surface_.gather_faces(healed), kept = surface_.gather_faces(smoother_->design());
   return gone.array() - (1.0 - gone.array()) * kept.array();
@@ -289,7 +289,7 @@ SmoothPanelResult Restoration::apply(const Vector& move) {
 SmoothPanelResult Restoration::refuse(const Note& reason) {
   report_.applied = false;
   if (amount_.judged) {
-    report_.stray = measure_start().stray;
+    report_.line_deviation = measure_start().line_deviation;
     report_.verdict = tell_places(Vector::Zero(surface_.triangles().rows()));
   }
   const double worst = report_.healed.worst_before;

@@ -12,8 +12,8 @@
 #include "restoration/adaptive_smoother.h"
 #include "restoration/control_range.h"
 #include "restoration/controlled_surface.h"
-#include "restoration/flawless_shape.h"
 #include "restoration/line_evenness.h"
+#include "restoration/reference_shape.h"
 
 namespace reflines {
 
@@ -42,7 +42,7 @@ class Restoration {
 
   const SmoothPanelReport& report() const { return report_; }  // so far: the length from the beginning
   const Mask& limited() const { return limited_; }             // #C: those that wanted to go beyond the limit
-  // Returns the share of a cage's move (#C) that is to be made; see CageRules.
+  // Returns the fraction of a cage's move (#C) that is to be made; see CageRules.
   double weigh_gain(const Vector& move);
 
   bool turns_faces(const Vector& move) const;  // a move of the control vertices, by more than 45 degrees
@@ -87,7 +87,7 @@ class Restoration {
   Mask held_triangles_;  // #F, see held_triangles()
 
   // These are of the shape without flaws, while the same triangles are held.
-  FlawlessShape flawless_;
+  ReferenceShape reference_;
   Vector shape_;                                // #V: the heights without flaws
   std::unique_ptr<AdaptiveSmoother> smoother_;  // null: not found yet
   std::vector<Target> targets_;

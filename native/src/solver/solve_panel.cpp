@@ -41,7 +41,7 @@ class LimitedSolve {
 
   // Returns the report, with the count of vertices that the limit holds back. `held` (#V): vertices that stay.
   Report run(const Mask& held) {
-    if (options_.limit_share.exists()) return count_limited(solve(spread_limit(held)), held);
+    if (options_.limit_range.exists()) return count_limited(solve(spread_limit(held)), held);
     const Report free = solve(held.any() ? bound(kInfinity, held) : MoveLimit::none());
     if (free.largest_move <= options_.limit || free.termination == Termination::kCancelled) return unlimited(free);
     const int beyond = optimizer_.keep_within(options_.limit);
@@ -70,7 +70,7 @@ class LimitedSolve {
       return (held || fraction.array() == 0)
           .select(Vector::Zero(fraction.size()).array(), options_.limit * fraction.array());
     };
-    return {scale(options_.limit_share.lowest), scale(options_.limit_share.highest)};
+    return {scale(options_.limit_range.lowest), scale(options_.limit_range.highest)};
   }
 
   static Report unlimited(Report report) {

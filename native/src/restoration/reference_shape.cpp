@@ -1,4 +1,4 @@
-#include "restoration/flawless_shape.h"
+#include "restoration/reference_shape.h"
 
 #include <cmath>
 #include <utility>
@@ -50,11 +50,11 @@ bool is_held_symmetrically(const Mask& free, const SeenPoints& points, const Mir
 
 }  // namespace
 
-FlawlessShape even_halves(ControlledSurface& surface, const HeightField& field, double length, bool has_partners) {
+ReferenceShape even_halves(ControlledSurface& surface, const HeightField& field, double length, bool has_partners) {
   const ImagePlane& frame = surface.optimizer().frame();
   const Positions axes = turn_axes(frame);
   MirrorEvidence evidence = find_mirror_evidence(field, bounding_box_diagonal(surface.positions()), length, axes);
-  FlawlessShape result{.correction = std::move(evidence.correction)};
+  ReferenceShape result{.correction = std::move(evidence.correction)};
   if (evidence.images.empty()) return result;
   result.mirrored = field.vertex_count();
   if (has_partners) return result;  // given mirror images move alike whatever was found
@@ -74,12 +74,12 @@ FlawlessShape even_halves(ControlledSurface& surface, const HeightField& field, 
   return result;
 }
 
-Vector average_partners(ControlledSurface& surface, const FlawlessShape& flawless, const Vector& move) {
-  if (flawless.partners.empty()) return move;
+Vector average_partners(ControlledSurface& surface, const ReferenceShape& reference, const Vector& move) {
+  if (reference.partners.empty()) return move;
   const Mask free = surface.control_free();
   Vector result = move;
-  for (const MirrorImages& images : flawless.partners) {
-    SeenPoints moved = flawless.control;
+  for (const MirrorImages& images : reference.partners) {
+    SeenPoints moved = reference.control;
     moved.P.col(2) += result;
     const Vector rise = find_mirrored_rise(moved, images);
     for (Eigen::Index c = 0; c < rise.size(); ++c) {

@@ -10,7 +10,7 @@
 
 namespace reflines {
 
-struct FlawlessShape {
+struct ReferenceShape {
   Vector correction;  // #V: heights along the view to add to the start, which take away what looks like a flaw
   int mirrored = 0;   // see SmoothPanelReport
   // The control vertices at the start, and those (#C) that are to become mirror images across each plane of symmetry.
@@ -20,10 +20,10 @@ struct FlawlessShape {
 
 // Takes out what one half of a symmetric panel has and the other has not, of a surface as a height field whose vertices
 // move as its own do. `has_partners` tells that the surface's solves make mirror images move alike already.
-FlawlessShape even_halves(ControlledSurface& surface, const HeightField& field, double length, bool has_partners);
+ReferenceShape even_halves(ControlledSurface& surface, const HeightField& field, double length, bool has_partners);
 
 // Returns the move (#C) with which free partners are mirror images, each by half of the way. Stencils and the cut of
 // quads are not symmetric, so that smoothing leaves partners apart.
-Vector average_partners(ControlledSurface& surface, const FlawlessShape& flawless, const Vector& move);
+Vector average_partners(ControlledSurface& surface, const ReferenceShape& reference, const Vector& move);
 
 }  // namespace reflines
