@@ -82,6 +82,10 @@ def list_kept_names() -> set[str]:
     return {name.removeprefix(BEFORE).removeprefix(AFTER) for name in every}
 
 
+def count_textures() -> int:
+    return len(_cache.textures)
+
+
 def is_waiting() -> bool:
     """Returns whether a fit of normals is pending."""
     return _cache.fits.is_waiting()
