@@ -141,12 +141,16 @@ void AdaptiveSmoother::factorize(Progress* progress) {
   system_.factorize(weight_, slope_unit() * kept.cwiseProduct(steepness_), progress);
 }
 
-Vector AdaptiveSmoother::adapt(const Vector& z, Progress* progress) {
+Vector AdaptiveSmoother::adapt(const Vector& z, Progress* progress, const Correction& correct) {
   const Vector start = plane_.project_heights(z, field_.xy);
-  return put_back(view_heights_, take_view_heights(z, start, adapt_over_plane(start, progress)));
+  const Correction correct_over_plane = [&](const Vector& heights) -> Vector {
+    if (!correct) return heights;
+    return heights + plane_.change_over_plane(correct(take_view_heights(z, start, heights)));
+  };
+  return put_back(view_heights_, take_view_heights(z, start, adapt_over_plane(start, correct_over_plane, progress)));
 }
 
-Vector AdaptiveSmoother::adapt_over_plane(const Vector& start, Progress* progress) {
+Vector AdaptiveSmoother::adapt_over_plane(const Vector& start, const Correction& correct, Progress* progress) {
   weight_ = EdgeWeights::Zero(field_.triangle_count(), 3);
   open_ = Vector::Zero(field_.triangle_count());
   system_.factorize(presmoothing_weights(), slope_unit() * square(kRules.scale.slope_weight) * steepness_, progress);
@@ -155,10 +159,11 @@ Vector AdaptiveSmoother::adapt_over_plane(const Vector& start, Progress* progres
   const BumpRemoval removal = remove_bumps(
       variation_, plane_, start, length_, [&](const Vector& z) { return system_.smooth(z); }, progress);
   bumps_ = removal.count;
+  const Vector corrected = correct(removal.heights);
   design_ = Vector::Ones(field_.triangle_count());
   for (const double step : kRules.scale.ladder)
-    design_ -= take_step(system_.smooth(removal.heights), step * length_, progress) / std::size(kRules.scale.ladder);
-  return system_.smooth(put_back(field_.z, removal.heights));
+    design_ -= take_step(system_.smooth(corrected), step * length_, progress) / std::size(kRules.scale.ladder);
+  return system_.smooth(put_back(field_.z, corrected));
 }
 
 Vector AdaptiveSmoother::design() const {

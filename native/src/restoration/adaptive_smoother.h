@@ -3,6 +3,7 @@
 // coherence-enhancing diffusion, Weickert 1999, over a ladder of lengths).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "geometry/height_field.h"
@@ -20,12 +21,16 @@ namespace reflines {
 // go on, and waves across a direction are many.
 class AdaptiveSmoother {
  public:
+  using Correction = std::function<Vector(const Vector&)>;  // of heights, #V
+
   // `length` is the size of the flaws.
   AdaptiveSmoother(const HeightField& field, double length);
 
   // Takes round dents and bumps out of heights z along the view (#V), finds the lengths for the rest, and returns that
-  // smoothed. `progress` may be null; throws Cancelled.
-  Vector adapt(const Vector& z, Progress* progress);
+  // smoothed. `correct`, where there is one, returns what to add to heights without dents (#V) so that they have fewer
+  // flaws; it is not asked before dents are gone, see Restoration::find_shape. `progress` may be null; throws
+  // Cancelled.
+  Vector adapt(const Vector& z, Progress* progress, const Correction& correct = nullptr);
 
   // Returns the result of `adapt` smoothed up to twice the lengths, where it has waves as long as that which do not
   // count as design. The next call of `smooth` factors its system again, in a fourteenth of the time of a press: only
@@ -53,7 +58,7 @@ class AdaptiveSmoother {
   double stiffness(double smoothing_length) const;
   double slope_unit() const;
   void factorize(Progress* progress);
-  Vector adapt_over_plane(const Vector& start, Progress* progress);
+  Vector adapt_over_plane(const Vector& start, const Correction& correct, Progress* progress);
   Vector smooth_over_plane(const Vector& z);
   Vector put_back(const Vector& held, Vector z) const;
   Vector take_view_heights(const Vector& z, const Vector& before, const Vector& after) const;

@@ -35,6 +35,8 @@ class MeanPlane {
   const Vector2& slope() const { return slope_; }  // of the plane over the image plane
   Vector3 normal() const { return lift_ * Vector3(-slope_.x(), -slope_.y(), 1.0); }
 
+  Vector change_over_plane(const Vector& along_view) const { return along_view * lift_; }  // the inverse
+
   // Returns the map to the tangent plane where the surface has this slope over this plane.
   TangentMap map_to_tangent(const Vector2& slope) const;
 

@@ -75,12 +75,15 @@ SeenPoints see_vertices(const HeightField& field) {
   return result;
 }
 
-MirrorEvidence find_mirror_evidence(const HeightField& field, double diagonal, double length, const Positions& axes) {
+MirrorEvidence find_mirror_evidence(const HeightField& field, const Vector& z, double diagonal, double length,
+                                    const Positions& axes) {
   SeenPoints points = see_vertices(field);
   MirrorEvidence result{Vector::Zero(field.vertex_count()), Mask::Constant(field.vertex_count(), false),
                         find_mirror_images(points, diagonal, axes, MeanPlane(field).normal())};
   if (result.images.empty()) return result;
   const Halves halves(field, diagonal, length);
+  points.P.col(2) = z;
+  points.slope = find_vertex_gradients(field.xy, field.F, z);
   for (const MirrorImages& images : result.images) {
     const Vector change = halves.correct(points, images, result.design);
     result.correction += change;

@@ -20,8 +20,10 @@ struct MirrorEvidence {
 // Returns the vertices of a height field as the view sees them.
 SeenPoints see_vertices(const HeightField& field);
 
-// Finds the evidence of a region; `length` is the size of flaws, over which the halves' roughness is compared, and
-// `axes` (#A x 3) are those of the object, in the field's coordinates.
-MirrorEvidence find_mirror_evidence(const HeightField& field, double diagonal, double length, const Positions& axes);
+// Finds the evidence of a region at heights z along the view (#V). Images are those of its vertices where they are at
+// the start: what a dent moved aside stays there. `length` is the size of flaws, over which the halves' roughness is
+// compared, and `axes` (#A x 3) are those of the object, in the field's coordinates.
+MirrorEvidence find_mirror_evidence(const HeightField& field, const Vector& z, double diagonal, double length,
+                                    const Positions& axes);
 
 }  // namespace reflines

@@ -50,10 +50,11 @@ bool is_held_symmetrically(const Mask& free, const SeenPoints& points, const Mir
 
 }  // namespace
 
-ReferenceShape even_halves(ControlledSurface& surface, const HeightField& field, double length, bool has_partners) {
+ReferenceShape even_halves(ControlledSurface& surface, const HeightField& field, const Vector& z, double length,
+                           bool has_partners) {
   const ImagePlane& frame = surface.optimizer().frame();
   const Positions axes = turn_axes(frame);
-  MirrorEvidence evidence = find_mirror_evidence(field, bounding_box_diagonal(surface.positions()), length, axes);
+  MirrorEvidence evidence = find_mirror_evidence(field, z, bounding_box_diagonal(surface.positions()), length, axes);
   ReferenceShape result{.correction = std::move(evidence.correction)};
   if (evidence.images.empty()) return result;
   result.mirrored = field.vertex_count();

@@ -19,8 +19,10 @@ struct ReferenceShape {
 };
 
 // Takes out what one half of a symmetric panel has and the other has not, of a surface as a height field whose vertices
-// move as its own do. `has_partners` tells that the surface's solves make mirror images move alike already.
-ReferenceShape even_halves(ControlledSurface& surface, const HeightField& field, double length, bool has_partners);
+// move as its own do, at heights z along the view (#V). `has_partners` tells that the surface's solves make mirror
+// images move alike already.
+ReferenceShape even_halves(ControlledSurface& surface, const HeightField& field, const Vector& z, double length,
+                           bool has_partners);
 
 // Returns the move (#C) with which free partners are mirror images, each by half of the way. Stencils and the cut of
 // quads are not symmetric, so that smoothing leaves partners apart.
