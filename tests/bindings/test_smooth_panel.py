@@ -322,7 +322,7 @@ def test_places_that_would_become_less_even_stay_and_the_others_are_healed() -> 
                for before, after in zip(report.unevenness_before, report.unevenness_after, strict=True))
     left = judge.judge(panel, judge.present)["dents"]
     print(left)
-    assert left[0] < 0.9 and left[1] < 1.12
+    assert left[0] < 0.9 and left[1] < 1.03
 
 
 @pytest.mark.parametrize(("turned", "scale"), [(0.4, 1.0), (0.0, 0.1), (1.1, 1000.0)])
