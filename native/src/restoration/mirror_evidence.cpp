@@ -35,9 +35,6 @@ class Halves {
     const Vector typical = mean.of(unbounded.cwiseAbs2()).cwiseSqrt(), most = kRules.symmetry.roughest * typical;
     Mask own_design =
         find_designed_differences(xy_, field_.F, rise, typical, kRules.symmetry.deepest * diagonal_, length_);
-    // Both halves see the same difference. A dent seen at 60 degrees has moved its vertices aside, and is steeper by
-    // that on its own half: 0.21 of it stayed as design, instead of 0.07.
-    own_design = own_design && own_design(images.image).eval();
     const Vector spared = average_over(kRules.symmetry.taper).of((!own_design).cast<double>().matrix());
     // Bounded as that of the heights is: else the peak of a dent would count in the difference only, and a quarter of
     // it would be taken for a bump of the other side.

@@ -116,7 +116,6 @@ class PointGrid {
 // The mirrored tangent plane at a point's image, beside the point.
 struct MirroredPlace {
   double rise = 0;     // of that plane at the point, along the view
-  double depth = 0;    // of the point below that plane
   double aside = 0;    // how far from the point the view sees the image
   double allowed = 0;  // how far aside a flaw of that rise goes along the mirror image of the view, or the normal
   bool seen = false;   // the mirrored surface faces the view
@@ -130,7 +129,7 @@ MirroredPlace mirror_place(const SeenPoints& points, const MirrorAcross& plane, 
   const Vector2 by_view = normal.z() * plane.of_direction(Vector3::UnitZ()).head<2>();
   const Vector2 by_normal = normal.z() / normal.squaredNorm() * normal.head<2>();
   const double slip = std::sqrt(std::max(by_view.squaredNorm(), by_normal.squaredNorm()));
-  return {rise, std::abs(normal.dot(off)) / normal.norm(), off.head<2>().norm(), std::abs(rise) * slip, true};
+  return {rise, off.head<2>().norm(), std::abs(rise) * slip, true};
 }
 
 // Finds the images of every `stride`th point, and how surely they are images; returns the norm of the rises of those.
@@ -145,7 +144,7 @@ double find_images(const SeenPoints& points, const PointGrid& grid, double diago
     const MirroredPlace place = mirror_place(points, images.plane, v, near);
     if (!place.seen) return;
     images.image(v) = near;
-    images.paired(v) = place.depth < kRules.symmetry.deepest * diagonal &&
+    images.paired(v) = std::abs(place.rise) < kRules.symmetry.deepest * diagonal &&
                        place.aside <= kRules.symmetry.pair_tolerance * diagonal + place.allowed;
     if (images.paired(v)) rise(v) = place.rise;
   });
