@@ -263,7 +263,7 @@ def test_the_place_that_became_worse_is_told_and_shown() -> None:
     ob = make_deep_dent()
     add_light()
     settings().light_set.find_active().name = "Its light"
-    press(limit=0.0008)
+    press(limit=0.002)
     report = ob.reflection_lines.report
     assert "; one place worse in Its light: " in report.headline()
     before = settings().light.matrix_world.copy()
