@@ -17,11 +17,12 @@ namespace {
 // half where the view is not in the plane of symmetry.
 class Halves {
  public:
-  Halves(const HeightField& field, double diagonal, double length)
+  // `slope` (#V x 2) is that of the field at its vertices.
+  Halves(const HeightField& field, const PlanePositions& slope, double diagonal, double length)
       : field_(field),
         xy_(MeanPlane(field).project(field).xy),
         roughness_(xy_, field.F),
-        cosine_((1.0 + find_vertex_gradients(field.xy, field.F, field.z).rowwise().squaredNorm().array()).rsqrt()),
+        cosine_((1.0 + slope.rowwise().squaredNorm().array()).rsqrt()),
         diagonal_(diagonal),
         length_(length) {}
 
@@ -33,7 +34,7 @@ class Halves {
     const DiskMean mean = average_over(kRules.symmetry.roughness_radius);
     const Vector unbounded = roughness_.of(rise).cwiseAbs();
     const Vector typical = mean.of(unbounded.cwiseAbs2()).cwiseSqrt(), most = kRules.symmetry.roughest * typical;
-    Mask own_design =
+    const Mask own_design =
         find_designed_differences(xy_, field_.F, rise, typical, kRules.symmetry.deepest * diagonal_, length_);
     const Vector spared = average_over(kRules.symmetry.taper).of((!own_design).cast<double>().matrix());
     // Bounded as that of the heights is: else the peak of a dent would count in the difference only, and a quarter of
@@ -78,7 +79,7 @@ MirrorEvidence find_mirror_evidence(const HeightField& field, const Vector& z, d
   MirrorEvidence result{Vector::Zero(field.vertex_count()), Mask::Constant(field.vertex_count(), false),
                         find_mirror_images(points, diagonal, axes, MeanPlane(field).normal())};
   if (result.images.empty()) return result;
-  const Halves halves(field, diagonal, length);
+  const Halves halves(field, points.slope, diagonal, length);
   points.P.col(2) = z;
   points.slope = find_vertex_gradients(field.xy, field.F, z);
   for (const MirrorImages& images : result.images) {

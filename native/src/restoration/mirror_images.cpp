@@ -169,7 +169,7 @@ std::vector<MirrorImages> find_mirror_images(const SeenPoints& points, double di
   for (const MirrorAcross& plane : list_planes(points.P, diagonal, axes, MeanFrame(mean))) {
     MirrorImages images{plane, {}, {}, 0};
     find_images(points, grid, diagonal, stride, images);
-    if (2 * images.paired.count() * stride < count) continue;  // some would do for no weight, few spare the rest
+    if (2 * images.paired.count() * stride < count) continue;  // no weight: the other points need not be looked at
     const double difference = find_images(points, grid, diagonal, 1, images);
     const auto is_same = [&](const auto& other) { return are_alike(images, other.second); };
     if (images.weight > 0 && std::none_of(found.begin(), found.end(), is_same))

@@ -7,6 +7,7 @@
 #include "restoration/mean_plane.h"
 #include "restoration/mirror_evidence.h"
 #include "restoration/press_rules.h"
+#include "restoration/vertex_gradients.h"
 
 namespace reflines {
 namespace {
@@ -61,7 +62,9 @@ ReferenceShape even_halves(ControlledSurface& surface, const HeightField& field,
   if (has_partners) return result;  // given mirror images move alike whatever was found
   const double diagonal = bounding_box_diagonal(surface.control_positions());
   if (surface.controls_every_vertex()) {
+    // What a dent moved aside has its image in the surface without the dent.
     result.control = see_vertices(field);
+    result.control.slope = find_vertex_gradients(field.xy, field.F, z + result.correction);
   } else {
     const MeanPlane plane(field);
     result.control = see_cage(surface, frame, plane.slope());
