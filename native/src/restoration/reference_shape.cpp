@@ -62,7 +62,7 @@ ReferenceShape even_halves(ControlledSurface& surface, const HeightField& field,
   if (has_partners) return result;  // given mirror images move alike whatever was found
   const double diagonal = bounding_box_diagonal(surface.control_positions());
   if (surface.controls_every_vertex()) {
-    // What a dent moved aside has its image in the surface without the dent.
+    // A dent moves its vertices aside, and their images lie in the surface without it.
     result.control = see_vertices(field);
     result.control.slope = find_vertex_gradients(field.xy, field.F, z + result.correction);
   } else {
