@@ -40,7 +40,7 @@ NAMES = (
     "write.write_mesh", "write.live_warp_start", "write.png", "write.select_faces",
     "write.solve_record", "write.warp_lattice",
     "solver.panel_problem", "solver.build_native", "solver.read_solved", "solver.live_optimizer",
-    "solver.rim_moves", "solver.gap_strip", "solver.join_panels",
+    "solver.rim_moves", "solver.gap_strip", "solver.joint_mirror", "solver.join_panels",
     "solver.common_lines", "solver.limited_solve", "solver.remarks", "solver.native_notes",
     "solver.solve", "solver.automatic_smooth", "solver.joint_smooth", "solver.brush", "solver.brushed_cage",
     "solver.panel_check", "solver.shut_lines",

@@ -40,14 +40,15 @@ SAYS_BUSY = 0.3  # seconds of solving after which the status bar shows the stage
 class DraggedOperator(Protocol):
     """The interface of an operator to its drag, in which the mouse changes its properties."""
     bl_label: str
-    border: str
     smooths: bool  # whether the tool's gain is reported by how smooth the lines are
 
     def find_subjects(self, context: bpy.types.Context) -> list[bpy.types.Object]: ...
     def build_handles(self) -> tuple[Handle, ...]: ...
     def choose_automatic(self, name: str, patch: Patch) -> float: ...
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]: ...
-    def join_panels(self, gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]: ...
+    def join_panels(self, context: bpy.types.Context,
+                    gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]: ...
+    def settle_border(self) -> str: ...
     def find_owner(self, context: bpy.types.Context, patch: Patch) -> bpy.types.Object: ...
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings: ...
     def read_judges(self, context: bpy.types.Context) -> LightSet | None: ...
@@ -63,7 +64,7 @@ class Drag:
         """Begins with the solve that is kept where that is asked for at once: a press of the tool."""
         scene = context.scene
         self.tool, self.area, self.is_press = tool, context.area, final
-        solved = tool.join_panels(tool.gather_all(context, tool.find_subjects(context)))
+        solved = tool.join_panels(context, tool.gather_all(context, tool.find_subjects(context)))
         self.solved, views = [patch for patch, _ in solved], [seen for _, seen in solved]
         self.patches = [panel for patch in self.solved for panel in patch.panels]
         subjects = [bpy.data.objects[patch.name] for patch in self.patches]
@@ -74,7 +75,7 @@ class Drag:
         self.values = self.read_values(scene)
         self.frame = live_optimizer.compute_image_frame(self.patches[0], views[0])
         self.update_request(context, final=final)  # refuses before anything is started
-        self.job = SolveJob(self.solved, views, tool.border)
+        self.job = SolveJob(self.solved, views, tool.settle_border())
         self.circle = tool_circle.add_circle(lambda: self.circle_points)
         self.work = BackgroundWork(self.job.run, self.job.cancel)
         self.work.submit(self.request)

@@ -7,6 +7,7 @@ import numpy as np
 from .. import native
 from ..animation import baked_keys, handle_keys
 from ..model import bake_frames, line_run
+from ..model.border import settle_border
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
@@ -58,6 +59,7 @@ class HandleBake:
         self.frames = choose_frames(ob, step)
         self.run = read_run(ob)
         self.start = read_start(ob, self.run.result)
+        self.notes += describe_partners(ob)
         baked_keys.refuse_foreign_action(ob)
 
     def is_done(self) -> bool:
@@ -83,7 +85,7 @@ class HandleBake:
             build, seen = self.lines.build(scene, ob, patch, handles), facing.read_patch_view(scene, patch)
         except Refusal as refusal:
             raise Refusal(f"Frame {self.frame:g}: {refusal}") from refusal
-        settings = SolveSettings(run.border, scene.reflection_lines.length, run.limit,
+        settings = SolveSettings(settle_border(run.border, joined=False), scene.reflection_lines.length, run.limit,
                                  build_crossed=crossed.build_kept_target if run.lights != 'SINGLE' else None)
         return FrameRequest(patch, seen, settings, build)
 
@@ -178,6 +180,13 @@ def read_run(ob: bpy.types.Object) -> line_run.LineRun:
         return line_run.decode_line_run(stored.settings)
     except Refusal as refusal:
         raise Refusal(f"{ob.name}: {refusal}") from refusal
+
+
+def describe_partners(ob: bpy.types.Object) -> list[str]:
+    """Says that others do not follow where they were moved as one with the object: a bake is of one object."""
+    others = [name for name in ob.reflection_lines.run.list_joined() if name != ob.name]
+    return [f"A bake moves one object: {', '.join(others)}, which followed the pull, stayed, and the border was Tangent"
+            ] if others else []
 
 
 def read_start(ob: bpy.types.Object, result: str) -> np.ndarray:

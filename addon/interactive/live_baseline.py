@@ -8,6 +8,7 @@ from functools import partial
 import bpy
 import numpy as np
 
+from ..model.border import settle_border
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
@@ -94,7 +95,7 @@ def read_baseline(scene: bpy.types.Scene, ob: bpy.types.Object) -> Baseline:
     settings = scene.reflection_lines
     patch = gather.gather_patch(ob, settings.live.result, live_warp_start.read_whole_start(ob))
     now = read_signs(scene, ob, patch.center)
-    return Baseline(patch, facing.read_patch_view(scene, patch), settings.border, now)
+    return Baseline(patch, facing.read_patch_view(scene, patch), settle_border(settings.border, joined=False), now)
 
 
 def bind_target(wanted: Warp) -> BuildTarget:
@@ -106,7 +107,7 @@ def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
     """Reads the settings of the solve from the scene."""
     settings = scene.reflection_lines
     keeps_crossed = settings.lights != 'SINGLE' and settings.warp.fit != 'VALUE'
-    return SolveSettings(settings.border, settings.length, settings.limit,
+    return SolveSettings(settle_border(settings.border, joined=False), settings.length, settings.limit,
                          build_crossed=crossed.build_kept_target if keeps_crossed else None)
 
 
@@ -119,6 +120,6 @@ def read_final_settings(scene: bpy.types.Scene) -> SolveSettings:
 def read_operator_settings(scene: bpy.types.Scene) -> dict[str, str | float]:
     """Returns the settings with which the operator Warp makes the same shape."""
     settings, own = scene.reflection_lines, scene.reflection_lines.warp
-    return {"amount": own.amount, "fit": own.fit, "border": settings.border,
+    return {"amount": own.amount, "fit": own.fit, "border": settle_border(settings.border, joined=False),
             "lights": settings.lights, "limit": settings.limit,
             "result": settings.live.result}

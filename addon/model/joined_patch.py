@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .meeting import find_middle
 from .patch import Patch
 from .solution import Solution
 
@@ -45,6 +46,11 @@ class JoinedPatch(Patch):
     @property
     def panels(self) -> tuple[Patch, ...]:
         return tuple(part.panel for part in self.parts)
+
+    @property
+    def center(self) -> np.ndarray:
+        """The middle of the panels with their rims, which the view of all of them is that of."""
+        return find_middle(self.panels)
 
 
 def gather_values(patch: Patch, values: Mapping[str, np.ndarray], otherwise: float) -> np.ndarray:

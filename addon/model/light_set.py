@@ -56,7 +56,8 @@ class Blockers:
 
     def leave_out(self, patch: Patch) -> tuple[np.ndarray, np.ndarray]:
         """Returns vertices and triangles without those of a region, whose shape before its last run may be another."""
-        F = self.F if self.name != patch.name else self.F[~patch.faces[self.face]]
+        own = next((panel for panel in patch.panels if panel.name == self.name), None)
+        F = self.F if own is None else self.F[~own.faces[self.face]]
         used, corners = np.unique(F, return_inverse=True)
         return self.V[used], corners.reshape(-1, 3)
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from .refusal import Refusal
 
-CHOICES = {"border": ("clamped", "curvature", "flow", "fixed", "free", "follow"),
+CHOICES = {"border": ("clamped", "automatic", "curvature", "flow", "fixed", "free", "follow"),
            "lights": ("CROSSED", "SINGLE", "SET"), "result": ("MESH", "SHAPE_KEY")}  # the defaults first
 
 

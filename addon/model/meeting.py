@@ -25,10 +25,9 @@ def are_near(one: Patch, other: Patch) -> bool:
 
 
 def find_middle(panels: Sequence[Patch]) -> np.ndarray:
-    """Returns the centre of panels that are one region, in world space."""
-    if len(panels) == 1:
-        return panels[0].center
-    return 0.5 * sum(measure_bounds(panels))
+    """Returns the centre of panels that are one region, with their images, in world space."""
+    lows, highs = zip(*(each.bounds_with_image for each in panels), strict=True)
+    return 0.5 * (np.min(lows, axis=0) + np.max(highs, axis=0))
 
 
 def measure_bounds(panels: Sequence[Patch]) -> tuple[np.ndarray, np.ndarray]:

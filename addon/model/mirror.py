@@ -20,6 +20,7 @@ class Mirror:
     partner: np.ndarray  # #V: each vertex's image in the region, itself on the plane, -1 where it has none
     image: bool          # True: a modifier adds the image; False: the region contains it
     merge_distance: float = 0.0  # object space: vertices no further from the plane are joined with their images
+    reflection: np.ndarray | None = None  # 4 x 4, world space: takes what has one plane of a modifier to its image
 
     @property
     def seam(self) -> np.ndarray:

@@ -41,11 +41,16 @@ class Patch:
 
         Unlike the mean of the vertices it does not depend on how densely the mesh is subdivided.
         """
+        return 0.5 * sum(self.bounds_with_image)
+
+    @property
+    def bounds_with_image(self) -> tuple[np.ndarray, np.ndarray]:
+        """The lowest and highest corner of the box around it, with the image that a Mirror modifier adds."""
         own = compute_bounds(self.V)
         if self.mirror is None or not self.mirror.image or self.mirror.axis < 0:
-            return 0.5 * sum(own)
+            return own
         image = compute_bounds(self.to_world(self.local * self.mirror.sign))
-        return 0.5 * (np.minimum(own[0], image[0]) + np.maximum(own[1], image[1]))
+        return np.minimum(own[0], image[0]), np.maximum(own[1], image[1])
 
     @property
     def local_center(self) -> np.ndarray:

@@ -62,7 +62,8 @@ direction, or lie closer together"""
         if self.common_of is not self.panels:
             self.common_of, self.common = self.panels, {}
         if names not in self.common:
-            self.common[names] = CommonLines([(each, self.read_view(context, each)) for each in meeting], self.border)
+            seen = [self.read_view(context, self.joint.get(each.name, each)) for each in meeting]
+            self.common[names] = CommonLines(tuple(zip(meeting, seen, strict=True)), self.settle_border())
         return self.common[names]
 
     def find_line_direction(self, scene: bpy.types.Scene) -> np.ndarray | None:

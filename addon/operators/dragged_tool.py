@@ -81,7 +81,7 @@ class DraggedTool(SolveTool):
         return crossed.build_kept_target
 
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
-        return SolveSettings(self.border, self.read_detail_length(scene), self.limit,
+        return SolveSettings(self.settle_border(), self.read_detail_length(scene), self.limit,
                              build_crossed=self.choose_crossed() if self.keeps_crossed() else None)
 
     def read_falloff(self, _context: bpy.types.Context, _ob: bpy.types.Object, _patch: Patch) -> Falloff | None:

@@ -59,7 +59,7 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         objects, self.refusals = [], []
         for ob in self.find_subjects(context):  # refuses where no face is selected
             try:
-                objects.append(BrushedObject(context, ob, self.gather_patch(ob), self.border))
+                objects.append(BrushedObject(context, ob, self.gather_patch(ob), self.settle_border()))
             except Refusal as refusal:
                 self.refusals.append(refusal)
         if not objects:
@@ -67,7 +67,8 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         self.stroke, self.panels = BrushStroke(context.area, objects), [each.patch for each in objects]
         widest = max((each.patch for each in objects), key=lambda patch: patch.diagonal)
         length = context.scene.reflection_lines.length or WIDEST * widest.diagonal
-        limit = limited_solve.choose_limit(widest, SolveSettings(self.border, length, self.limit, limit_length=length))
+        settings = SolveSettings(self.settle_border(), length, self.limit, limit_length=length)
+        limit = limited_solve.choose_limit(widest, settings)
         self.brush = Brush(0.0, self.strength, length, limit, 1 if self.lights == 'SINGLE' else 2)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

@@ -24,6 +24,7 @@ from ..view import screen_surface
 from ..view.screen_surface import ScreenSurface
 from ..ui.tool_properties import PullSettings
 from .dragged_tool import DraggedTool
+from .solve_tool import FOLLOWING
 
 APPLY_KEYS, DELETE_KEYS = {'RET', 'NUMPAD_ENTER'}, {'X', 'DEL'}
 LAID = {'S': drawn_lines.straighten_line, 'E': drawn_lines.follow_edge}  # how a key lays the line under the mouse
@@ -64,7 +65,7 @@ where a line was pulled to; Enter applies them all"""
         active = scene_objects.find_active_object(context)
         if self.anew:
             return [active, *scene_objects.find_partners(context, active)]
-        return [active, *(ob for ob in found if self.border == 'follow' and ob != active)]
+        return [active, *(ob for ob in found if self.border in FOLLOWING and ob != active)]
 
     def gather_all(self, context: bpy.types.Context, subjects: list[bpy.types.Object]) -> list[tuple[Patch, View]]:
         """Gathers the patches; one that cannot be solved does not follow."""
@@ -76,12 +77,11 @@ where a line was pulled to; Enter applies them all"""
         self.panels = [patch for patch, _ in gathered]
         return gathered
 
-    def join_panels(self, gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]:
+    def join_panels(self, context: bpy.types.Context, gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]:
         """Returns the patch of the active object alone, which may be one with those that it meets."""
         own = gathered[0][0].name
-        alike = [(patch, seen) for patch, seen in gathered if gathered[0][1].same(seen)]
-        return [(patch, seen) for patch, seen in super().join_panels(alike)
-                if own in {panel.name for panel in patch.panels}]
+        found = super().join_panels(context, gathered)
+        return [(patch, seen) for patch, seen in found if own in {panel.name for panel in patch.panels}]
 
     def begin_run(self, ob: bpy.types.Object) -> np.ndarray | None:
         """Returns the shape to begin with; of an object that follows another one that before its last run only where

@@ -168,7 +168,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
         if press is None:
             return super().solve_all(context, subjects)
         patches, views = zip(*self.gather_all(context, subjects), strict=True)
-        outcomes = run_now(press_cache.smooth_all(patches, views, self.border, press))
+        outcomes = run_now(press_cache.smooth_all(patches, views, self.settle_border(), press))
         refusals = [each for each in outcomes if isinstance(each, Refusal)]
         if len(refusals) == len(outcomes):
             raise refusals[0]
@@ -211,7 +211,7 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
             return super().solve_patch(context, ob, patch)
         settings = self.choose_press()
         seen = self.read_view(context, patch)
-        return run_now(press_cache.smooth_with_cache(patch, seen, self.border, settings))
+        return run_now(press_cache.smooth_with_cache(patch, seen, self.settle_border(), settings))
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_smooth])

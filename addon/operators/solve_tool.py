@@ -1,7 +1,9 @@
 """The base of operators that solve: when they can run, gathering, applying, and reporting to the artist."""
 import json
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
+from types import MappingProxyType
 
 import bpy
 import numpy as np
@@ -10,8 +12,8 @@ from bpy.props import BoolProperty
 from ..blender.triangulate import triangulate_points
 from ..model import meeting
 from ..model.beside import Crossing
-from ..model.border import CODES
-from ..model.joined_patch import split_solution
+from ..model.border import AUTOMATIC, CODES, settle_border
+from ..model.joined_patch import JoinedPatch, split_solution
 from ..model.light_set import LightSet
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -30,6 +32,7 @@ from ..write import keep_region, write_mesh
 
 # Settings of the scene for all tools that have none of their own.
 SHARED = {"border", "result", "lights", "limit"}
+FOLLOWING = {"follow", AUTOMATIC}  # borders with which panels that face each other are solved as one
 LOST_START = ("The run began with the mesh as it is now: the shape before the last run is not known, since the mesh "
               "was changed, undone, renamed or duplicated after it, or another shape key is edited")
 
@@ -53,7 +56,7 @@ class SolveTool:
     # Whether the buttons are grey where there are no faces to work on. A press in the view would go unheard then.
     needs_faces = True
     panels: Sequence[Patch] = ()  # of the run
-    joined: Collection[str] = ()  # names of those that are solved as one
+    joint: Mapping[str, JoinedPatch] = MappingProxyType({})  # by the names of those of them that are solved as one
     known_set: tuple[LightSet | None, ...] = ()  # once it was read
 
     border: border_property()
@@ -80,7 +83,7 @@ class SolveTool:
 
     def read_solve_settings(self, scene: bpy.types.Scene) -> SolveSettings:
         """Reads what the solve needs beside the target, once that is built."""
-        return SolveSettings(self.border, self.read_detail_length(scene))
+        return SolveSettings(self.settle_border(), self.read_detail_length(scene))
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -128,26 +131,33 @@ class SolveTool:
         """Solves the objects before any is written; refuses all of them where one cannot be solved."""
         gathered = self.gather_all(context, subjects)
         solutions = []
-        for patch, _ in self.join_panels(gathered):
+        for patch, _ in self.join_panels(context, gathered):
             solution = self.solve_patch(context, self.find_owner(context, patch), patch)
             solutions += split_solution(solution, self.read_solve_settings(context.scene).limit)
         return solutions
 
-    def join_panels(self, gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]:
-        """Returns what is solved: panels that face each other, where the border follows its neighbours and all are seen
-        alike, as one patch.
+    def join_panels(self, context: bpy.types.Context, gathered: list[tuple[Patch, View]]) -> list[tuple[Patch, View]]:
+        """Returns what is solved: panels that face each other, where the border follows its neighbours, as one patch,
+        which is seen as its middle is.
         """
-        views, self.joined = [seen for _, seen in gathered], frozenset()
-        if not self.joins_panels() or not all(views[0].same(seen) for seen in views[1:]):
+        self.joint = {}
+        if not self.joins_panels():
             return gathered
-        patches = join_panels([patch for patch, _ in gathered], views[0], self.border, triangulate_points)
-        self.joined = frozenset(each.name for patch in patches if len(patch.panels) > 1 for each in patch.panels)
-        return [(patch, views[0]) for patch in patches]
+        patches = join_panels([patch for patch, _ in gathered], partial(view_and_light.read_scene_view, context.scene),
+                              settle_border(self.border, joined=True), triangulate_points)
+        self.joint = {each.name: patch for patch in patches if len(patch.panels) > 1 for each in patch.panels}
+        alone = {patch.name: seen for patch, seen in gathered}
+        return [(patch, alone[patch.name] if len(patch.panels) == 1 else self.read_view(context, patch))
+                for patch in patches]
 
     def joins_panels(self) -> bool:
         """Returns whether panels that face each other are solved as one."""
-        follows = self.border == "follow" or any((each.border == CODES["follow"]).any() for each in self.panels)
+        follows = self.border in FOLLOWING or any((each.border == CODES["follow"]).any() for each in self.panels)
         return follows and len(self.panels) > 1 and not self.is_automatic()
+
+    def settle_border(self) -> str:
+        """Returns the border that the solver takes, once it is known which panels are solved as one."""
+        return settle_border(self.border, joined=bool(self.joint))
 
     def find_owner(self, context: bpy.types.Context, patch: Patch) -> bpy.types.Object:
         """Returns the object whose settings hold for a patch: of several the active one."""
@@ -245,10 +255,11 @@ class SolveTool:
         keep_region.keep_region(ob, solution.patch)
         solve_history.remember_solve(solution.to_last_solve())
         stored = ob.reflection_lines
-        stored.center = solution.patch.local_center
+        stored.center = (solution.patch.to_local(self.joint[ob.name].center) if ob.name in self.joint else
+                         solution.patch.local_center)
         stored.keep_view(bpy.context.scene)
         stored.run.fill(self, ob.data, solution.patch.key)
-        stored.run.joined = json.dumps(sorted(self.joined)) if ob.name in self.joined else ""
+        stored.run.joined = json.dumps(sorted(self.joint)) if ob.name in self.joint else ""
         lost = (LOST_START,) if self.lost_start else ()
         shown = (*self.record_surroundings(ob, solution.patch),
                  *shape_keys.describe_hidden_key(ob, solution.patch.key), *shown_surface.describe_custom_normals(ob),
@@ -276,14 +287,14 @@ class SolveTool:
         turn = shown_surface.measure_rounding(patch)
         report.merge_distance, report.rounding = unjoined.distance if unjoined.own else 0.0, turn
         # Then the lines do not break there.
-        follows = self.border == "follow" and self.is_automatic() or patch.name in self.joined
+        follows = self.border == "follow" and self.is_automatic() or patch.name in self.joint
         breaks = () if follows else unjoined.describe()
         return (*shown_surface.describe_rounding(scene, patch, turn), *breaks, *self.describe_apart(patch))
 
     def describe_apart(self, patch: Patch) -> tuple[str, ...]:
         """Says where panels that meet are solved one by one what the border does between them."""
         beside = [each.name for each in self.find_meeting(patch)[1:]]
-        if self.border == "follow" and not self.is_automatic() and patch.name not in self.joined:
+        if self.border == "follow" and not self.is_automatic() and patch.name not in self.joint:
             return ("The border Neighbours follows panels in Edit Mode that face each other and, in Smooth Lines with "
                     "the automatic length, all that lies beside: here it was Tangent",)
         if self.border == "free" and beside:

@@ -21,8 +21,20 @@ def read_mirror(ob: bpy.types.Object, local: np.ndarray) -> Mirror | None:
         seam = np.any([find_modifier_seam(ob, modifier, local) for modifier in mirrors], axis=0)
         alone = len(mirrors) == len(axes) == 1 and shown[0] == first and not any(first.use_bisect_axis) \
             and first.mirror_object is None
-        return Mirror(axes[0] if alone else -1, np.where(seam, np.arange(len(local)), -1), True, merged)
+        one_plane = len(mirrors) == len(axes) == 1 and not any(first.use_bisect_axis)
+        return Mirror(axes[0] if alone else -1, np.where(seam, np.arange(len(local)), -1), True, merged,
+                      find_reflection(ob, first) if one_plane else None)
     return Mirror(0, mirror.find_pairs(local, 0), False) if ob.data.use_mirror_x else None
+
+
+def find_reflection(ob: bpy.types.Object, modifier: bpy.types.MirrorModifier) -> np.ndarray | None:
+    """Finds the reflection of world space (4 x 4) about the only plane of a Mirror modifier; None where its object has
+    none, being flat.
+    """
+    frame = np.array((modifier.mirror_object or ob).matrix_world, dtype=np.float64)
+    back = np.array((modifier.mirror_object or ob).matrix_world.inverted_safe(), dtype=np.float64)
+    found = frame @ np.diag([*(-1.0 if axis else 1.0 for axis in modifier.use_axis), 1.0]) @ back
+    return found if np.isfinite(found).all() else None
 
 
 def find_modifier_seam(ob: bpy.types.Object, modifier: bpy.types.MirrorModifier, local: np.ndarray) -> np.ndarray:

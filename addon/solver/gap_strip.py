@@ -17,7 +17,7 @@ class Rim:
     """A panel without the row of triangles at its rim."""
     xy: np.ndarray      # #V x 2, of the panel
     F: np.ndarray       # #F x 3, likewise
-    border: np.ndarray  # #B x 2: edges of one triangle alone
+    outline: np.ndarray  # #O x 2: edges of one triangle alone
     vertex: np.ndarray  # #R: vertices of the rim
     stays: np.ndarray   # #F, bool: triangles without those
     edges: np.ndarray   # #E x 2: edges between the triangles that stay and the others
@@ -53,15 +53,17 @@ def list_border(F: np.ndarray) -> np.ndarray:
     return np.stack([alone // count, alone % count], axis=1)
 
 
-def cut_rim(xy: np.ndarray, F: np.ndarray, border: np.ndarray, vertex: np.ndarray) -> Rim:
-    """Leaves the triangles at a rim out, with those at the vertices where its border goes on."""
+def cut_rim(xy: np.ndarray, F: np.ndarray, border: np.ndarray, vertex: np.ndarray, outline: np.ndarray) -> Rim:
+    """Leaves the triangles at a rim out, with those at the vertices where its border goes on. The outline is the border
+    and the seam, at which the panel goes on as its image.
+    """
     gone = mark(len(xy), vertex)
     gone[border[gone[border].any(axis=1)]] = True
     stays = ~gone[F].any(axis=1)
     edges = list_border(F[stays])
-    outer = {tuple(each) for each in border.tolist()}
+    outer = {tuple(each) for each in outline.tolist()}
     edges = np.array([each for each in edges.tolist() if tuple(each) not in outer], dtype=np.int64).reshape(-1, 2)
-    return Rim(xy, F, border, vertex, stays, edges, measure_depth(xy, vertex, np.unique(edges)))
+    return Rim(xy, F, outline, vertex, stays, edges, measure_depth(xy, vertex, np.unique(edges)))
 
 
 def measure_depth(xy: np.ndarray, vertex: np.ndarray, row: np.ndarray) -> float:

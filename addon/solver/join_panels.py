@@ -1,6 +1,6 @@
 """Joins panels that meet over gaps to one patch, see model/joined_patch.py."""
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from itertools import accumulate
 
 import numpy as np
@@ -10,12 +10,18 @@ from ..model.border import CODES, UNSET
 from ..model.cage import CagePatch
 from ..model.creases import Creases
 from ..model.joined_patch import JoinedPatch, PanelPart
-from ..model.meeting import find_meeting
+from ..model.meeting import find_meeting, find_middle
+from ..model.mirror import join_with_image
 from ..model.patch import Patch
+from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
 from ..model.view import View
+from .joint_mirror import (
+    can_join_image, find_seam, find_seam_rows, is_solved_with_image, join_mirrors, have_same_plane)
 from .rim_moves import NodePlaces, find_node_areas, weigh_moves
 from .gap_strip import Rim, Strip, Triangulate, build_strip, cut_rim, find_below, is_near, list_border, mark
+
+ReadView = Callable[[np.ndarray], View]  # of what has its middle at a point (3, world space)
 
 FACING = 0.2  # least cosine between view and normal of the triangles at a rim that moves
 ALIKE = 2.0 * np.cos(0.5 * np.radians(15.0))  # length of the sum of normals that are tilted by less than that
@@ -26,7 +32,8 @@ class Side:
     """A panel as it lies beside others."""
     patch: Patch
     xy: np.ndarray       # #V x 2, image plane
-    border: np.ndarray   # #B x 2: edges of one triangle alone
+    outline: np.ndarray  # #O x 2: edges of one triangle alone
+    border: np.ndarray   # #B x 2: those of them that no image is joined at
     normal: np.ndarray   # #V x 3
     movable: np.ndarray  # #V, bool: vertices of the border that may follow what lies across
 
@@ -51,51 +58,52 @@ class Facing:
 
 
 def can_join(patch: Patch) -> bool:
-    """Returns whether a patch can be a part of a joined one: cages have other unknowns, and a mirror image has its
-    place in the problem of its panel.
-    """
-    return not isinstance(patch, CagePatch) and patch.mirror is None
+    """Returns whether a patch can be a part of a joined one: cages have other unknowns."""
+    return not isinstance(patch, CagePatch) and can_join_image(patch)
 
 
-def join_panels(panels: Sequence[Patch], view: View, border: str, triangulate: Triangulate) -> list[Patch]:
+def join_panels(panels: Sequence[Patch], read_view: ReadView, border: str, triangulate: Triangulate) -> list[Patch]:
     """Returns the patches to solve for: one for panels that face each other where the border follows, and those that do
     not as they are. The order of the panels does not matter.
     """
     left = sorted((each for each in panels if can_join(each)), key=lambda each: each.name)
     joined = []
     while left:
-        met = {each.name for each in find_meeting(left[0], left)}
-        joined.append(join_able([each for each in left if each.name in met], view, border, triangulate))
+        alike = [each for each in left if have_same_plane(left[0], each)]
+        met = {each.name for each in find_meeting(left[0], alike)}
+        joined.append(join_able([each for each in left if each.name in met], read_view, border, triangulate))
         left = [each for each in left if each.name not in met]
     found = [each for each in joined if each is not None]
     taken = {panel.name for each in found for panel in each.panels}
     return [*found, *(each for each in panels if each.name not in taken)]
 
 
-def join_able(panels: list[Patch], view: View, border: str, triangulate: Triangulate) -> JoinedPatch | None:
+def join_able(panels: list[Patch], read_view: ReadView, border: str, triangulate: Triangulate) -> JoinedPatch | None:
     """Joins panels; None where none of them face each other."""
     if len(panels) < 2 or len({each.creases.rule for each in panels}) > 1:
         return None
     try:
+        view = read_view(find_middle(panels))
         frame = native.reflines.image_plane(view.view_direction, view.line_direction)
-    except native.InvalidInput:  # the solve of each panel by itself tells what is wrong
+    except (native.InvalidInput, Refusal):  # the solve of each panel by itself tells what is wrong
         return None
     sides = [build_side(each, frame, border) for each in panels]
     facings = [find_facing(sides, which, frame[2]) for which in range(len(sides))]
     meeting = [which for which, each in enumerate(facings) if len(each.vertex)]
-    rims = [cut_rim(side.xy, side.patch.F, side.border, facing.vertex)
+    rims = [cut_rim(side.xy, side.patch.F, side.border, facing.vertex, side.outline)
             for side, facing in zip(sides, facings, strict=True)] if len(meeting) == len(panels) else []
     strip = build_strip(rims, max(each.gap for each in facings), triangulate) if rims else None
     left = meeting if not rims else sorted(strip.meeting) if strip is not None else []
     if len(left) < len(panels):
-        return join_able([panels[which] for which in left], view, border, triangulate)
-    return put_together(panels, rims, strip, find_steps(facings, len(panels))[:, None] * frame[2], border)
+        return join_able([panels[which] for which in left], read_view, border, triangulate)
+    return put_together(panels, rims, strip, find_steps(facings, len(panels))[:, None] * frame[2], view, border)
 
 
 def build_side(patch: Patch, frame: np.ndarray, border: str) -> Side:
-    edges = list_border(patch.F)
+    outline = list_border(patch.F)
+    edges = outline[~find_seam(patch)[outline].all(axis=1)]
     movable = find_movable(patch, edges, frame[2], border)
-    return Side(patch, patch.V @ frame[:2].T, edges, compute_normals(patch), movable)
+    return Side(patch, patch.V @ frame[:2].T, outline, edges, compute_normals(patch), movable)
 
 
 def find_facing(sides: list[Side], which: int, towards: np.ndarray) -> Facing:
@@ -181,7 +189,8 @@ def find_steps(facings: list[Facing], count: int) -> np.ndarray:
     return np.linalg.lstsq(np.array(rows), np.array(steps), rcond=None)[0]
 
 
-def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.ndarray, border: str) -> JoinedPatch:
+def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.ndarray, view: View,
+                 border: str) -> JoinedPatch:
     """Builds the joined patch, whose triangles are those of the panels without their rims, and those of the strip."""
     vertex, count = [], 0
     for rim in rims:
@@ -194,24 +203,44 @@ def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.
     xy = np.concatenate([rim.xy[own >= 0] for rim, own in zip(rims, vertex, strict=True)])
     codes = np.concatenate([panel.border[own >= 0] for panel, own in zip(panels, vertex, strict=True)])
     codes[find_new_ends(F, vertex, rims)] = CODES["clamped"]
-    place = NodePlaces(xy, find_node_areas(xy, F), strip.span)
     starts = [0, *accumulate(int(rim.stays.sum()) for rim in rims)]
+    faces, face_of_triangle = number_faces(panels, rims, len(F) - starts[-1])
+    plane = join_mirrors(panels, vertex, count)
+    matrix = np.eye(4) if plane is None else panels[0].matrix
+    patch = JoinedPatch(
+        " and ".join(each.name for each in panels), faces, np.arange(len(V)), panels[0].to_local(V) if plane else V, V,
+        F, face_of_triangle, matrix, "", plane, join_creases(panels, vertex), codes,
+        join_around(panels, vertex, raised, count), join_ranges(panels, vertex), parts=())
+    is_doubled = is_solved_with_image(patch, view)
+    place, below = place_nodes(patch, xy, starts[-1], strip.span, view if is_doubled else None)
     parts = []
     for panel, rim, own, start in zip(panels, rims, vertex, starts[:-1], strict=True):
-        moves = weigh_moves(place, rim.xy, find_moved(panel, rim, xy[between], border))
+        moved = find_moved(panel, rim, below, border)
+        moves = weigh_moves(place, rim.xy, moved if is_doubled else moved[~find_seam_rows(panel)[moved]])
         parts.append(PanelPart(panel, own, find_triangles(rim, start), moves))
-    faces, face_of_triangle = number_faces(panels, rims, len(F) - starts[-1])
-    return JoinedPatch(
-        " and ".join(each.name for each in panels), faces, np.arange(len(V)), V, V, F, face_of_triangle, np.eye(4), "",
-        None, join_creases(panels, vertex), codes, join_around(panels, vertex, raised, count),
-        join_ranges(panels, vertex), parts=tuple(parts))
+    return replace(patch, parts=tuple(parts))
+
+
+def place_nodes(patch: JoinedPatch, xy: np.ndarray, first: int, span: float,
+                view: View | None) -> tuple[NodePlaces, np.ndarray]:
+    """Places the vertices of the joined patch in the image plane, with those of its image where that is solved with it,
+    seen in a view; returns the corners of the strip's triangles, which begin with `first`, too: #T x 3 x 2.
+    """
+    if view is None:
+        return NodePlaces(xy, find_node_areas(xy, patch.F), span, np.arange(len(xy))), xy[patch.F[first:]]
+    local, F, partner = join_with_image(patch.mirror, patch.local, patch.F)
+    source = np.append(np.arange(len(xy)), partner[len(xy):])
+    frame = native.reflines.image_plane(view.view_direction, view.line_direction)
+    both = np.concatenate([xy, patch.to_world(local[len(xy):]) @ frame[:2].T])
+    strip = np.concatenate([F[first:len(patch.F)], F[len(patch.F) + first:]])
+    return NodePlaces(both, find_node_areas(both, F), span, source), both[strip]
 
 
 def find_new_ends(F: np.ndarray, vertex: list[np.ndarray], rims: list[Rim]) -> np.ndarray:
     """Finds the vertices (of the joined patch) that were inside a panel and are at the border now, where the strip ends
     before the rim does.
     """
-    outer = np.concatenate([own[rim.border.ravel()] for own, rim in zip(vertex, rims, strict=True)])
+    outer = np.concatenate([own[rim.outline.ravel()] for own, rim in zip(vertex, rims, strict=True)])
     return np.setdiff1d(list_border(F), outer)
 
 

@@ -14,10 +14,11 @@ SPAN = 2.2  # radius of the fits, over the widest row and gap: three rows of ver
 
 @dataclass(frozen=True)
 class NodePlaces:
-    """The vertices of a joined patch in the image plane."""
+    """The vertices of a joined patch in the image plane, and of its image where it is solved with that."""
     xy: np.ndarray    # #V x 2
     area: np.ndarray  # #V: what each stands for
     span: float       # widest row and gap
+    source: np.ndarray  # #V: the vertex of the patch that each one is, or is the image of
 
 
 def find_node_areas(xy: np.ndarray, F: np.ndarray) -> np.ndarray:
@@ -41,7 +42,7 @@ def weigh_moves(place: NodePlaces, xy: np.ndarray, moved: np.ndarray) -> RimMove
         offset = (place.xy[near] - point) / radius
         distance = np.hypot(offset[:, 0], offset[:, 1])
         inside = distance < 1.0
-        sources.append(near[inside])
+        sources.append(place.source[near[inside]])
         weights.append(fit_value(offset[inside], distance[inside], place.area[near[inside]]))
     first = np.cumsum([0, *(len(each) for each in sources)])[:-1]
     empty = np.zeros(0)

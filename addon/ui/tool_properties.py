@@ -7,7 +7,7 @@ from collections.abc import Callable
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
-from ..model.border import NAMES
+from ..model.border import AUTOMATIC, NAMES
 from ..read import falloff_curve
 from .automatic_values import switch_property
 from .rows import draw_switch
@@ -70,13 +70,16 @@ BORDERS = (
     ('free', NAMES["free"], "Border vertices may move along the view, as the rest does", 'NONE', 2),
 )
 
+AUTOMATIC_BORDER = (AUTOMATIC, NAMES[AUTOMATIC], "Neighbours towards panels in Edit Mode that face this one over a "
+                    "gap, and Tangent elsewhere. In Smooth with the automatic length Tangent", 'NONE', 6)
+
 
 def border_property() -> object:
     """Defines the setting of a tool's border. A tool that changes the mean of the lines over the region does more with
     a free one, and bends the rim: of a turn by 0.2 rad on a crowned panel 10 % and 65 %, with 0 and 6 to 12 degrees of
     a crease against the faces beside the region. So it is asked for, by a button.
     """
-    return EnumProperty(name="Border", items=BORDERS, default='clamped', **SAVED,
+    return EnumProperty(name="Border", items=(AUTOMATIC_BORDER, *BORDERS), default=AUTOMATIC, **SAVED,
                         description="What happens at the border of the region")
 
 

@@ -59,7 +59,8 @@ def find_rim(ob: bpy.types.Object, kind: str = "straight") -> Array:
 def measure_gap(left: bpy.types.Object, right: bpy.types.Object) -> dict[str, Array]:
     """What Check measures along the gap, without its ends."""
     addon, scene = sys.modules["reflection_lines"], bpy.context.scene
-    seen = addon.view.facing.read_patch_view(scene, addon.read.gather.gather_patch(left))
+    panels = [addon.read.gather.gather_patch(ob) for ob in (left, right)]
+    seen = addon.view.view_and_light.read_scene_view(scene, addon.model.meeting.find_middle(panels))
     (V, F), (W, G) = ((places(ob), list_triangles(ob)) for ob in (left, right))
     found = addon.native.reflines.check_shut_lines(
         V, V, F, np.ones(len(F), dtype=bool), W, G, label=np.zeros(len(G), dtype=int),
@@ -124,6 +125,29 @@ def test_lines_run_on_over_the_gap_as_before(tool: str, kind: str) -> None:
                for name, old in zip(("Left", "Right"), was, strict=True))
 
 
+@pytest.mark.parametrize("tool", list(TOOLS))
+def test_a_perspective_view_is_that_of_the_middle_of_both(tool: str) -> None:
+    """Stripes are drawn so, too, and run on over the gap."""
+    left, right = start()
+    camera = bpy.context.scene.reflection_lines.camera
+    camera.data.type, camera.location = 'PERSP', (0.4, -0.6, 4.0)
+    bpy.context.view_layer.update()
+    before, was = measure_gap(left, right), [places(left), places(right)]
+    assert TOOLS[tool]() == {'FINISHED'}
+    after = measure_gap(left, right)
+    moves = [places(ob) - old for ob, old in zip((left, right), was, strict=True)]
+    assert min(np.abs(move)[find_rim(ob)].max() for ob, move in zip((left, right), moves, strict=True)) > 1e-4
+    assert after["kink"].max() < before["kink"].max() + KINK
+    assert after["line_offset"].max() < before["line_offset"].max() + OFFSET
+    assert np.abs(after["flush"] - before["flush"]).max() < FIT
+    middles = [ob.matrix_world @ ob.reflection_lines.center for ob in (left, right)]
+    assert (middles[0] - middles[1]).length < 1e-6
+    towards = np.array(camera.location) - np.array(middles[0])
+    largest = [move[np.linalg.norm(move, axis=1).argmax()] for move in moves]
+    assert all(np.linalg.norm(np.cross(each, towards)) < 1e-4 * np.linalg.norm(each) * np.linalg.norm(towards)
+               for each in largest)
+
+
 def test_a_dense_panel_beside_a_coarse_one_gets_no_fold_behind_its_rim() -> None:
     right = sheet("Right", lambda _y: np.linspace(0.5 * GAP, 1.0, 7), np.linspace(-1.0, 1.0, 13))
     left = sheet("Left", lambda _y: np.linspace(-1.0, -0.5 * GAP, 101), np.linspace(-1.0, 1.0, 201))
@@ -151,6 +175,55 @@ def test_rims_that_touch_move_as_one(tool: str) -> None:
     assert np.abs(between).max() < 0.05 * np.abs(sides[1]).max()
 
 
+@pytest.mark.parametrize("tool", list(TOOLS))
+def test_by_default_panels_that_face_each_other_are_one(tool: str) -> None:
+    left, right = start()
+    shapes = []
+    for border in ("automatic", "follow"):
+        assert TOOLS[tool](border=border) == {'FINISHED'}
+        shapes.append([places(bpy.data.objects[name]) for name in ("Left", "Right")])
+        bpy.ops.ed.undo()
+    assert bpy.context.scene.reflection_lines.border == 'automatic'
+    assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
+
+
+@pytest.mark.parametrize("why", ["apart", "tilted", "cage", "alone"])
+@pytest.mark.parametrize("tool", list(TOOLS))
+def test_by_default_what_faces_nothing_is_as_with_tangent_to_the_bit(tool: str, why: str) -> None:
+    shapes, notes = [], []
+    for border in ("automatic", "clamped"):
+        left, right = start_apart(why)
+        assert TOOLS[tool](border=border) == {'FINISHED'}
+        shapes.append([places(ob) for ob in (left, right)])
+        notes.append(left.reflection_lines.report.notes)
+    assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
+    assert notes[0] == notes[1]
+
+
+def start_apart(why: str) -> tuple[bpy.types.Object, bpy.types.Object]:
+    """Both panels anew, of which one is not to be joined with the other."""
+    remove_all()
+    left, right = start()
+    scenes.object_mode()
+    if why == "apart":
+        right.location.x = 0.1
+    elif why == "tilted":
+        right.rotation_euler.y = 0.5
+    elif why == "cage":
+        right.modifiers.new("Subdivision", 'SUBSURF').levels = 1
+    right.select_set(why != "alone")
+    bpy.context.view_layer.objects.active = left
+    bpy.ops.object.mode_set(mode='EDIT')
+    return left, right
+
+
+def remove_all() -> None:
+    if bpy.context.mode != 'OBJECT':
+        scenes.object_mode()
+    for old in list(bpy.data.objects):
+        bpy.data.objects.remove(old)
+
+
 @pytest.mark.parametrize("gap", [0.0, GAP])
 def test_three_panels_that_meet_in_a_t_move_as_one(gap: float) -> None:
     h = 0.5 * gap
@@ -173,10 +246,7 @@ def test_three_panels_that_meet_in_a_t_move_as_one(gap: float) -> None:
 def test_the_order_of_the_panels_changes_no_bit() -> None:
     shapes = []
     for active in ("Left", "Right"):
-        if bpy.context.mode != 'OBJECT':
-            scenes.object_mode()
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
+        remove_all()
         pair = start()
         bpy.context.view_layer.objects.active = bpy.data.objects[active]
         assert straighten() == {'FINISHED'}
@@ -286,3 +356,11 @@ def test_re_solve_refuses_to_leave_the_other_behind() -> None:
     bpy.data.objects.remove(right)
     with scenes.refused(left, "Left was moved as one with Right, which has changed since"):
         bpy.ops.reflines.resolve('EXEC_DEFAULT', True)
+
+
+def test_a_bake_says_that_the_other_panel_does_not_follow() -> None:
+    left, _ = start()
+    describe = sys.modules["reflection_lines"].interactive.handle_bake.describe_partners
+    assert not describe(left)
+    assert pull() == {'FINISHED'}
+    assert "Right, which followed the pull, stayed" in describe(left)[0]

@@ -143,9 +143,10 @@ def drag_module() -> object:
     return sys.modules["reflection_lines"].interactive.drag
 
 
-def pulled(driver: window.Window, tool: str, stroke: tuple[tuple[int, int], ...]) -> Generator[float, None, list[str]]:
+def pulled(driver: window.Window, tool: str, stroke: tuple[tuple[int, int], ...],
+           border: str) -> Generator[float, None, list[str]]:
     """Presses over the wing while the door is active; returns what has moved once that is applied."""
-    before = start(driver)
+    before, bpy.context.scene.reflection_lines.border = start(driver), border
     yield from take_tool(driver, f"reflection_lines.{tool}")
     yield from pulling.move(driver, *stroke[0])
     driver.event('LEFTMOUSE', 'PRESS')
@@ -160,17 +161,19 @@ def pulled(driver: window.Window, tool: str, stroke: tuple[tuple[int, int], ...]
     yield from dragging.applied(driver)
     assert not drag_module()._running
     moved = find_moved(before)
+    bpy.context.scene.reflection_lines.property_unset("border")
     yield from comes_back(driver, before)
     return moved
 
 
 def test_a_press_pulls_or_draws_the_line_of_the_panel_that_it_lies_on(driver: window.Window) -> Steps:
-    assert (yield from pulled(driver, "pull_line", (RIGHT, (400, 294), (400, 298)))) == ["Wing"]
-    assert (yield from pulled(driver, "draw_highlight", ((360, 290), (385, 291), (410, 292), (430, 293)))) == ["Wing"]
+    assert (yield from pulled(driver, "pull_line", (RIGHT, (400, 294), (400, 298)), 'clamped')) == ["Wing"]
+    stroke = (360, 290), (385, 291), (410, 292), (430, 293)
+    assert (yield from pulled(driver, "draw_highlight", stroke, 'clamped')) == ["Wing"]
 
 
 def test_a_session_says_that_the_lines_of_another_panel_are_not_its_own(driver: window.Window) -> Steps:
-    before = start(driver)
+    before, bpy.context.scene.reflection_lines.border = start(driver), 'clamped'
     yield from pulling.begin(driver)
     yield from pulling.draw(driver, (RIGHT, (400, 300)))
     header = pulling.session().texts[0]
@@ -181,6 +184,7 @@ def test_a_session_says_that_the_lines_of_another_panel_are_not_its_own(driver: 
     driver.key('ESC')
     yield 0.3
     assert not find_moved(before)
+    bpy.context.scene.reflection_lines.property_unset("border")
 
 
 def test_a_drag_of_direction_moves_both_and_escape_takes_both_back(driver: window.Window) -> Steps:
@@ -214,9 +218,9 @@ def move_alike(before: dict[str, np.ndarray]) -> bool:
     return bool(np.abs(door).max() > 1e-4 and np.abs(door - wing).max() < 0.2 * np.abs(door).max())
 
 
-def test_with_the_border_neighbours_a_drag_moves_both_rims_as_one(driver: window.Window) -> Steps:
-    scene = bpy.context.scene.reflection_lines
-    before, scene.border = start(driver), 'follow'
+def test_a_drag_moves_both_rims_as_one(driver: window.Window) -> Steps:
+    before, scene = start(driver), bpy.context.scene.reflection_lines
+    assert scene.border == 'automatic'
     scene.direction.centre, scene.direction.direction = 'REGION', 'PRESENT'
     yield from dragging.press(driver, "direction")
     driver.move(460, 300)
@@ -225,13 +229,13 @@ def test_with_the_border_neighbours_a_drag_moves_both_rims_as_one(driver: window
     assert find_moved(before) == ["Door", "Wing"] and move_alike(before)
     yield from dragging.applied(driver)
     assert move_alike(before)
-    scene.property_unset("border")
     yield from comes_back(driver, before)
 
 
-def test_with_the_border_neighbours_the_other_panel_follows_a_pull(driver: window.Window) -> Steps:
-    bpy.context.scene.reflection_lines.border = 'follow'
-    moved = yield from pulled(driver, "pull_line", (RIGHT, (400, 294), (400, 298)))
+def test_the_other_panel_follows_a_pull(driver: window.Window) -> Steps:
+    moved = yield from pulled(driver, "pull_line", (RIGHT, (400, 294), (400, 298)), 'automatic')
+    assert moved == ["Door", "Wing"]
+    moved = yield from pulled(driver, "draw_highlight", ((360, 290), (385, 291), (410, 292), (430, 293)), 'automatic')
     assert moved == ["Door", "Wing"]
     before = start(driver)
     yield from pulling.begin(driver)
@@ -241,7 +245,6 @@ def test_with_the_border_neighbours_the_other_panel_follows_a_pull(driver: windo
     driver.key('ESC')
     yield 0.3
     assert not find_moved(before)
-    bpy.context.scene.reflection_lines.property_unset("border")
 
 
 def test_check_measures_and_draws_both(driver: window.Window) -> Steps:
