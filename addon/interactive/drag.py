@@ -25,7 +25,7 @@ from ..solver import live_optimizer
 from ..solver.automatic_smooth import AutomaticSmooth
 from ..solver.live_optimizer import BuildTarget
 from ..targets.falloff import Falloff
-from ..view import view_and_light, view_region
+from ..view import shown_middles, view_and_light, view_region
 from ..write import keep_region, write_mesh
 from ..write.write_mesh import EditVertices
 from . import drag_input
@@ -76,6 +76,8 @@ class Drag:
         self.frame = live_optimizer.compute_image_frame(self.patches[0], views[0])
         self.update_request(context, final=final)  # refuses before anything is started
         self.job = SolveJob(self.solved, views, tool.settle_border())
+        shown_middles.show_from({panel.name: patch.center for patch in self.solved if len(patch.panels) > 1
+                                 for panel in patch.panels})
         self.circle = tool_circle.add_circle(lambda: self.circle_points)
         self.work = BackgroundWork(self.job.run, self.job.cancel)
         self.work.submit(self.request)
@@ -246,6 +248,7 @@ class Drag:
         if self.work.is_idle():
             self.job.return_optimizers()
         self.work.stop()
+        shown_middles.show_from({})
         tool_circle.remove_circle(self.circle)
         self.area.header_text_set(None)
         context.workspace.status_text_set(None)

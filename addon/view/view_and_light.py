@@ -7,6 +7,7 @@ from .. import native
 from ..model.refusal import Refusal
 from ..model.view import View
 from ..read import scene_objects
+from . import shown_middles
 
 
 def is_perspective(camera: bpy.types.Object) -> bool:
@@ -119,8 +120,9 @@ def read_shown_directions(scene: bpy.types.Scene, ob: bpy.types.Object) -> tuple
     settings, stored = scene.reflection_lines, ob.reflection_lines
     camera = settings.picture_camera()
     center = ob.matrix_world @ stored.center if stored.report.termination else measure_extent(ob)[0]
+    center = shown_middles.find_shown_middle(ob.name, np.array(center))
     try:
-        seen = compute_view_direction(camera, np.array(center)) if camera is not None else None
+        seen = compute_view_direction(camera, center) if camera is not None else None
         return seen, read_z_axis(settings.light) if settings.present(settings.light) else None
     except Refusal:
         return None, None

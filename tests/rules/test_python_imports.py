@@ -92,7 +92,7 @@ OWNERS_OF_STATE = {"state.last_looks", "state.last_panels", "state.optimizer_cac
                    "state.solve_history", "interactive.drag",
                    "interactive.live_warp_handlers", "background_work", "interactive.running_operators",
                    "overlay.draw",
-                   "overlay.draw_borders", "overlay.draw_check", "state.last_checks"}
+                   "overlay.draw_borders", "overlay.draw_check", "state.last_checks", "view.shown_middles"}
 
 
 def module_name(file: Path) -> str:

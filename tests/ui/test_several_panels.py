@@ -20,22 +20,25 @@ def rippled(x: float, y: float) -> float:
     return scenes.crown(x, y) + 5e-4 * np.sin(24.0 * x + 1.0) * np.cos(20.0 * y)
 
 
-def half(name: str, low: float, high: float) -> bpy.types.Object:
-    columns, rows = np.linspace(low, high, CELLS + 1), np.linspace(-1.0, 1.0, 2 * CELLS + 1)
+def half(name: str, low: float, high: float, *, mirrored: bool) -> bpy.types.Object:
+    columns, rows = np.linspace(low, high, CELLS + 1), np.linspace(0.0 if mirrored else -1.0, 1.0, 2 * CELLS + 1)
     points = [(x, y, rippled(x, y)) for y in rows for x in columns]
     faces = [(i, i + 1, i + CELLS + 2, i + CELLS + 1) for j in range(2 * CELLS)
              for i in range(j * (CELLS + 1), j * (CELLS + 1) + CELLS)]
-    return scenes.linked(name, points, faces)
+    ob = scenes.linked(name, points, faces)
+    if mirrored:
+        ob.modifiers.new("Mirror", 'MIRROR').use_axis = (False, True, False)
+    return ob
 
 
-def start(driver: window.Window, levels: int = 0) -> dict[str, np.ndarray]:
+def start(driver: window.Window, levels: int = 0, *, mirrored: bool = False) -> dict[str, np.ndarray]:
     """Builds both panels, of which the door is active, and with `levels` the wing a cage; returns their positions."""
     with driver.override():
         if bpy.context.mode != 'OBJECT':
             bpy.ops.object.mode_set(mode='OBJECT')
         for old in list(bpy.data.objects):
             bpy.data.objects.remove(old)
-        panels = half("Wing", 0.5 * GAP, 1.0), half("Door", -1.0, -0.5 * GAP)
+        panels = [half("Wing", 0.5 * GAP, 1.0, mirrored=mirrored), half("Door", -1.0, -0.5 * GAP, mirrored=mirrored)]
         if levels:
             panels[0].modifiers.new("Subdivision", 'SUBSURF').levels = levels
         scenes.look_from_above()
@@ -230,6 +233,37 @@ def test_a_drag_moves_both_rims_as_one(driver: window.Window) -> Steps:
     yield from dragging.applied(driver)
     assert move_alike(before)
     yield from comes_back(driver, before)
+
+
+def seen_alike() -> bool:
+    """The stripes on both panels are those of one view."""
+    views = [sys.modules["reflection_lines"].view.view_and_light.read_shown_directions(bpy.context.scene, ob)[0]
+             for ob in map(bpy.data.objects.get, ("Door", "Wing"))]
+    return bool(np.abs(views[0] - views[1]).max() < 1e-6)
+
+
+def test_mirrored_panels_are_dragged_with_their_images(driver: window.Window) -> Steps:
+    """The gap runs across the seam of both; a perspective view camera stands in the mirror plane."""
+    own = bpy.context.scene.reflection_lines.direction
+    for kind in ('ORTHO', 'PERSP'):
+        before = start(driver, mirrored=True)
+        camera = bpy.context.scene.reflection_lines.camera
+        if kind == 'PERSP':
+            camera.data.type, camera.location = kind, (0.4, 0.0, 4.0)
+        own.centre, own.direction = 'REGION', 'PRESENT'
+        yield from window.take_picture(driver, f"direction_mirrored_before_{kind}")
+        yield from dragging.press(driver, "direction")
+        driver.move(460, 300)
+        yield from dragging.settled(driver)
+        yield from window.take_picture(driver, f"direction_mirrored_{kind}")
+        assert find_moved(before) == ["Door", "Wing"] and move_alike(before) and seen_alike()
+        yield from dragging.applied(driver)
+        assert move_alike(before) and seen_alike()
+        yield from window.take_picture(driver, f"direction_mirrored_applied_{kind}")
+        for name, was in before.items():
+            seam = was[:, 1] == 0.0
+            assert np.abs(shown()[name] - was)[seam].max() > 1e-4 and not shown()[name][seam, 1].any()
+        yield from comes_back(driver, before)
 
 
 def test_the_other_panel_follows_a_pull(driver: window.Window) -> Steps:
