@@ -171,9 +171,8 @@ def find_movable(patch: Patch, edges: np.ndarray, towards: np.ndarray, border: s
 def compute_normals(patch: Patch) -> np.ndarray:
     """Returns the normals at the vertices: #V x 3."""
     a, b, c = (patch.V[patch.F[:, k]] for k in range(3))
-    normal, result = np.cross(b - a, c - a), np.zeros(patch.V.shape)
-    for k in range(3):
-        np.add.at(result, patch.F[:, k], normal)
+    corners, normal = patch.F.T.ravel(), np.cross(b - a, c - a)
+    result = np.stack([np.bincount(corners, np.tile(each, 3), len(patch.V)) for each in normal.T], axis=1)
     return result / np.maximum(np.linalg.norm(result, axis=1, keepdims=True), 1e-300)
 
 
