@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .joined_cage import JoinedCagePatch, cut_moves
 from .meeting import find_middle
 from .patch import Patch
 from .solution import Solution
@@ -42,6 +43,7 @@ class PanelPart:
 class JoinedPatch(Patch):
     """A patch that stands for several, in world space; its heights are those of the panels without steps."""
     parts: tuple[PanelPart, ...]
+    towards: np.ndarray  # 3, unit vector to the viewer
 
     @property
     def panels(self) -> tuple[Patch, ...]:
@@ -57,6 +59,9 @@ def gather_values(patch: Patch, values: Mapping[str, np.ndarray], otherwise: flo
     """Returns values of meshes' vertices, by the objects' names, for the vertices (#V) of a patch, which may be a
     joined one; another one for the panels without values.
     """
+    if isinstance(patch, JoinedCagePatch):
+        return np.concatenate([values[part.name][part.index] if part.name in values
+                               else np.full(len(part.V), otherwise) for part in patch.parts])
     if not isinstance(patch, JoinedPatch):
         return values[patch.name][patch.index]
     result = np.full(len(patch.V), otherwise)
@@ -72,31 +77,22 @@ def split_positions(patch: Patch, positions: np.ndarray, limit: float = np.inf) 
 
     No vertex at the gap moves further than the limit, or its own range of it.
     """
+    if isinstance(patch, JoinedCagePatch):
+        return patch.split_positions(positions, limit)
     if not isinstance(patch, JoinedPatch):
         return [positions]
     move = positions - patch.V
-    return [move_panel(part, move, limit) for part in patch.parts]
+    return [move_panel(part, move, patch.towards, limit) for part in patch.parts]
 
 
-def move_panel(part: PanelPart, move: np.ndarray, limit: float) -> np.ndarray:
+def move_panel(part: PanelPart, move: np.ndarray, towards: np.ndarray, limit: float) -> np.ndarray:
     """Returns a panel's positions after moves of the joined patch (#V x 3)."""
     V = part.panel.V.copy()
     own = part.vertex >= 0
     V[own] += move[part.vertex[own]]
-    V[part.rim.vertex] += cut_moves(part, part.rim.sum(move), move, limit)
+    ranges = None if part.panel.limit_range is None else part.panel.limit_range[part.rim.vertex]
+    V[part.rim.vertex] += cut_moves(part.rim.sum(move), towards, limit, ranges)
     return V
-
-
-def cut_moves(part: PanelPart, rim: np.ndarray, move: np.ndarray, limit: float) -> np.ndarray:
-    """Cuts the moves at the gap (#S x 3) to the limit; all moves lie along one axis."""
-    largest = move[np.abs(move).sum(axis=1).argmax()] if len(move) else np.zeros(3)
-    size = float(np.linalg.norm(largest))
-    if not np.isfinite(limit) or size == 0.0:
-        return rim
-    ranges = part.panel.limit_range
-    axis, along = largest / size, rim @ (largest / size)
-    low, high = (-limit, limit) if ranges is None else limit * ranges[part.rim.vertex].T
-    return rim + (np.clip(along, low, high) - along)[:, None] * axis
 
 
 def split_solution(solution: Solution, limit: float) -> list[Solution]:
@@ -104,8 +100,13 @@ def split_solution(solution: Solution, limit: float) -> list[Solution]:
     one.
     """
     patch = solution.patch
+    kept = limit or solution.automatic_limit or np.inf
+    if isinstance(patch, JoinedCagePatch):
+        positions = split_positions(patch, solution.positions, kept)
+        return [replace(solution, patch=part, positions=own, residual=residual) for part, own, residual
+                in zip(patch.parts, positions, patch.split_triangles(solution.residual), strict=True)]
     if not isinstance(patch, JoinedPatch):
         return [solution]
-    positions = split_positions(patch, solution.positions, limit or solution.automatic_limit or np.inf)
+    positions = split_positions(patch, solution.positions, kept)
     return [replace(solution, patch=part.panel, positions=own, residual=solution.residual[part.triangle])
             for part, own in zip(patch.parts, positions, strict=True)]

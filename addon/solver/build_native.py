@@ -6,6 +6,7 @@ import numpy as np
 from .. import native
 from ..model.border import CODES, UNSET, needs_surroundings
 from ..model.cage import Option
+from ..model.joined_cage import JoinedCagePatch
 from ..model.refusal import Refusal
 from ..native_call import call
 from .panel_problem import (
@@ -30,11 +31,16 @@ async def build_optimizer(problem: PanelProblem, border: str, progress: "native.
         return await call(
             native.reflines.CageOptimizer.create, **problem.patch.cage.build_arguments(problem.is_symmetric),
             **problem.directions, progress=progress, border=choose_border(problem, border), sparse=sparse,
-            **problem.patch.creases.build_cage_arguments())
+            **problem.patch.creases.build_cage_arguments(), **choose_bridge(problem))
     return await call(
         native.reflines.ShapeOptimizer.create, problem.V, problem.F, **problem.directions, progress=progress,
         **choose_edges(problem, border), partner=problem.partner, face_of_triangle=repeat_faces(problem),
         **problem.patch.creases.build_arguments(problem.partner if problem.is_joined else None))
+
+
+def choose_bridge(problem: PanelProblem) -> dict[str, np.ndarray]:
+    """Returns what lies over the gaps between the surfaces of cages that are solved as one."""
+    return problem.patch.bridge.build_arguments() if isinstance(problem.patch, JoinedCagePatch) else {}
 
 
 async def build_smoother(problem: PanelProblem, border: str, settings: PressSettings, *,

@@ -123,6 +123,25 @@ def find_areas(points: np.ndarray, F: np.ndarray) -> np.ndarray:
     return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
 
 
+def find_nearest_edges(edges: np.ndarray, points: np.ndarray,
+                       within: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Returns for each point of the plane (#P x 2) the nearest edge (#E x 2 x 2), -1 where none lies within a distance,
+    the fraction of its second end, and the distance.
+    """
+    count = len(points)
+    nearest, fraction, distance = np.full(count, -1), np.zeros(count), np.full(count, np.inf)
+    near = np.flatnonzero(is_near(edges, points, within))
+    start, way = edges[near, 0], edges[near, 1] - edges[near, 0]
+    length = np.maximum((way**2).sum(axis=1), 1e-300)
+    for number, point in enumerate(points if len(near) else ()):
+        along = np.clip(((point - start) * way).sum(axis=1) / length, 0.0, 1.0)
+        apart = ((start + along[:, None] * way - point)**2).sum(axis=1)
+        best = int(apart.argmin())
+        if apart[best] <= within**2:
+            nearest[number], fraction[number], distance[number] = near[best], along[best], np.sqrt(apart[best])
+    return nearest, fraction, distance
+
+
 def is_near(shapes: np.ndarray, points: np.ndarray, margin: float) -> np.ndarray:
     """Returns which triangles or edges (#N x corners x 2) have boxes that overlap that around points: #N, bool."""
     if not len(points):

@@ -9,6 +9,7 @@ from .. import native
 from ..model.border import CODES, UNSET
 from ..model.cage import CagePatch
 from ..model.creases import Creases
+from ..model.joined_cage import JoinedCagePatch
 from ..model.joined_patch import JoinedPatch, PanelPart
 from ..model.meeting import find_meeting, find_middle
 from ..model.mirror import join_with_image
@@ -16,10 +17,12 @@ from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
 from ..model.view import View
+from .join_cages import build_surfaces, can_join_cage, have_same_rules, put_cages_together
 from .joint_mirror import (
     can_join_image, find_seam, find_seam_rows, is_solved_with_image, join_mirrors, have_same_plane)
 from .rim_moves import NodePlaces, find_node_areas, weigh_moves
-from .gap_strip import Rim, Strip, Triangulate, build_strip, cut_rim, find_below, is_near, list_border, mark
+from .gap_strip import (
+    Rim, Strip, Triangulate, build_strip, cut_rim, find_below, find_nearest_edges, list_border, mark)
 
 ReadView = Callable[[np.ndarray], View]  # of what has its middle at a point (3, world space)
 
@@ -58,8 +61,15 @@ class Facing:
 
 
 def can_join(patch: Patch) -> bool:
-    """Returns whether a patch can be a part of a joined one: cages have other unknowns."""
-    return not isinstance(patch, CagePatch) and can_join_image(patch)
+    """Returns whether a patch can be a part of a joined one."""
+    return can_join_cage(patch) if isinstance(patch, CagePatch) else can_join_image(patch)
+
+
+def are_alike(one: Patch, other: Patch) -> bool:
+    """Returns whether two patches can be parts of the same joined one: a mesh and a cage have other unknowns."""
+    if isinstance(one, CagePatch) or isinstance(other, CagePatch):
+        return isinstance(one, CagePatch) and isinstance(other, CagePatch) and have_same_rules(one, other)
+    return have_same_plane(one, other)
 
 
 def join_panels(panels: Sequence[Patch], read_view: ReadView, border: str, triangulate: Triangulate) -> list[Patch]:
@@ -69,7 +79,7 @@ def join_panels(panels: Sequence[Patch], read_view: ReadView, border: str, trian
     left = sorted((each for each in panels if can_join(each)), key=lambda each: each.name)
     joined = []
     while left:
-        alike = [each for each in left if have_same_plane(left[0], each)]
+        alike = [each for each in left if are_alike(left[0], each)]
         met = {each.name for each in find_meeting(left[0], alike)}
         joined.append(join_able([each for each in left if each.name in met], read_view, border, triangulate))
         left = [each for each in left if each.name not in met]
@@ -78,16 +88,19 @@ def join_panels(panels: Sequence[Patch], read_view: ReadView, border: str, trian
     return [*found, *(each for each in panels if each.name not in taken)]
 
 
-def join_able(panels: list[Patch], read_view: ReadView, border: str, triangulate: Triangulate) -> JoinedPatch | None:
+def join_able(panels: list[Patch], read_view: ReadView, border: str,
+              triangulate: Triangulate) -> JoinedPatch | JoinedCagePatch | None:
     """Joins panels; None where none of them face each other."""
     if len(panels) < 2 or len({each.creases.rule for each in panels}) > 1:
         return None
     try:
         view = read_view(find_middle(panels))
         frame = native.reflines.image_plane(view.view_direction, view.line_direction)
+        surfaces = build_surfaces(panels, border) if isinstance(panels[0], CagePatch) else None
     except (native.InvalidInput, Refusal):  # the solve of each panel by itself tells what is wrong
         return None
-    sides = [build_side(each, frame, border) for each in panels]
+    sides = [build_side(each, frame, border)
+             for each in (panels if surfaces is None else [surface.patch for surface in surfaces])]
     facings = [find_facing(sides, which, frame[2]) for which in range(len(sides))]
     meeting = [which for which, each in enumerate(facings) if len(each.vertex)]
     rims = [cut_rim(side.xy, side.patch.F, side.border, facing.vertex, side.outline)
@@ -96,7 +109,11 @@ def join_able(panels: list[Patch], read_view: ReadView, border: str, triangulate
     left = meeting if not rims else sorted(strip.meeting) if strip is not None else []
     if len(left) < len(panels):
         return join_able([panels[which] for which in left], read_view, border, triangulate)
-    return put_together(panels, rims, strip, find_steps(facings, len(panels))[:, None] * frame[2], view, border)
+    raised = find_steps(facings, len(panels))[:, None] * frame[2]
+    if surfaces is not None:
+        gap = max(facing.gap for facing in facings)
+        return put_cages_together(panels, surfaces, rims, strip, raised, frame[2], gap)
+    return put_together(panels, rims, strip, raised, view, border)
 
 
 def build_side(patch: Patch, frame: np.ndarray, border: str) -> Side:
@@ -133,25 +150,6 @@ def list_rims(sides: list[Side]) -> Edges:
                [side.normal[side.border] for side in sides], [side.movable[side.border] for side in sides],
                [np.full(len(side.border), number) for number, side in enumerate(sides)])
     return Edges(*(np.concatenate(column) for column in columns))
-
-
-def find_nearest_edges(edges: np.ndarray, points: np.ndarray,
-                       within: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Returns for each point of the plane (#P x 2) the nearest edge (#E x 2 x 2), -1 where none lies within a distance,
-    the fraction of its second end, and the distance.
-    """
-    count = len(points)
-    nearest, fraction, distance = np.full(count, -1), np.zeros(count), np.full(count, np.inf)
-    near = np.flatnonzero(is_near(edges, points, within))
-    start, way = edges[near, 0], edges[near, 1] - edges[near, 0]
-    length = np.maximum((way**2).sum(axis=1), 1e-300)
-    for number, point in enumerate(points if len(near) else ()):
-        along = np.clip(((point - start) * way).sum(axis=1) / length, 0.0, 1.0)
-        apart = ((start + along[:, None] * way - point)**2).sum(axis=1)
-        best = int(apart.argmin())
-        if apart[best] <= within**2:
-            nearest[number], fraction[number], distance[number] = near[best], along[best], np.sqrt(apart[best])
-    return nearest, fraction, distance
 
 
 def find_movable(patch: Patch, edges: np.ndarray, towards: np.ndarray, border: str) -> np.ndarray:
@@ -209,15 +207,14 @@ def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.
     patch = JoinedPatch(
         " and ".join(each.name for each in panels), faces, np.arange(len(V)), panels[0].to_local(V) if plane else V, V,
         F, face_of_triangle, matrix, "", plane, join_creases(panels, vertex), codes,
-        join_around(panels, vertex, raised, count), join_ranges(panels, vertex), parts=())
+        join_around(panels, vertex, raised, count), join_ranges(panels, vertex), parts=(),
+        towards=view.view_direction / np.linalg.norm(view.view_direction))
     is_doubled = is_solved_with_image(patch, view)
     place, below = place_nodes(patch, xy, starts[-1], strip.span, view if is_doubled else None)
-    parts = []
-    for panel, rim, own, start in zip(panels, rims, vertex, starts[:-1], strict=True):
-        moved = find_moved(panel, rim, below, border)
-        moves = weigh_moves(place, rim.xy, moved if is_doubled else moved[~find_seam_rows(panel)[moved]])
-        parts.append(PanelPart(panel, own, find_triangles(rim, start), moves))
-    return replace(patch, parts=tuple(parts))
+    return replace(patch, parts=tuple(
+        PanelPart(panel, own, find_triangles(rim, start),
+                  weigh_moves(place, rim.xy, find_moved(panel, rim, below, border, holds_seam=not is_doubled)))
+        for panel, rim, own, start in zip(panels, rims, vertex, starts[:-1], strict=True)))
 
 
 def place_nodes(patch: JoinedPatch, xy: np.ndarray, first: int, span: float,
@@ -243,11 +240,11 @@ def find_new_ends(F: np.ndarray, vertex: list[np.ndarray], rims: list[Rim]) -> n
     return np.setdiff1d(list_border(F), outer)
 
 
-def find_moved(panel: Patch, rim: Rim, strip: np.ndarray, border: str) -> np.ndarray:
+def find_moved(panel: Patch, rim: Rim, strip: np.ndarray, border: str, *, holds_seam: bool) -> np.ndarray:
     """Finds the vertices (of the panel) without a place in the joined patch that move: those below the strip (#T x 3 x
-    2) that follow. So what lies across from them moves, too.
+    2) that follow. So what lies across from them moves, too. A seam that is held is clamped.
     """
-    gone = np.flatnonzero(~rim.is_used())
+    gone = np.flatnonzero(~rim.is_used() & ~(find_seam_rows(panel) & holds_seam))
     codes = np.where(panel.border == UNSET, CODES[border], panel.border)[gone]
     gone = gone[(codes == CODES["follow"]) | (codes == CODES["free"])]
     return gone[find_below(strip, rim.xy[gone])]

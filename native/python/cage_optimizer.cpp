@@ -53,6 +53,7 @@ std::function<std::unique_ptr<CageOptimizer>()> prepare_cage_optimizer(
     const std::string& boundary, const Indices& creases, const Numbers& crease_sharpness, const Indices& corners,
     const Numbers& corner_sharpness, bool limit, bool sparse, const std::string& stencil,
     const std::string& linear_solver, const std::string& crease_rule, double crease_angle, double proximity,
+    const Indices& bridge, const Indices& bridge_parent, const std::optional<Mask>& left_out,
     std::shared_ptr<Progress> progress) {
   const Cage cage = cage_of({face_offsets, face_vertices, creases, crease_sharpness, corners, corner_sharpness},
                             static_cast<int>(V.rows()));
@@ -60,6 +61,7 @@ std::function<std::unique_ptr<CageOptimizer>()> prepare_cage_optimizer(
   if (image_of) options.image_of = index_vector(*image_of);
   options.subdivision = subdivision_options(level, scheme, boundary, limit);
   options.sparse = sparse;
+  options.bridge = {triangles_of(bridge), index_vector(bridge_parent), left_out.value_or(Mask())};
   options.shape.stencil = find_named(kStencils, stencil, "stencil");
   options.shape.linear_solver = find_named(kSolvers, linear_solver, "linear solver");
   options.shape.creases = {find_named(kCreaseRules, crease_rule, "rule of creases"), crease_angle, {}};
@@ -92,7 +94,8 @@ void bind_cage_optimizer(py::module_& module) {
          "creases"_a = Indices(), "crease_sharpness"_a = Numbers(), "corners"_a = Indices(),
          "corner_sharpness"_a = Numbers(), "limit"_a = defaults.subdivision.limit, "sparse"_a = defaults.sparse,
          "stencil"_a = "consistent", "linear_solver"_a = "cholmod", "crease_rule"_a = "automatic",
-         "crease_angle"_a = kCageCreaseAngle, "proximity"_a = defaults.shape.proximity, "progress"_a = py::none());
+         "crease_angle"_a = kCageCreaseAngle, "proximity"_a = defaults.shape.proximity, "bridge"_a = Indices(),
+         "bridge_parent"_a = Indices(), "left_out"_a = py::none(), "progress"_a = py::none());
   optimizer.def_property_readonly("region", py::cpp_function(bind_method(&CageOptimizer::region)))
       .def_property_readonly("cage_positions", py::cpp_function(bind_method(&CageOptimizer::cage_positions)))
       .def_property_readonly("cage_free", &CageOptimizer::cage_free)

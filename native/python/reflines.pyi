@@ -599,7 +599,11 @@ class CageOptimizer(ShapeOptimizer):
                  sparse: bool = False,                # for drags: from level 3 on, the energy is sampled on few triangles
                  stencil: Stencil = "consistent", linear_solver: LinearSolver = "cholmod",
                  crease_rule: CreaseRule = "automatic", crease_angle: float = 1.0472,
-                 proximity: float = -1.0, progress: Progress | None = None) -> None: ...
+                 proximity: float = -1.0,
+                 bridge: np.ndarray = ...,            # #T x 3: triangles of the region's vertices over a gap, see
+                 bridge_parent: np.ndarray = ...,     # #T: face of the cage    # CageBridge in cage_optimizer.h
+                 left_out: np.ndarray | None = None,  # #F bool: triangles that they take the place of
+                 progress: Progress | None = None) -> None: ...
     @staticmethod
     def create(*args: Any, **kwargs: Any) -> CageOptimizer:
         """Builds as the constructor does, from its arguments; `start` takes this function."""

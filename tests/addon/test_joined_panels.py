@@ -299,14 +299,15 @@ def test_a_pull_beside_a_panel_that_is_not_edited_keeps_its_rim_and_the_slope_th
     assert moved.any() and not moved[column >= 23].any() and np.array_equal(places(right), other)
 
 
-def test_rims_keep_to_the_limit_and_to_its_side() -> None:
+@pytest.mark.parametrize("side", ['OUTWARD', 'INWARD'])
+def test_rims_keep_to_the_limit_and_to_its_side(side: str) -> None:
     left, right = start()
     was = [places(left), places(right)]
     for ob in (left, right):
-        ob.reflection_lines.limit_side = 'OUTWARD'
+        ob.reflection_lines.limit_side = side
     assert turn(limit=4e-4) == {'FINISHED'}
     for ob, old in zip((left, right), was, strict=True):
-        move = (places(ob) - old)[:, 2]
+        move = (1.0 if side == 'OUTWARD' else -1.0) * (places(ob) - old)[:, 2]
         assert move.min() >= -1e-7 and 1e-4 < move[find_rim(ob)].max() <= 4.001e-4
 
 

@@ -31,16 +31,19 @@ def half(name: str, low: float, high: float, *, mirrored: bool) -> bpy.types.Obj
     return ob
 
 
-def start(driver: window.Window, levels: int = 0, *, mirrored: bool = False) -> dict[str, np.ndarray]:
-    """Builds both panels, of which the door is active, and with `levels` the wing a cage; returns their positions."""
+def start(driver: window.Window, levels: int = 0, *, mirrored: bool = False,
+          cages: tuple[str, ...] = ("Wing",)) -> dict[str, np.ndarray]:
+    """Builds both panels, of which the door is active, and with `levels` some of them cages; returns their positions.
+    """
     with driver.override():
         if bpy.context.mode != 'OBJECT':
             bpy.ops.object.mode_set(mode='OBJECT')
         for old in list(bpy.data.objects):
             bpy.data.objects.remove(old)
         panels = [half("Wing", 0.5 * GAP, 1.0, mirrored=mirrored), half("Door", -1.0, -0.5 * GAP, mirrored=mirrored)]
-        if levels:
-            panels[0].modifiers.new("Subdivision", 'SUBSURF').levels = levels
+        for ob in panels if levels else ():
+            if ob.name in cages:
+                ob.modifiers.new("Subdivision", 'SUBSURF').levels = levels
         scenes.look_from_above()
         scenes.edit(*panels)
         for ob in panels:
@@ -232,6 +235,21 @@ def test_a_drag_moves_both_rims_as_one(driver: window.Window) -> Steps:
     assert find_moved(before) == ["Door", "Wing"] and move_alike(before)
     yield from dragging.applied(driver)
     assert move_alike(before)
+    yield from comes_back(driver, before)
+
+
+def test_two_cages_are_dragged_as_one(driver: window.Window) -> Steps:
+    scene = bpy.context.scene.reflection_lines
+    scene.direction.centre, scene.direction.direction = 'REGION', 'PRESENT'
+    before = start(driver, 3, cages=("Door", "Wing"))  # so finely the drag samples the surfaces on few triangles
+    yield from window.take_picture(driver, "direction_cages_before")
+    yield from dragging.press(driver, "direction")
+    driver.move(460, 300)
+    yield from dragging.settled(driver)
+    assert find_moved(before) == ["Door", "Wing"] and move_alike(before)
+    yield from dragging.applied(driver)
+    assert move_alike(before)
+    yield from window.take_picture(driver, "direction_cages")
     yield from comes_back(driver, before)
 
 

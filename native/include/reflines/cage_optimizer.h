@@ -15,6 +15,14 @@ namespace reflines {
 
 struct CageSurface;
 
+// Triangles that run on from one surface to another over a gap, in a cage that is made of several without a common
+// vertex. They take the place of those at both rims, whose vertices then are no part of the region.
+struct CageBridge {
+  Triangles F;         // of the region's vertices
+  IndexVector parent;  // the cage's face that each counts as one of
+  Mask left_out;       // #triangles of the region without the bridge, or empty: none
+};
+
 struct CageOptions {
   Mask region;                 // #cage faces that may change; empty: all
   std::vector<Border> border;  // #V, or empty: clamped everywhere; of the region's border on the subdivided surface
@@ -23,6 +31,7 @@ struct CageOptions {
   // The face whose mirror image each face is, or its own number (#cage faces), or empty: reports count both as one.
   IndexVector image_of;
   SubdivisionOptions subdivision;
+  CageBridge bridge;
   // Samples the energy: from level 3 on only every eighth triangle (Loop: fourth), evenly spread, with a larger weight.
   // Meant for drags: updates take a fraction of the time, and shapes differ by 0.6 % of the move (those of level 2 by 7
   // %).

@@ -110,6 +110,55 @@ void cut_faces(const Subdivision& whole, const Mask& region, const std::vector<i
   surface.quadrature_weight.conservativeResize(count);
 }
 
+void check_bridge(const CageBridge& bridge, const CageSurface& surface, Eigen::Index faces) {
+  check_length(bridge.left_out.size(), surface.F.rows(), "mask of triangles that are left out");
+  const bool in_range = bridge.F.size() == 0 || (bridge.F.minCoeff() >= 0 && bridge.F.maxCoeff() < surface.S.rows());
+  const bool has_parents = bridge.parent.size() == bridge.F.rows() && (bridge.parent.array() >= 0).all() &&
+                           (bridge.parent.array() < faces).all();
+  if (in_range && has_parents) return;
+  throw InvalidInput("The " + std::to_string(bridge.F.rows()) + " triangles over the gap need corners among the " +
+                     std::to_string(surface.S.rows()) + " vertices of the surface, and a face of the cage each.");
+}
+
+// Leaves vertices out that are in no triangle, which would hold the cage's vertices that move them; updates the numbers
+// of the refined vertices.
+void drop_unused(std::vector<int>& number, CageSurface& surface) {
+  std::vector<int> kept;
+  std::vector<int> renumbered(surface.S.rows(), -1);
+  for (const int v : surface.F.reshaped()) renumbered[v] = 0;
+  for (size_t v = 0; v < renumbered.size(); ++v) {
+    number[surface.refined(static_cast<int>(v))] = -1;
+    if (renumbered[v] < 0) continue;
+    renumbered[v] = static_cast<int>(kept.size());
+    number[surface.refined(static_cast<int>(v))] = renumbered[v];
+    kept.push_back(static_cast<int>(v));
+  }
+  for (int& v : surface.F.reshaped()) v = renumbered[v];
+  surface.S = select_rows(surface.S, renumbered, static_cast<int>(kept.size()));
+  surface.positions = Positions(surface.positions(kept, Eigen::all));
+  surface.refined = IndexVector(surface.refined(kept));
+}
+
+// Leaves the triangles at the rims out, and adds those over the gap.
+void lay_bridge(const CageBridge& bridge, std::vector<int>& number, CageSurface& surface) {
+  const Eigen::Index before = surface.F.rows(), added = bridge.F.rows();
+  std::vector<int> kept;
+  for (int f = 0; f < before; ++f) {
+    if (bridge.left_out.size() == 0 || !bridge.left_out(f)) kept.push_back(f);
+  }
+  const auto count = static_cast<Eigen::Index>(kept.size());
+  Triangles F(count + added, 3);
+  IndexVector parent(count + added);
+  Vector weight = Vector::Ones(count + added);
+  F << surface.F(kept, Eigen::all), bridge.F;
+  parent << surface.parent(kept), bridge.parent;
+  weight.head(count) = surface.quadrature_weight(kept);
+  surface.F = F;
+  surface.parent = parent;
+  surface.quadrature_weight = weight;
+  drop_unused(number, surface);
+}
+
 // Marks the refined faces outside the region that are within kRings rings of a vertex where lines run on.
 Mask find_faces_beside(const Subdivision& whole, const Mask& region, const std::vector<Border>& border) {
   Mask near(whole.positions.rows()), result = Mask::Constant(whole.faces.rows(), false);
@@ -182,12 +231,14 @@ CageSurface make_cage_surface(const Cage& cage, const Positions& V, const Vector
   Mask held = find_held_vertices(whole, region, border);
   if (options.held.size() > 0) held = held || options.held;
   CageSurface surface;
-  const std::vector<int> number = number_vertices(whole, region, surface.refined);
+  std::vector<int> number = number_vertices(whole, region, surface.refined);
   surface.S = select_rows(whole.positions, number, static_cast<int>(surface.refined.size()));
   enter(0.8, "placing the surface");
   set_positions(V, options.partner, surface);
   enter(0.9, "cutting faces");
   cut_faces(whole, region, number, surface);
+  check_bridge(options.bridge, surface, region.size());
+  if (options.bridge.F.rows() > 0) lay_bridge(options.bridge, number, surface);
   read_surroundings(whole, region, border, number, V, surface);
   if (!options.sparse || options.subdivision.level < kSparseLevel) surface.quadrature_weight.resize(0);
   surface.B = build_cage_unknowns(held, options.partner);

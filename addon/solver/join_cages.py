@@ -1,0 +1,224 @@
+"""Joins cages whose surfaces meet over gaps to one cage, see model/joined_cage.py."""
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import native
+from ..model.border import CODES, UNSET
+from ..model.cage import Cage, CagePatch
+from ..model.creases import Creases
+from ..model.joined_cage import Bridge, JoinedCagePatch, RimLevel
+from ..model.patch import Patch
+from ..model.surroundings import NOTHING_AROUND, Surroundings
+from .gap_strip import Rim, Strip, find_nearest_edges, mark
+
+FOLLOWS = 0.99  # of the cage's vertices, by their weights, that a vertex of the surface which follows depends on
+
+
+@dataclass(frozen=True)
+class Surface:
+    """The surface of a cage's region, cut into triangles as the native module does."""
+    patch: Patch          # that stands for it where panels are joined
+    refined: np.ndarray   # #V: which of the refined vertices each is; the first of these are those of the cage
+    parent: np.ndarray    # #F: the cage's face
+    matrix: tuple[np.ndarray, np.ndarray, np.ndarray]  # of the subdivision, see reflines.Subdivision.matrix
+    number: np.ndarray    # #cage V: of the panel's vertices, -1 of others
+
+    def read_weights(self, vertices: np.ndarray) -> np.ndarray:
+        """Returns the weights of the panel's vertices in some of the surface's: #vertices x #V of the panel."""
+        data, column, first = self.matrix
+        result = np.zeros((len(vertices), int(self.number.max()) + 1))
+        for row, v in enumerate(self.refined[vertices]):
+            own = slice(first[v], first[v + 1])
+            known = self.number[column[own]] >= 0
+            result[row, self.number[column[own]][known]] = data[own][known]
+        return result
+
+
+def can_join_cage(patch: Patch) -> bool:
+    """Returns whether a patch is a cage that can be a part of a joined one: those with an image, or symmetric in
+    themselves, have pairs of vertices that others lack.
+    """
+    return isinstance(patch, CagePatch) and patch.mirror is None and patch.mirror_axis < 0
+
+
+def have_same_rules(one: CagePatch, other: CagePatch) -> bool:
+    """Returns whether two cages are subdivided by the same rules but for the level."""
+    return all(dict(one.cage.rules)[name] == dict(other.cage.rules)[name] for name in ("limit", "boundary"))
+
+
+def choose_level(panels: Sequence[CagePatch]) -> int:
+    return max(dict(panel.cage.rules)["level"] for panel in panels)
+
+
+def build_surfaces(panels: Sequence[CagePatch], border: str) -> list[Surface]:
+    """Builds the surfaces of cages; raises the native module's errors."""
+    return [build_surface(panel, choose_level(panels), border) for panel in panels]
+
+
+def build_surface(patch: CagePatch, level: int, border: str) -> Surface:
+    """Builds the surface of a cage at a level of subdivision; raises the native module's errors."""
+    cage = patch.cage
+    whole = native.reflines.Subdivision(**{**cage.build_topology_arguments(), "level": level}, vertices=len(cage.V))
+    inside = cage.region[whole.face_parent]
+    quads = whole.faces[inside]
+    every, first = np.unique(quads.ravel(), return_index=True)
+    refined = every[np.argsort(first)]
+    number = np.full(int(whole.faces.max()) + 1, -1)
+    number[refined] = np.arange(len(refined))
+    F = number[quads[:, [[0, 1, 2], [0, 2, 3]]]].reshape(-1, 3)
+    V = whole.positions(cage.V)[refined]
+    beside = number[np.unique(whole.faces[~inside])]
+    follows = find_following(patch, border)
+    depends = whole.positions(np.repeat(follows[:, None].astype(float), 3, axis=1))[refined, 0]
+    codes = np.where(depends > FOLLOWS, CODES["follow"], CODES["clamped"])
+    panel = Patch(patch.name, np.ones(len(F), dtype=bool), np.arange(len(V)), V, V, F, np.arange(len(F)), np.eye(4), "",
+                  None, Creases(patch.creases.rule, np.zeros((0, 2), dtype=np.int64)), codes,
+                  name_joined(beside[beside >= 0]), None)
+    own = np.full(len(cage.V), -1)
+    own[patch.index] = np.arange(len(patch.index))
+    return Surface(panel, refined, np.repeat(whole.face_parent[inside], 2), whole.matrix(), own)
+
+
+def name_joined(vertices: np.ndarray) -> Surroundings:
+    """Returns surroundings without vertices of their own that are joined at these ones."""
+    return Surroundings(np.zeros((0, 3)), np.repeat(vertices[:, None], 3, axis=1))
+
+
+def find_following(patch: CagePatch, border: str) -> np.ndarray:
+    """Returns which of the cage's vertices may follow what lies across: #cage V, bool."""
+    result = np.ones(len(patch.cage.V), dtype=bool)
+    result[patch.index] = np.where(patch.border == UNSET, CODES[border], patch.border) == CODES["follow"]
+    return result
+
+
+def put_cages_together(panels: Sequence[CagePatch], surfaces: Sequence[Surface], rims: Sequence[Rim], strip: Strip,
+                       raised: np.ndarray, towards: np.ndarray, gap: float) -> JoinedCagePatch:
+    """Builds the joined patch: the cages beside each other, with a bridge between their surfaces; rims that are no
+    further apart than the gap face each other.
+    """
+    cage = join_cages([replace(panel.cage, V=panel.cage.V + rise) for panel, rise in zip(panels, raised, strict=True)],
+                      choose_level(panels))
+    cage_starts = find_starts([len(panel.cage.V) for panel in panels])
+    face_starts = find_starts([len(panel.cage.sizes) for panel in panels])
+    starts = find_starts([len(panel.V) for panel in panels])
+    index = np.concatenate([panel.index + start for panel, start in zip(panels, cage_starts, strict=True)])
+    free = [find_free_rim(surface, rim) for surface, rim in zip(surfaces, rims, strict=True)]
+    codes = np.concatenate([np.where(mark(len(panel.V), own), CODES["free"], panel.border)
+                            for panel, own in zip(panels, free, strict=True)])
+    V = np.concatenate([panel.V + rise for panel, rise in zip(panels, raised, strict=True)])
+    return JoinedCagePatch(
+        " and ".join(panel.name for panel in panels), np.concatenate([panel.faces for panel in panels]), index, V, V,
+        np.concatenate([panel.F + start for panel, start in zip(panels, starts, strict=True)]),
+        np.concatenate([panel.face_of_triangle + start for panel, start in zip(panels, face_starts, strict=True)]),
+        np.eye(4), "", None, join_creases(panels, starts), codes, NOTHING_AROUND, join_ranges(panels), cage, -1,
+        parts=tuple(panels), bridge=build_bridge(surfaces, rims, strip, face_starts),
+        rim=level_rims(surfaces, rims, free, starts, gap), towards=towards)
+
+
+def find_starts(counts: Sequence[int]) -> list[int]:
+    return np.cumsum([0, *counts])[:-1].tolist()
+
+
+def join_cages(cages: Sequence[Cage], level: int) -> Cage:
+    """Returns one cage that is made of several, without a common vertex."""
+    vertices, faces = find_starts([len(each.V) for each in cages]), find_starts([len(each.sizes) for each in cages])
+
+    def join(name: str) -> np.ndarray:
+        return np.concatenate([getattr(each, name) for each in cages])
+
+    def join_numbers(name: str) -> np.ndarray:
+        return np.concatenate([getattr(each, name) + start for each, start in zip(cages, vertices, strict=True)])
+
+    rules = tuple((name, level if name == "level" else value) for name, value in cages[0].rules)
+    return Cage(join("V"), join("sizes"), join_numbers("corners"), join("region"), join_numbers("creases"),
+                join("sharpness"), join_numbers("sharp_corners"), join("corner_sharpness"), join("partner"),
+                faces[-1] + len(cages[-1].sizes), rules)
+
+
+def find_free_rim(surface: Surface, rim: Rim) -> np.ndarray:
+    """Finds the panel's vertices that face others over a gap, and whose neighbours on the surface's rim do, too."""
+    faces = mark(len(surface.refined), rim.vertex)
+    inner = faces.copy()
+    inner[rim.outline[~faces[rim.outline].all(axis=1)]] = False
+    found = surface.refined[inner]
+    return surface.number[found[found < len(surface.number)]]
+
+
+def level_rims(surfaces: Sequence[Surface], rims: Sequence[Rim], free: Sequence[np.ndarray], starts: Sequence[int],
+               gap: float) -> RimLevel:
+    """Returns how the free vertices move further so that both rims of a gap move alike: each takes half of what the
+    other has moved more, by least squares over the rim of its surface.
+    """
+    columns = [start + np.arange(surface.number.max() + 1) for surface, start in zip(surfaces, starts, strict=True)]
+    weight = np.zeros((sum(map(len, free)), int(columns[-1][-1]) + 1))
+    first = 0
+    for which, (surface, rim, own) in enumerate(zip(surfaces, rims, free, strict=True)):
+        weights = surface.read_weights(rim.vertex)
+        more = np.zeros((len(rim.vertex), weight.shape[1]))
+        more[:, columns[which]] = -weights
+        faces = np.zeros(len(rim.vertex), dtype=bool)
+        for other in (k for k in range(len(surfaces)) if k != which):
+            added, found = read_across(surfaces[other], rims[other], rim.xy[rim.vertex], gap)
+            more[np.ix_(found & ~faces, columns[other])] += added[found & ~faces]
+            faces |= found
+        inverse = np.linalg.pinv(weights[faces][:, own], rcond=1e-6)
+        weight[first:first + len(own)] = 0.5 * inverse @ more[faces]
+        first += len(own)
+    vertex = np.concatenate([own + start for own, start in zip(free, starts, strict=True)])
+    return RimLevel(vertex, weight)
+
+
+def read_across(surface: Surface, rim: Rim, points: np.ndarray, gap: float) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the weights of a panel's vertices in its surface where its triangles at the rim, made larger, lie over or
+    below points of the image plane (#P x #V), and which points are within the gap.
+    """
+    edges = rim.outline[mark(len(surface.refined), rim.vertex)[rim.outline].any(axis=1)]
+    nearest, _, _ = find_nearest_edges(rim.xy[edges], points, gap)
+    triangle = find_triangles_of(edges, rim.F)[nearest]
+    corners = rim.F[triangle]
+    a, b, c = (rim.xy[corners[:, k]] for k in range(3))
+    area = cross(b - a, c - a)
+    opposite = cross(b - points, c - points), cross(c - points, a - points), cross(a - points, b - points)
+    return (sum((own / area)[:, None] * surface.read_weights(corners[:, k]) for k, own in enumerate(opposite)),
+            nearest >= 0)
+
+
+def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+
+def find_triangles_of(edges: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """Returns the triangle (of #F x 3) at each border edge (#E x 2, the lower vertex first)."""
+    count = int(F.max()) + 1
+    ends = np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
+    keys = ends[:, 0] * count + ends[:, 1]
+    order = np.argsort(keys, kind="stable")
+    return order[np.searchsorted(keys[order], edges[:, 0] * count + edges[:, 1])] % len(F)
+
+
+def build_bridge(surfaces: Sequence[Surface], rims: Sequence[Rim], strip: Strip, face_starts: Sequence[int]) -> Bridge:
+    """Builds the bridge from the strip, with each triangle counted as one of a face that it begins at."""
+    starts = find_starts([len(surface.refined) for surface in surfaces])
+    parent_of = []
+    for surface, start in zip(surfaces, face_starts, strict=True):
+        parent = np.zeros(len(surface.refined), dtype=np.int64)
+        parent[surface.patch.F.ravel()] = np.repeat(surface.parent + start, 3)
+        parent_of.append(parent)
+    F = np.array([[starts[which] + v for which, v in row] for row in strip.corners])
+    parent = np.array([parent_of[row[0][0]][row[0][1]] for row in strip.corners])
+    return Bridge(F, parent, np.concatenate([~rim.stays for rim in rims]))
+
+
+def join_creases(panels: Sequence[CagePatch], starts: Sequence[int]) -> Creases:
+    marked = [panel.creases.marked + start for panel, start in zip(panels, starts, strict=True)]
+    return Creases(panels[0].creases.rule, np.concatenate(marked))
+
+
+def join_ranges(panels: Sequence[CagePatch]) -> np.ndarray | None:
+    """Returns the ranges of the limit of all vertices; None where all of them have all of it."""
+    if all(panel.limit_range is None for panel in panels):
+        return None
+    return np.concatenate([np.tile([-1.0, 1.0], (len(panel.V), 1)) if panel.limit_range is None else panel.limit_range
+                           for panel in panels])
