@@ -11,74 +11,108 @@ from ..model.creases import Creases
 from ..model.joined_cage import Bridge, JoinedCagePatch, RimLevel
 from ..model.patch import Patch
 from ..model.surroundings import NOTHING_AROUND, Surroundings
+from ..model.view import View
 from .gap_strip import Rim, Strip, find_nearest_edges, mark
+from .joint_mirror import can_join_image, have_same_plane
 
 FOLLOWS = 0.99  # of the cage's vertices, by their weights, that a vertex of the surface which follows depends on
+
+
+@dataclass(frozen=True)
+class Quads:
+    """The faces of a subdivided region, in the order and with the vertices of the native module's CageOptimizer."""
+    faces: np.ndarray    # #Q x 4
+    parent: np.ndarray   # #Q: the cage's face
+    refined: np.ndarray  # #V: which of the refined vertices each is; the first of these are those of the cage
+    beside: np.ndarray   # those of the vertices that are in faces outside the region, too
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """The triangles that the faces are cut into: two a face, #F x 3."""
+        return self.faces[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
 
 
 @dataclass(frozen=True)
 class Surface:
     """The surface of a cage's region, cut into triangles as the native module does."""
     patch: Patch          # that stands for it where panels are joined
-    refined: np.ndarray   # #V: which of the refined vertices each is; the first of these are those of the cage
-    parent: np.ndarray    # #F: the cage's face
+    quads: Quads
     matrix: tuple[np.ndarray, np.ndarray, np.ndarray]  # of the subdivision, see reflines.Subdivision.matrix
-    number: np.ndarray    # #cage V: of the panel's vertices, -1 of others
+    number: np.ndarray    # #cage V: of the panel's vertices that move each, -1 of others
 
     def read_weights(self, vertices: np.ndarray) -> np.ndarray:
         """Returns the weights of the panel's vertices in some of the surface's: #vertices x #V of the panel."""
         data, column, first = self.matrix
         result = np.zeros((len(vertices), int(self.number.max()) + 1))
-        for row, v in enumerate(self.refined[vertices]):
+        for row, v in enumerate(self.quads.refined[vertices]):
             own = slice(first[v], first[v + 1])
-            known = self.number[column[own]] >= 0
-            result[row, self.number[column[own]][known]] = data[own][known]
+            number = self.number[column[own]]
+            np.add.at(result[row], number[number >= 0], data[own][number >= 0])
         return result
 
 
 def can_join_cage(patch: Patch) -> bool:
-    """Returns whether a patch is a cage that can be a part of a joined one: those with an image, or symmetric in
-    themselves, have pairs of vertices that others lack.
+    """Returns whether a patch is a cage that can be a part of a joined one: one that is symmetric in itself has pairs
+    of vertices that others lack.
     """
-    return isinstance(patch, CagePatch) and patch.mirror is None and patch.mirror_axis < 0
+    return isinstance(patch, CagePatch) and can_join_image(patch)
 
 
 def have_same_rules(one: CagePatch, other: CagePatch) -> bool:
-    """Returns whether two cages are subdivided by the same rules but for the level."""
-    return all(dict(one.cage.rules)[name] == dict(other.cage.rules)[name] for name in ("limit", "boundary"))
+    """Returns whether two cages are subdivided by the same rules but for the level, and mirrored alike."""
+    rules, others = dict(one.cage.rules), dict(other.cage.rules)
+    return (all(rules[name] == others[name] for name in ("limit", "boundary"))
+            and one.mirror_axis == other.mirror_axis and have_same_plane(one, other))
 
 
 def choose_level(panels: Sequence[CagePatch]) -> int:
     return max(dict(panel.cage.rules)["level"] for panel in panels)
 
 
-def build_surfaces(panels: Sequence[CagePatch], border: str) -> list[Surface]:
+def is_mirrored(panel: CagePatch, view: View) -> bool:
+    """Returns whether a cage is solved together with the image that a Mirror modifier adds."""
+    return panel.is_symmetric_for(view.view_direction)
+
+
+def build_surfaces(panels: Sequence[CagePatch], view: View, border: str) -> list[Surface]:
     """Builds the surfaces of cages; raises the native module's errors."""
-    return [build_surface(panel, choose_level(panels), border) for panel in panels]
+    return [build_surface(panel, choose_level(panels), view, border) for panel in panels]
 
 
-def build_surface(patch: CagePatch, level: int, border: str) -> Surface:
-    """Builds the surface of a cage at a level of subdivision; raises the native module's errors."""
-    cage = patch.cage
-    whole = native.reflines.Subdivision(**{**cage.build_topology_arguments(), "level": level}, vertices=len(cage.V))
-    inside = cage.region[whole.face_parent]
+def subdivide(cage: Cage, level: int) -> "native.Subdivision":
+    return native.reflines.Subdivision(**{**cage.build_topology_arguments(), "level": level}, vertices=len(cage.V))
+
+
+def list_quads(cage: Cage, whole: "native.Subdivision", *, symmetric: bool) -> Quads:
+    """Lists the faces of a cage's subdivided region, which has both halves of a symmetric one."""
+    inside = cage.build_arguments(symmetric)["region"][whole.face_parent]
     quads = whole.faces[inside]
     every, first = np.unique(quads.ravel(), return_index=True)
     refined = every[np.argsort(first)]
     number = np.full(int(whole.faces.max()) + 1, -1)
     number[refined] = np.arange(len(refined))
-    F = number[quads[:, [[0, 1, 2], [0, 2, 3]]]].reshape(-1, 3)
-    V = whole.positions(cage.V)[refined]
     beside = number[np.unique(whole.faces[~inside])]
+    return Quads(number[quads], whole.face_parent[inside], refined, beside[beside >= 0])
+
+
+def build_surface(patch: CagePatch, level: int, view: View, border: str) -> Surface:
+    """Builds the surface of a cage at a level of subdivision; raises the native module's errors."""
+    cage, symmetric = patch.cage, is_mirrored(patch, view)
+    whole = subdivide(cage, level)
+    quads = list_quads(cage, whole, symmetric=symmetric)
+    V, F = whole.positions(cage.V)[quads.refined], quads.triangles
     follows = find_following(patch, border)
-    depends = whole.positions(np.repeat(follows[:, None].astype(float), 3, axis=1))[refined, 0]
+    depends = whole.positions(np.repeat(follows[:, None].astype(float), 3, axis=1))[quads.refined, 0]
     codes = np.where(depends > FOLLOWS, CODES["follow"], CODES["clamped"])
     panel = Patch(patch.name, np.ones(len(F), dtype=bool), np.arange(len(V)), V, V, F, np.arange(len(F)), np.eye(4), "",
                   None, Creases(patch.creases.rule, np.zeros((0, 2), dtype=np.int64)), codes,
-                  name_joined(beside[beside >= 0]), None)
+                  name_joined(quads.beside), None)
     own = np.full(len(cage.V), -1)
     own[patch.index] = np.arange(len(patch.index))
-    return Surface(panel, refined, np.repeat(whole.face_parent[inside], 2), whole.matrix(), own)
+    if symmetric:
+        image = cage.partner[patch.index]
+        own[image[image >= 0]] = np.flatnonzero(image >= 0)
+    return Surface(panel, quads, whole.matrix(), own)
 
 
 def name_joined(vertices: np.ndarray) -> Surroundings:
@@ -89,31 +123,37 @@ def name_joined(vertices: np.ndarray) -> Surroundings:
 def find_following(patch: CagePatch, border: str) -> np.ndarray:
     """Returns which of the cage's vertices may follow what lies across: #cage V, bool."""
     result = np.ones(len(patch.cage.V), dtype=bool)
-    result[patch.index] = np.where(patch.border == UNSET, CODES[border], patch.border) == CODES["follow"]
+    own = np.where(patch.border == UNSET, CODES[border], patch.border) == CODES["follow"]
+    result[patch.index], image = own, patch.cage.partner[patch.index]
+    result[image[image >= 0]] = own[image >= 0]
     return result
 
 
 def put_cages_together(panels: Sequence[CagePatch], surfaces: Sequence[Surface], rims: Sequence[Rim], strip: Strip,
-                       raised: np.ndarray, towards: np.ndarray, gap: float) -> JoinedCagePatch:
+                       raised: np.ndarray, view: View, gap: float) -> JoinedCagePatch:
     """Builds the joined patch: the cages beside each other, with a bridge between their surfaces; rims that are no
     further apart than the gap face each other.
     """
     cage = join_cages([replace(panel.cage, V=panel.cage.V + rise) for panel, rise in zip(panels, raised, strict=True)],
                       choose_level(panels))
     cage_starts = find_starts([len(panel.cage.V) for panel in panels])
-    face_starts = find_starts([len(panel.cage.sizes) for panel in panels])
+    face_starts = find_starts([panel.cage.own_faces for panel in panels])
     starts = find_starts([len(panel.V) for panel in panels])
     index = np.concatenate([panel.index + start for panel, start in zip(panels, cage_starts, strict=True)])
     free = [find_free_rim(surface, rim) for surface, rim in zip(surfaces, rims, strict=True)]
     codes = np.concatenate([np.where(mark(len(panel.V), own), CODES["free"], panel.border)
                             for panel, own in zip(panels, free, strict=True)])
     V = np.concatenate([panel.V + rise for panel, rise in zip(panels, raised, strict=True)])
+    first, towards = panels[0], view.view_direction / np.linalg.norm(view.view_direction)
     return JoinedCagePatch(
-        " and ".join(panel.name for panel in panels), np.concatenate([panel.faces for panel in panels]), index, V, V,
+        " and ".join(panel.name for panel in panels), np.concatenate([panel.faces for panel in panels]), index,
+        first.to_local(V), V,
         np.concatenate([panel.F + start for panel, start in zip(panels, starts, strict=True)]),
         np.concatenate([panel.face_of_triangle + start for panel, start in zip(panels, face_starts, strict=True)]),
-        np.eye(4), "", None, join_creases(panels, starts), codes, NOTHING_AROUND, join_ranges(panels), cage, -1,
-        parts=tuple(panels), bridge=build_bridge(surfaces, rims, strip, face_starts),
+        first.matrix, "", None, join_creases(panels, starts), codes, NOTHING_AROUND, join_ranges(panels), cage,
+        first.mirror_axis, parts=tuple(panels),
+        bridge=build_bridge(cage, [panel.cage for panel in panels], surfaces, rims, strip,
+                            symmetric=is_mirrored(first, view)),
         rim=level_rims(surfaces, rims, free, starts, gap), towards=towards)
 
 
@@ -122,28 +162,38 @@ def find_starts(counts: Sequence[int]) -> list[int]:
 
 
 def join_cages(cages: Sequence[Cage], level: int) -> Cage:
-    """Returns one cage that is made of several, without a common vertex."""
-    vertices, faces = find_starts([len(each.V) for each in cages]), find_starts([len(each.sizes) for each in cages])
+    """Returns one cage that is made of several, without a common vertex: first the own faces of all, then those of
+    their images.
+    """
+    vertices = find_starts([len(each.V) for each in cages])
 
     def join(name: str) -> np.ndarray:
         return np.concatenate([getattr(each, name) for each in cages])
 
     def join_numbers(name: str) -> np.ndarray:
-        return np.concatenate([getattr(each, name) + start for each, start in zip(cages, vertices, strict=True)])
+        return np.concatenate([np.where(getattr(each, name) < 0, -1, getattr(each, name) + start)
+                               for each, start in zip(cages, vertices, strict=True)])
+
+    def join_faces(values: list[np.ndarray], own: list[int]) -> np.ndarray:
+        every = list(zip(values, own, strict=True))
+        return np.concatenate([*(each[:count] for each, count in every), *(each[count:] for each, count in every)])
 
     rules = tuple((name, level if name == "level" else value) for name, value in cages[0].rules)
-    return Cage(join("V"), join("sizes"), join_numbers("corners"), join("region"), join_numbers("creases"),
-                join("sharpness"), join_numbers("sharp_corners"), join("corner_sharpness"), join("partner"),
-                faces[-1] + len(cages[-1].sizes), rules)
+    faces = [each.own_faces for each in cages]
+    corners = [each.corners + start for each, start in zip(cages, vertices, strict=True)]
+    own_corners = [int(each.sizes[:each.own_faces].sum()) for each in cages]
+    return Cage(join("V"), join_faces([each.sizes for each in cages], faces), join_faces(corners, own_corners),
+                join_faces([each.region for each in cages], faces), join_numbers("creases"), join("sharpness"),
+                join_numbers("sharp_corners"), join("corner_sharpness"), join_numbers("partner"), sum(faces), rules)
 
 
 def find_free_rim(surface: Surface, rim: Rim) -> np.ndarray:
     """Finds the panel's vertices that face others over a gap, and whose neighbours on the surface's rim do, too."""
-    faces = mark(len(surface.refined), rim.vertex)
+    faces = mark(len(rim.xy), rim.vertex)
     inner = faces.copy()
     inner[rim.outline[~faces[rim.outline].all(axis=1)]] = False
-    found = surface.refined[inner]
-    return surface.number[found[found < len(surface.number)]]
+    found = surface.quads.refined[inner]
+    return np.unique(surface.number[found[found < len(surface.number)]])
 
 
 def level_rims(surfaces: Sequence[Surface], rims: Sequence[Rim], free: Sequence[np.ndarray], starts: Sequence[int],
@@ -174,7 +224,7 @@ def read_across(surface: Surface, rim: Rim, points: np.ndarray, gap: float) -> t
     """Returns the weights of a panel's vertices in its surface where its triangles at the rim, made larger, lie over or
     below points of the image plane (#P x #V), and which points are within the gap.
     """
-    edges = rim.outline[mark(len(surface.refined), rim.vertex)[rim.outline].any(axis=1)]
+    edges = rim.outline[mark(len(rim.xy), rim.vertex)[rim.outline].any(axis=1)]
     nearest, _, _ = find_nearest_edges(rim.xy[edges], points, gap)
     triangle = find_triangles_of(edges, rim.F)[nearest]
     corners = rim.F[triangle]
@@ -198,17 +248,23 @@ def find_triangles_of(edges: np.ndarray, F: np.ndarray) -> np.ndarray:
     return order[np.searchsorted(keys[order], edges[:, 0] * count + edges[:, 1])] % len(F)
 
 
-def build_bridge(surfaces: Sequence[Surface], rims: Sequence[Rim], strip: Strip, face_starts: Sequence[int]) -> Bridge:
+def build_bridge(joined: Cage, cages: Sequence[Cage], surfaces: Sequence[Surface], rims: Sequence[Rim], strip: Strip, *,
+                 symmetric: bool) -> Bridge:
     """Builds the bridge from the strip, with each triangle counted as one of a face that it begins at."""
-    starts = find_starts([len(surface.refined) for surface in surfaces])
-    parent_of = []
-    for surface, start in zip(surfaces, face_starts, strict=True):
-        parent = np.zeros(len(surface.refined), dtype=np.int64)
-        parent[surface.patch.F.ravel()] = np.repeat(surface.parent + start, 3)
-        parent_of.append(parent)
-    F = np.array([[starts[which] + v for which, v in row] for row in strip.corners])
-    parent = np.array([parent_of[row[0][0]][row[0][1]] for row in strip.corners])
-    return Bridge(F, parent, np.concatenate([~rim.stays for rim in rims]))
+    quads = list_quads(joined, subdivide(joined, dict(joined.rules)["level"]), symmetric=symmetric)
+    starts, own_faces = find_starts([each.own_faces for each in cages]), joined.own_faces
+    number, parent = [], np.zeros(len(quads.refined), dtype=np.int64)
+    parent[quads.faces.ravel()] = np.repeat(quads.parent, 4)
+    left_out = np.zeros((len(quads.faces), 2), dtype=bool)
+    for cage, surface, rim, start in zip(cages, surfaces, rims, starts, strict=True):
+        half = quads.parent % own_faces
+        chosen = np.flatnonzero((half >= start) & (half < start + cage.own_faces))  # the own half is first in both
+        vertex = np.zeros(len(rim.xy), dtype=np.int64)
+        vertex[surface.quads.faces.ravel()] = quads.faces[chosen].ravel()
+        number.append(vertex)
+        left_out[chosen] = ~rim.stays.reshape(-1, 2)
+    F = np.array([[number[which][v] for which, v in row] for row in strip.corners])
+    return Bridge(F, parent[F[:, 0]], left_out.ravel())
 
 
 def join_creases(panels: Sequence[CagePatch], starts: Sequence[int]) -> Creases:

@@ -96,7 +96,7 @@ def join_able(panels: list[Patch], read_view: ReadView, border: str,
     try:
         view = read_view(find_middle(panels))
         frame = native.reflines.image_plane(view.view_direction, view.line_direction)
-        surfaces = build_surfaces(panels, border) if isinstance(panels[0], CagePatch) else None
+        surfaces = build_surfaces(panels, view, border) if isinstance(panels[0], CagePatch) else None
     except (native.InvalidInput, Refusal):  # the solve of each panel by itself tells what is wrong
         return None
     sides = [build_side(each, frame, border)
@@ -112,7 +112,7 @@ def join_able(panels: list[Patch], read_view: ReadView, border: str,
     raised = find_steps(facings, len(panels))[:, None] * frame[2]
     if surfaces is not None:
         gap = max(facing.gap for facing in facings)
-        return put_cages_together(panels, surfaces, rims, strip, raised, frame[2], gap)
+        return put_cages_together(panels, surfaces, rims, strip, raised, view, gap)
     return put_together(panels, rims, strip, raised, view, border)
 
 

@@ -10,33 +10,43 @@ import pytest
 
 import scenes
 from test_across_gap import places, start_several
+from test_joined_mirrors import VIEWS
+from test_joined_mirrors import find_rim as find_mirrored_rim
+from test_joined_mirrors import height as mirrored_height
+from test_joined_mirrors import straighten as mirrored_straighten
+from test_joined_mirrors import turn as mirrored_turn
 from test_joined_panels import FIT, GAP, KINK, TOOLS, bow, height, remove_all, straighten, turn
 
 Array = np.ndarray
 OFFSET = 3.0  # percent of the lines' spacing that a tool may add: of meshes 2.0, see there
 
 
-def sheet(name: str, columns: Callable[[float], Array], rows: Array, levels: int) -> bpy.types.Object:
-    points = [(x, y, height(x, y)) for y in rows for x in columns(y)]
+def sheet(name: str, columns: Callable[[float], Array], rows: Array, levels: int, *,
+          mirrored: bool = False) -> bpy.types.Object:
+    shape = mirrored_height if mirrored else height
+    points = [(x, y, shape(x, y)) for y in rows for x in columns(y)]
     count = len(columns(0.0))
     faces = [(i, i + 1, i + count + 1, i + count) for j in range(len(rows) - 1)
              for i in range(j * count, (j + 1) * count - 1)]
     ob = scenes.linked(name, points, faces)
+    if mirrored:
+        ob.modifiers.new("Mirror", 'MIRROR')
     ob.modifiers.new("Subdivision", 'SUBSURF').levels = levels
-    lay_on_surface(ob)
+    lay_on_surface(ob, shape)
     return ob
 
 
-def lay_on_surface(ob: bpy.types.Object) -> None:
+def lay_on_surface(ob: bpy.types.Object, shape: Callable[[float, float], float]) -> None:
     """Moves the cage so that its limit surface has the heights: with its own ones a rim would be half a degree off."""
-    refined = subdivide(read_cage(ob), 3)
-    data, column, first = refined.matrix()
-    S = np.zeros((len(first) - 1, len(ob.data.vertices)))
+    cage, count = read_cage(ob), len(ob.data.vertices)
+    data, column, first = subdivide(cage, 2).matrix()
+    S = np.zeros((len(first) - 1, len(cage.V)))
     for row in range(len(S)):
         S[row, column[first[row]:first[row + 1]]] = data[first[row]:first[row + 1]]
-    V = places(ob)
-    place = S @ V
-    z = np.linalg.lstsq(S, np.array([height(*each) for each in place[:, :2]]), rcond=None)[0]
+    place = S @ cage.V
+    images = np.flatnonzero(cage.partner[:count] >= count)
+    S[:, images] += S[:, cage.partner[images]]
+    z = np.linalg.lstsq(S[:, :count], np.array([shape(*each) for each in place[:, :2]]), rcond=None)[0]
     for vertex, own in zip(ob.data.vertices, z, strict=True):
         vertex.co.z = own
     ob.data.update()
@@ -69,7 +79,12 @@ def surface(ob: bpy.types.Object, level: int = 3) -> tuple[Array, Array]:
     return refined.positions(cage.V), refined.faces[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
 
 
-def measure_gap(left: bpy.types.Object, right: bpy.types.Object) -> dict[str, Array]:
+def lies_inside(middle: Array) -> Array:
+    return np.abs(middle[:, 1]) < 0.8
+
+
+def measure_gap(left: bpy.types.Object, right: bpy.types.Object,
+                inner: Callable[[Array], Array] = lies_inside) -> dict[str, Array]:
     addon, scene = sys.modules["reflection_lines"], bpy.context.scene
     seen = addon.view.facing.read_patch_view(scene, addon.read.gather.gather_patch(left))
     (V, F), (W, G) = surface(left), surface(right)
@@ -77,8 +92,9 @@ def measure_gap(left: bpy.types.Object, right: bpy.types.Object) -> dict[str, Ar
         V, V, F, np.ones(len(F), dtype=bool), W, G, label=np.zeros(len(G), dtype=int),
         view_direction=seen.view_direction, line_direction=seen.line_direction,
         spacing=2.0 * np.pi / scene.reflection_lines.stripes.count)
-    inner = np.abs(V[found.edges].mean(axis=1)[:, 1]) < 0.8
-    return {name: getattr(found.after, name)[inner] for name in ("gap", "flush", "kink", "line_offset")}
+    chosen = inner(V[found.edges].mean(axis=1))
+    assert chosen.sum() > 10
+    return {name: getattr(found.after, name)[chosen] for name in ("gap", "flush", "kink", "line_offset")}
 
 
 @pytest.mark.parametrize("levels", [2, 3])
@@ -181,3 +197,46 @@ def test_three_cages_that_meet_in_a_t_move_as_one(gap: float) -> None:
         print(gap, *(float(other[name].max() - one[name].max()) for name in ("kink", "line_offset")),
               float(np.abs(other["flush"] - one["flush"]).max()))
         assert other["kink"].max() < one["kink"].max() + 3.0 * KINK
+
+
+def start_mirrored(gap: str, view: str) -> tuple[bpy.types.Object, bpy.types.Object]:
+    """Front and Rear, whose gap crosses the seam, or Wing beside Bonnet, which alone has one, all of them mirrored."""
+    remove_all()
+    h = 0.5 * GAP
+    if gap == "across":
+        second = sheet("Rear", lambda _y: np.linspace(0.0, 1.0, 9), np.linspace(h, 1.0, 10), 2, mirrored=True)
+        first = sheet("Front", lambda _y: np.linspace(0.0, 1.0, 11), np.linspace(-1.0, -h, 11), 2, mirrored=True)
+    else:
+        second = sheet("Bonnet", lambda _y: np.linspace(0.0, 0.5 - h, 7), np.linspace(-1.0, 1.0, 20), 2, mirrored=True)
+        first = sheet("Wing", lambda _y: np.linspace(0.5 + h, 1.2, 8), np.linspace(-1.0, 1.0, 23), 2, mirrored=True)
+    start_several(second, first)
+    bpy.ops.reflines.set_up(part='CAMERA', direction=VIEWS[view][0])
+    bpy.ops.reflines.set_up(part='LIGHT', direction=VIEWS[view][1])
+    bpy.ops.ed.undo_push(message="Start")
+    return first, second
+
+
+@pytest.mark.parametrize("view", list(VIEWS))
+@pytest.mark.parametrize("gap", ["across", "along"])
+@pytest.mark.parametrize("tool", ["turn", "straighten"])
+def test_mirrored_cages_are_one_and_their_seams_stay_in_the_plane(tool: str, gap: str, view: str) -> None:
+    pair = start_mirrored(gap, view)
+    inner = (lambda middle: (np.abs(middle) < 0.8).all(axis=1)) if gap == "across" else (
+        lambda middle: np.abs(middle[:, 1]) < 0.8)
+    before, was = measure_gap(*pair, inner), [places(ob) for ob in pair]
+    assert {"turn": mirrored_turn, "straighten": mirrored_straighten}[tool]() == {'FINISHED'}
+    after = measure_gap(*pair, inner)
+    rims = [np.linalg.norm(places(ob) - old, axis=1)[find_mirrored_rim(ob, gap)].max()
+            for ob, old in zip(pair, was, strict=True)]
+    print(tool, gap, view, rims, *(float(after[name].max() - before[name].max()) for name in ("kink", "line_offset")),
+          float(np.abs(after["flush"] - before["flush"]).max()))
+    assert min(rims) > 5e-5
+    for ob, old in zip(pair, was, strict=True):
+        seam = old[:, 0] == 0.0
+        assert np.array_equal(places(ob)[seam, 0], old[seam, 0])
+        if view == "oblique":
+            assert np.array_equal(places(ob)[seam], old[seam])
+    assert after["kink"].max() < before["kink"].max() + 2.0 * KINK
+    assert np.abs(after["flush"] - before["flush"]).max() < FIT
+    bpy.ops.ed.undo()
+    assert all(np.array_equal(places(bpy.data.objects[ob.name]), old) for ob, old in zip(pair, was, strict=True))
