@@ -36,7 +36,8 @@ class Bridge:
 class RimLevel:
     """The further moves of vertices of cages at a gap, so that both rims of their surfaces move alike."""
     vertex: np.ndarray  # #S, vertices of the joined patch
-    weight: np.ndarray  # #S x #V, of the moves of all vertices
+    source: np.ndarray  # #N, those that their moves depend on
+    weight: np.ndarray  # #S x #N
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ class JoinedCagePatch(CagePatch):
         """
         move, rim = positions - self.V, self.rim.vertex
         ranges = None if self.limit_range is None else self.limit_range[rim]
-        move[rim] = cut_moves(move[rim] + self.rim.weight @ move, self.towards, limit, ranges)
+        move[rim] = cut_moves(move[rim] + self.rim.weight @ move[self.rim.source], self.towards, limit, ranges)
         ends = np.cumsum([len(part.V) for part in self.parts])[:-1]
         return [part.V + own for part, own in zip(self.parts, np.split(move, ends), strict=True)]
 

@@ -201,23 +201,39 @@ def level_rims(surfaces: Sequence[Surface], rims: Sequence[Rim], free: Sequence[
     """Returns how the free vertices move further so that both rims of a gap move alike: each takes half of what the
     other has moved more, by least squares over the rim of its surface.
     """
-    columns = [start + np.arange(surface.number.max() + 1) for surface, start in zip(surfaces, starts, strict=True)]
-    weight = np.zeros((sum(map(len, free)), int(columns[-1][-1]) + 1))
-    first = 0
+    near = [find_near_rim(surface, rim) for surface, rim in zip(surfaces, rims, strict=True)]
+    surfaces = [keep_numbers(surface, own) for surface, own in zip(surfaces, near, strict=True)]
+    columns = [start + np.arange(len(own)) for own, start in zip(near, find_starts([len(own) for own in near]),
+                                                                 strict=True)]
+    weight = []
     for which, (surface, rim, own) in enumerate(zip(surfaces, rims, free, strict=True)):
         weights = surface.read_weights(rim.vertex)
-        more = np.zeros((len(rim.vertex), weight.shape[1]))
+        more = np.zeros((len(rim.vertex), sum(map(len, near))))
         more[:, columns[which]] = -weights
         faces = np.zeros(len(rim.vertex), dtype=bool)
         for other in (k for k in range(len(surfaces)) if k != which):
             added, found = read_across(surfaces[other], rims[other], rim.xy[rim.vertex], gap)
             more[np.ix_(found & ~faces, columns[other])] += added[found & ~faces]
             faces |= found
-        inverse = np.linalg.pinv(weights[faces][:, own], rcond=1e-6)
-        weight[first:first + len(own)] = 0.5 * inverse @ more[faces]
-        first += len(own)
-    vertex = np.concatenate([own + start for own, start in zip(free, starts, strict=True)])
-    return RimLevel(vertex, weight)
+        inverse = np.linalg.pinv(weights[faces][:, np.searchsorted(near[which], own)], rcond=1e-6)
+        weight.append(0.5 * inverse @ more[faces])
+    return RimLevel(*(np.concatenate([own + start for own, start in zip(each, starts, strict=True)])
+                      for each in (free, near)), np.concatenate(weight))
+
+
+def find_near_rim(surface: Surface, rim: Rim) -> np.ndarray:
+    """Finds the panel's vertices that the surface depends on in the triangles at the rim, ascending."""
+    _, column, first = surface.matrix
+    corners = surface.quads.refined[np.unique(rim.F[~rim.stays])]
+    found = np.concatenate([surface.number[column[first[v]:first[v + 1]]] for v in corners])
+    return np.unique(found[found >= 0])
+
+
+def keep_numbers(surface: Surface, vertices: np.ndarray) -> Surface:
+    """Returns a surface that knows only some of the panel's vertices, by their place among these."""
+    number = np.full(int(surface.number.max()) + 2, -1)  # the last one for those that are none of the panel's
+    number[vertices] = np.arange(len(vertices))
+    return replace(surface, number=number[surface.number])
 
 
 def read_across(surface: Surface, rim: Rim, points: np.ndarray, gap: float) -> tuple[np.ndarray, np.ndarray]:
