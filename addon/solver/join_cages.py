@@ -152,8 +152,7 @@ def put_cages_together(panels: Sequence[CagePatch], surfaces: Sequence[Surface],
         np.concatenate([panel.face_of_triangle + start for panel, start in zip(panels, face_starts, strict=True)]),
         first.matrix, "", None, join_creases(panels, starts), codes, NOTHING_AROUND, join_ranges(panels), cage,
         first.mirror_axis, parts=tuple(panels),
-        bridge=build_bridge(cage, [panel.cage for panel in panels], surfaces, rims, strip,
-                            symmetric=is_mirrored(first, view)),
+        bridge=build_bridge([panel.cage for panel in panels], surfaces, rims, strip),
         rim=level_rims(surfaces, rims, free, starts, gap), towards=towards)
 
 
@@ -264,23 +263,26 @@ def find_triangles_of(edges: np.ndarray, F: np.ndarray) -> np.ndarray:
     return order[np.searchsorted(keys[order], edges[:, 0] * count + edges[:, 1])] % len(F)
 
 
-def build_bridge(joined: Cage, cages: Sequence[Cage], surfaces: Sequence[Surface], rims: Sequence[Rim], strip: Strip, *,
-                 symmetric: bool) -> Bridge:
-    """Builds the bridge from the strip, with each triangle counted as one of a face that it begins at."""
-    quads = list_quads(joined, subdivide(joined, dict(joined.rules)["level"]), symmetric=symmetric)
-    starts, own_faces = find_starts([each.own_faces for each in cages]), joined.own_faces
-    number, parent = [], np.zeros(len(quads.refined), dtype=np.int64)
-    parent[quads.faces.ravel()] = np.repeat(quads.parent, 4)
-    left_out = np.zeros((len(quads.faces), 2), dtype=bool)
-    for cage, surface, rim, start in zip(cages, surfaces, rims, starts, strict=True):
-        half = quads.parent % own_faces
-        chosen = np.flatnonzero((half >= start) & (half < start + cage.own_faces))  # the own half is first in both
-        vertex = np.zeros(len(rim.xy), dtype=np.int64)
-        vertex[surface.quads.faces.ravel()] = quads.faces[chosen].ravel()
-        number.append(vertex)
-        left_out[chosen] = ~rim.stays.reshape(-1, 2)
-    F = np.array([[number[which][v] for which, v in row] for row in strip.corners])
-    return Bridge(F, parent[F[:, 0]], left_out.ravel())
+def build_bridge(cages: Sequence[Cage], surfaces: Sequence[Surface], rims: Sequence[Rim], strip: Strip) -> Bridge:
+    """Builds the bridge from the strip, with each triangle counted as one of a face that it begins at. The faces of the
+    joined cage's surface are those of the cages' own halves, and after them those of their images.
+    """
+    starts, face_starts = find_starts([len(rim.xy) for rim in rims]), find_starts([each.own_faces for each in cages])
+    faces, parents, left_out = [], [], []
+    for half in (0, 1):
+        for cage, surface, rim, start, first in zip(cages, surfaces, rims, starts, face_starts, strict=True):
+            quads = surface.quads
+            chosen = quads.parent // cage.own_faces == half
+            faces.append(quads.faces[chosen] + start)
+            parents.append(quads.parent[chosen] % cage.own_faces + first)  # both halves count as one
+            left_out.append(~rim.stays.reshape(-1, 2)[chosen])
+    corners, parent = np.concatenate(faces).ravel(), np.repeat(np.concatenate(parents), 4)
+    every, first_of = np.unique(corners, return_index=True)
+    number, parent_of = np.zeros((2, len(every)), dtype=np.int64)
+    number[np.argsort(first_of)] = np.arange(len(every))
+    parent_of[:] = parent[first_of]
+    ends = np.array([[starts[which] + v for which, v in row] for row in strip.corners])
+    return Bridge(number[ends], parent_of[ends[:, 0]], np.concatenate(left_out).ravel())
 
 
 def join_creases(panels: Sequence[CagePatch], starts: Sequence[int]) -> Creases:
