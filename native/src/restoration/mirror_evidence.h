@@ -13,12 +13,11 @@ namespace reflines {
 
 struct MirrorEvidence {
   Vector correction;  // #V: heights along the view to add so that halves are alike; 0 where they are, or by design
-  Mask design;        // #V: where they differ by design
   std::vector<MirrorImages> images;  // across all planes of symmetry, before the correction; none: no symmetry
 };
 
 // Returns the vertices of a height field as the view sees them.
-SeenPoints see_vertices(const HeightField& field);
+SeenPoints see_vertices(const HeightField& field, double diagonal);
 
 // Finds the evidence of a region at heights z along the view (#V). Images are those of its vertices where they are at
 // the start: what a dent moved aside stays there. `length` is the size of flaws, over which the halves' roughness is

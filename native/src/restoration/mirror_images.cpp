@@ -11,13 +11,16 @@
 #include "base/parallel_failure.h"
 #include "base/smoothstep.h"
 #include "geometry/height_field.h"
+#include "restoration/disk_mean.h"
 #include "restoration/grid_cell.h"
 #include "restoration/press_rules.h"
+#include "restoration/smooth_difference.h"
 
 namespace reflines {
 namespace {
 
-constexpr double kSame = 1e-7;  // of the direction, and of the diagonal: far below kRules.symmetry.pair_tolerance
+constexpr double kSame = 1e-7;   // of the direction, and of the diagonal: far below kRules.symmetry.pair_tolerance
+constexpr double kAlike = 1e-3;  // relative difference, and components of unit normals
 constexpr double kLeastMoment = 1e-9;  // relative: a smaller one has no direction
 constexpr int kSamples = 500;          // points by which a plane is tried
 constexpr int kChunk = 1024;           // points for a thread
@@ -132,11 +135,12 @@ MirroredPlace mirror_place(const SeenPoints& points, const MirrorAcross& plane, 
   return {rise, off.head<2>().norm(), std::abs(rise) * slip, true};
 }
 
-// Finds the images of every `stride`th point, and how surely they are images; returns the norm of the rises of those.
+// Finds the images of every `stride`th point, and returns the norm of the rises at those that are paired.
 double find_images(const SeenPoints& points, const PointGrid& grid, double diagonal, int stride, MirrorImages& images) {
   const int count = static_cast<int>(points.P.rows());
   images.image = IndexVector::LinSpaced(count, 0, count - 1);
   images.paired = Mask::Constant(count, false);
+  images.aside = points.tolerance;
   Vector rise = Vector::Zero(count);
   run_parallel((count + stride - 1) / stride, kChunk, [&](int k) {
     const int v = k * stride, near = grid.find_nearest(images.plane.of_point(points.P.row(v)));
@@ -144,13 +148,23 @@ double find_images(const SeenPoints& points, const PointGrid& grid, double diago
     const MirroredPlace place = mirror_place(points, images.plane, v, near);
     if (!place.seen) return;
     images.image(v) = near;
-    images.paired(v) = std::abs(place.rise) < kRules.symmetry.deepest * diagonal &&
-                       place.aside <= kRules.symmetry.pair_tolerance * diagonal + place.allowed;
+    images.aside(v) = std::max(place.aside - place.allowed, 0.0);
+    images.paired(v) =
+        std::abs(place.rise) < kRules.symmetry.deepest * diagonal && images.aside(v) <= points.tolerance(v);
     if (images.paired(v)) rise(v) = place.rise;
   });
-  const double fraction = static_cast<double>(images.paired.count() * stride) / count;
-  images.weight = smoothstep(kRules.symmetry.unpaired, kRules.symmetry.paired, fraction);
   return rise.norm();
+}
+
+// Finds how surely the surface is symmetric around each place q (#V x 2), and how far aside images lie there.
+void weigh_around(const PlanePositions& q, double length, MirrorImages& images) {
+  const Vector paired = images.paired.cast<double>();
+  const double radius = kRules.symmetry.around * length;
+  const double whole = smoothstep(kRules.symmetry.least_paired, kRules.symmetry.most_paired, paired.mean());
+  images.weight = DiskMean(q, Vector::Ones(q.rows()), radius).of(paired).unaryExpr([&](double fraction) {
+    return whole * smoothstep(kRules.symmetry.unpaired, kRules.symmetry.paired, fraction);
+  });
+  images.aside = DiskMean(q, paired, radius).of(images.aside);
 }
 
 // Returns true where two planes have the same images for the most part: they are one plane but for flaws, which do not
@@ -159,26 +173,66 @@ bool are_alike(const MirrorImages& one, const MirrorImages& other) {
   return 2 * (one.image.array() == other.image.array()).count() > one.image.size();
 }
 
+using Found = std::pair<double, MirrorImages>;  // with how far the halves differ
+
+// Sorts images by how far halves differ; those that differ alike, as across both diagonals of a square that is
+// symmetric across its middle, by their normals over `axes`, lest the last digit decide.
+void sort_images(std::vector<Found>& found, const Positions& axes) {
+  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.first < b.first; });
+  const auto normal = [&](const Found& each) {
+    Vector result = axes * each.second.plane.normal;
+    int first = 0;
+    result.cwiseAbs().maxCoeff(&first);
+    for (int k = static_cast<int>(result.size()) - 1; k >= 0; --k)
+      if (std::abs(result(k)) > kAlike) first = k;
+    return Vector(std::copysign(1.0, result(first)) * result);
+  };
+  const auto is_before = [&](const Found& a, const Found& b) {
+    const Vector one = normal(a), other = normal(b);
+    for (Eigen::Index k = 0; k < one.size(); ++k)
+      if (std::abs(one(k) - other(k)) > kAlike) return one(k) < other(k);
+    return false;
+  };
+  for (auto begin = found.begin(); begin != found.end();) {
+    const double most = begin->first * (1.0 + kAlike);
+    const auto end = std::find_if(begin, found.end(), [&](const Found& each) { return each.first > most; });
+    std::stable_sort(begin, end, is_before);
+    begin = end;
+  }
+}
+
 }  // namespace
 
-std::vector<MirrorImages> find_mirror_images(const SeenPoints& points, double diagonal, const Positions& axes,
-                                             const Vector3& mean) {
+std::vector<MirrorImages> find_mirror_images(const SeenPoints& points, double diagonal, double length,
+                                             const Positions& axes, const Vector3& mean) {
+  const MeanFrame frame(mean);
+  const PlanePositions q = frame.project(points.P);
   const PointGrid grid(points.P, kRules.symmetry.deepest * diagonal);
   const int count = static_cast<int>(points.P.rows()), stride = std::max(1, count / kSamples);
-  std::vector<std::pair<double, MirrorImages>> found;
-  for (const MirrorAcross& plane : list_planes(points.P, diagonal, axes, MeanFrame(mean))) {
-    MirrorImages images{plane, {}, {}, 0};
+  std::vector<Found> found;
+  for (const MirrorAcross& plane : list_planes(points.P, diagonal, axes, frame)) {
+    MirrorImages images{.plane = plane};
     find_images(points, grid, diagonal, stride, images);
-    if (2 * images.paired.count() * stride < count) continue;  // no weight: the other points need not be looked at
+    if (static_cast<double>(images.paired.count() * stride) < kRules.symmetry.least_paired * count) continue;
     const double difference = find_images(points, grid, diagonal, 1, images);
     const auto is_same = [&](const auto& other) { return are_alike(images, other.second); };
-    if (images.weight > 0 && std::none_of(found.begin(), found.end(), is_same))
-      found.emplace_back(difference, std::move(images));
+    if (std::any_of(found.begin(), found.end(), is_same)) continue;
+    weigh_around(q, length, images);
+    if (images.weight.maxCoeff() == 0) continue;
+    images.kept = Vector::Zero(count);
+    images.design = Mask::Constant(count, false);
+    found.emplace_back(difference, std::move(images));
   }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  sort_images(found, axes);
   std::vector<MirrorImages> result;
   for (auto& [difference, images] : found) result.push_back(std::move(images));
   return result;
+}
+
+Vector find_kept_difference(const SeenPoints& points, const MirrorImages& images, const Vector3& mean, double diagonal,
+                            double length) {
+  return find_smooth_difference(MeanFrame(mean).project(points.P), find_mirrored_rise(points, images), images.paired,
+                                length, kRules.symmetry.held_difference * diagonal);
 }
 
 Vector find_mirrored_rise(const SeenPoints& points, const MirrorImages& images) {
