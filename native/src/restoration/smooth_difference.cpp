@@ -65,6 +65,7 @@ double fit_quadratic(const Eigen::RowVectorXd& means, const Vector2& place) {
 
 Vector find_smooth_difference(const PlanePositions& q, const Vector& difference, const Mask& counts, double length,
                               double least) {
+  if (difference.cwiseAbs().maxCoeff() <= least) return Vector::Zero(difference.size());
   const double radius = kRules.symmetry.smooth * length;
   const Vector2 centre = q.colwise().mean();
   const PlanePositions places = (q.rowwise() - centre.transpose()) / radius;
