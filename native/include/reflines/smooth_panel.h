@@ -103,7 +103,7 @@ struct SmoothPanelReport {
   double largest_control_move = 0.0;  // of the vertices: for a cage more than its surface moves
   int limited = 0;                    // vertices that the limit holds back
   int bumps = 0;                      // round dents and bumps that were taken away
-  int mirrored = 0;                   // vertices of a symmetric panel; 0: it is not symmetric
+  int mirrored = 0;                   // vertices that their mirror images tell of; 0: no part of the panel is symmetric
   int held_faces = 0;                 // faces that would have turned by more than 45 degrees and were held instead
   bool longer_waves = false;          // that may be flaws, too, were left; see Restoration::find_longer_waves
   std::vector<LineScore> score_before, score_after;         // one for each family of lights, at `length`
