@@ -1,7 +1,7 @@
 """Tests the package in the Blender of each Debian: 3.4 in bookworm, 4.3 in trixie, 5.2 in sid.
 
-Each suite gets a root of its own by debootstrap, kept in the cache folder, with Blender and what the tests need, but
-without the libraries that the solver is made of. There the package is installed as a user would, and the lanes run
+Each suite of Debian gets a root of its own by debootstrap, kept in the cache folder, with Blender and what the tests
+need, but without the libraries that the solver is made of. There the package is installed as a user would, and the tests run
 against what was installed; the add-on's source is not there at all. A suite whose archive cannot be had counts as
 skipped. Needs root.
 
@@ -22,10 +22,10 @@ from wheel import version
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests"))
 
-from lanes import Counts, crashed, run_reporting  # noqa: E402  (found through the line above)
+from suites import Counts, crashed, run_reporting  # noqa: E402  (found through the line above)
 
 NAME = "reflection_lines"
-LANES = ("bindings", "addon", "ui")
+TESTS = ("bindings", "addon", "ui")
 USER = "/root/blender_user"
 APT = ["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-q", "-y", "-oAcquire::Check-Valid-Until=false"]
 # What Blender's own Python scripts need in sid although the package does not ask for it.
@@ -117,9 +117,9 @@ def install(root: Path, package: Path) -> Installation:
     return installed
 
 
-def run_lanes(root: Path, installed: Installation) -> Counts:
+def run_tests(root: Path, installed: Installation) -> Counts:
     env = {"REFLINES_ADDON": installed.module, "REFLINES_FOLDER": installed.folder, "BLENDER_USER_RESOURCES": USER}
-    return run_reporting(inside(root, "/usr/bin/python3", "/src/tests/lanes.py", *LANES, env=env), os.environ, 1800)
+    return run_reporting(inside(root, "/usr/bin/python3", "/src/tests/suites.py", *TESTS, env=env), os.environ, 1800)
 
 
 def test_suite(suite: str, package: Path) -> Counts:
@@ -132,7 +132,7 @@ def test_suite(suite: str, package: Path) -> Counts:
     prepared = time.monotonic()
     copy_tests(root)
     try:
-        counts = run_lanes(root, install(root, package))
+        counts = run_tests(root, install(root, package))
     except (RuntimeError, Unavailable) as error:
         counts = crashed(f"{suite}: {error}")
     print(f"{suite}: {counts} (root {prepared - start:.0f} s, tests {time.monotonic() - prepared:.0f} s)", flush=True)

@@ -26,7 +26,7 @@ from wheel import version, write_wheel
 
 sys.path.insert(0, str(ROOT / "tests"))
 
-from lanes import NO_ARCHIVE, Counts, crashed, run_reporting, window_command  # noqa: E402  (found through the line above)
+from suites import NO_ARCHIVE, Counts, crashed, run_reporting, window_command  # noqa: E402  (found through the line above)
 
 BUILD = ROOT / "build/package"
 REPOSITORY = ROOT / "build/repository"

@@ -30,7 +30,7 @@ from windows_python import ready_python
 
 sys.path.insert(0, str(ROOT / "tests"))
 
-from lanes import Counts, crashed, junit_counts  # noqa: E402  (found through the line above)
+from suites import Counts, crashed, junit_counts  # noqa: E402  (found through the line above)
 
 SUITE = "trixie"  # the first that has this compiler
 SOURCES = ("native", "tests", "blend_samples", ".ci/package", ".ci/wine", "CMakeLists.txt", "CMakePresets.json",

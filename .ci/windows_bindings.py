@@ -14,7 +14,7 @@ from matrix import ROOT, inside
 
 sys.path.insert(0, str(ROOT / "tests"))
 
-from lanes import Counts, crashed, judged, junit_counts  # noqa: E402  (found through the line above)
+from suites import Counts, crashed, judged, junit_counts  # noqa: E402  (found through the line above)
 
 TOOLS = ("python3-numpy", "python3-pytest", "python3-scipy")  # of the tests, in the root
 TESTS = "src/tests/bindings"

@@ -16,7 +16,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from lanes import PYTHON, ROOT, Counts, crashed, native_lane, run_with_junit
+from suites import PYTHON, ROOT, Counts, crashed, native_suite, run_with_junit
 
 # Seconds of one input. A press fits small matrices to look for dents: with sanitizers that takes 160 times as long.
 FUZZERS = {"shape": 5, "cage": 5, "grids": 5, "press": 25}
@@ -100,7 +100,7 @@ def asan() -> Counts:
     if not built("asan"):
         return crashed("asan: the build failed")
     env = asan_environment()
-    return native_lane("asan", env) + binding_tests(env)
+    return native_suite("asan", env) + binding_tests(env)
 
 
 def catches_a_race(env: dict[str, str]) -> bool:
@@ -120,7 +120,7 @@ def tsan() -> Counts:
         return crashed("tsan: the racy program was not caught")
     if not built("tsan"):
         return crashed("tsan: the build failed")
-    return Counts(passed=1) + native_lane("tsan", env)
+    return Counts(passed=1) + native_suite("tsan", env)
 
 
 def fuzz(minutes: float = 1.0, seed: int = 0) -> Counts:
@@ -145,9 +145,9 @@ def fuzzed(name: str, minutes: float, seed: int) -> Counts:
 
 def main() -> int:
     kind = sys.argv[1]
-    lanes: dict[str, Callable[[], Counts]] = {
+    suites: dict[str, Callable[[], Counts]] = {
         "asan": asan, "tsan": tsan, "fuzz": lambda: fuzz(*map(float, sys.argv[2:3]), *map(int, sys.argv[3:]))}
-    total = lanes[kind]()
+    total = suites[kind]()
     print(total)
     return 0 if total.failed == 0 else 1
 

@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from lanes import ROOT, Counts, run_reporting, script_options, window_command
+from suites import ROOT, Counts, run_reporting, script_options, window_command
 
 NAME = "reflection_lines"
 SLOWEST_STEP = 10  # seconds in the mean, on a machine with other work

@@ -21,7 +21,7 @@ def reason(report: pytest.TestReport) -> str:
 
 
 class Counter:
-    """Prints what the test lanes read: a line for each failed test, and the line of counts."""
+    """Prints what the test suites read: a line for each failed test, and the line of counts."""
 
     def pytest_terminal_summary(self, terminalreporter: object) -> None:
         stats = terminalreporter.stats

@@ -8,7 +8,7 @@ import subprocess
 import time
 from pathlib import Path
 
-import lanes
+import suites
 
 from bench.row import Row
 
@@ -23,8 +23,8 @@ def measured(name: str, command: list[str]) -> Times:
     """What a script of this folder leaves in build/bench."""
     out = OUT / f"{name}.json"
     out.unlink(missing_ok=True)
-    subprocess.run([*command, *lanes.script_options(f"tests/bench/{name}.py")], cwd=ROOT, check=True,
-                   env=lanes.blender_environment(), timeout=PATIENCE, stdout=subprocess.DEVNULL,
+    subprocess.run([*command, *suites.script_options(f"tests/bench/{name}.py")], cwd=ROOT, check=True,
+                   env=suites.blender_environment(), timeout=PATIENCE, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
     return json.loads(out.read_text())
 
@@ -108,10 +108,10 @@ def neighbour_rows(times: Times) -> list[Row]:
 
 
 def rows() -> list[Row]:
-    background = measured("live_transfer", [lanes.BLENDER, "-b", "--factory-startup"])
-    press = measured("live_press", [lanes.BLENDER, "-b", "--factory-startup"])
-    neighbours = measured("live_neighbours", [lanes.BLENDER, "-b", "--factory-startup"])
-    window = measured("live_drag", lanes.window_command())
+    background = measured("live_transfer", [suites.BLENDER, "-b", "--factory-startup"])
+    press = measured("live_press", [suites.BLENDER, "-b", "--factory-startup"])
+    neighbours = measured("live_neighbours", [suites.BLENDER, "-b", "--factory-startup"])
+    window = measured("live_drag", suites.window_command())
     load = os.getloadavg()[0]
     print(f"live rows at {time.strftime('%H:%M')}: load {load:.1f} on {os.cpu_count()} cores", flush=True)
     return [*transfer_rows(background), *press_rows(press), *neighbour_rows(neighbours),

@@ -1,6 +1,6 @@
 """Drags of Smooth in a window: how soon the panel follows, how long the window stands still, what Escape takes.
 
-Run as tests/lanes.py runs the tests of a window. Writes build/bench/live_drag.json: name -> list of milliseconds, or
+Run as tests/suites.py runs the tests of a window. Writes build/bench/live_drag.json: name -> list of milliseconds, or
 of lengths as shares of the panel's size. Each size is dragged twice: drawn, with stripes, and with an empty image in
 the place of the 3D view, which leaves Blender little to draw. Without a GPU drawing is most of what is measured.
 """

@@ -4,7 +4,7 @@ import subprocess
 from datetime import date
 from pathlib import Path
 
-import lanes
+import suites
 
 from bench.report import machine
 from figures import compared_panels, compare_shapes, stripe_sheet
@@ -15,8 +15,8 @@ PATIENCE = 1200  # seconds for Blender
 
 def press(folder: Path) -> None:
     """Applies the tools to the panels of a folder, in a Blender with a window."""
-    command = [*lanes.window_command(800, 600), *lanes.script_options("tests/figures/press_blender_tools.py"), folder]
-    subprocess.run(command, cwd=lanes.ROOT, check=True, env=lanes.blender_environment(), timeout=PATIENCE,
+    command = [*suites.window_command(800, 600), *suites.script_options("tests/figures/press_blender_tools.py"), folder]
+    subprocess.run(command, cwd=suites.ROOT, check=True, env=suites.blender_environment(), timeout=PATIENCE,
                    stdout=subprocess.DEVNULL)
 
 

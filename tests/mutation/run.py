@@ -17,7 +17,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from lanes import BLENDER, PYTHON, ROOT, Counts, git_lines, script_options, window_command  # noqa: E402
+from suites import BLENDER, PYTHON, ROOT, Counts, git_lines, script_options, window_command  # noqa: E402
 
 COPY = ROOT / "build" / "mutation" / "project"
 PATIENCE = 900  # seconds of one test; one that does not end has failed

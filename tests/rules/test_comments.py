@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from tree import ROOT, files
 
-# Rooms of C++ whose comments are judged; headers and sources.
-CPP_ROOMS = ("native/include/", "native/src/", "native/python/", "native/examples/")
-PYTHON_ROOMS = (*(f"addon/{room}/" for room in (
+# Folders of C++ whose comments are judged; headers and sources.
+CPP_FOLDERS = ("native/include/", "native/src/", "native/python/", "native/examples/")
+PYTHON_FOLDERS = (*(f"addon/{folder}/" for folder in (
     "animation", "blender", "interactive", "model", "operators", "overlay", "read", "solver", "state", "targets", "ui",
     "view", "write")), "addon/native.py", "addon/background_work.py", "addon/library_copy.py",
                 "native/python/reflines.pyi")
@@ -48,7 +48,7 @@ def blocks(text: str) -> Iterator[tuple[int, str, str]]:
             start = None
 
 
-def rooms(prefixes: tuple[str, ...], *suffixes: str) -> list[Path]:
+def files_below(prefixes: tuple[str, ...], *suffixes: str) -> list[Path]:
     return [file for file in files() if file.as_posix().startswith(prefixes) and file.suffix in suffixes]
 
 
@@ -63,7 +63,7 @@ def judge_block(text: str, code: str) -> str:
     return ""
 
 
-@pytest.mark.parametrize("file", rooms(CPP_ROOMS, ".h", ".cpp"), ids=str)
+@pytest.mark.parametrize("file", files_below(CPP_FOLDERS, ".h", ".cpp"), ids=str)
 def test_cpp_comments_are_sentences(file: Path) -> None:
     wrong = [f"{file}:{line} {why}: {text[:80]}" for line, text, code in blocks((ROOT / file).read_text())
              if (why := judge_block(text, code))]
@@ -93,7 +93,7 @@ def judge_docstring(text: str, is_function: bool) -> str:
     return "" if not is_function or VERB.match(text) else "describes a function without a verb in front"
 
 
-@pytest.mark.parametrize("file", rooms(PYTHON_ROOMS, ".py", ".pyi"), ids=str)
+@pytest.mark.parametrize("file", files_below(PYTHON_FOLDERS, ".py", ".pyi"), ids=str)
 def test_docstrings_are_sentences(file: Path) -> None:
     wrong = [f"{file}:{line} {why}: {text[:80]}" for line, text, is_function in docstrings(file)
              if (why := judge_docstring(text, is_function))]
@@ -114,7 +114,8 @@ def remarks(file: Path) -> Iterator[tuple[int, str]]:
                 if re.match(r"^[^\"']*# ", line))
 
 
-@pytest.mark.parametrize("file", rooms(CPP_ROOMS, ".h", ".cpp") + rooms(PYTHON_ROOMS, ".py", ".pyi"), ids=str)
+@pytest.mark.parametrize("file", files_below(CPP_FOLDERS, ".h", ".cpp")
+                         + files_below(PYTHON_FOLDERS, ".py", ".pyi"), ids=str)
 def test_no_private_idiom(file: Path) -> None:
     wrong = [f"{file}:{line} {found[0]!r}: {text[:80]}" for line, text in remarks(file)
              if (found := IDIOMS.search(text))]

@@ -1,4 +1,4 @@
-"""Who may include whom in native/: the order of the rooms, and one wall around each third-party library."""
+"""Who may include whom in native/: the order of the folders, and one wall around each third-party library."""
 import re
 from pathlib import Path
 
@@ -7,7 +7,7 @@ from tree import ROOT, cpp_files
 # Where an include is looked for: public headers as "reflines/mesh.h", private ones as "geometry/mesh.h".
 ROOTS = ("native/include", "native/src", "native")
 
-# The room whose words a public header states; the others of native/include are words that every room uses.
+# The folder whose words a public header states; the others of native/include are words that every folder uses.
 PUBLIC = {
     "image_plane": "geometry", "cage": "geometry", "subdivision": "geometry",
     "gap_continuation": "geometry", "rasterize": "geometry",
@@ -22,7 +22,7 @@ PUBLIC = {
     "judge_change": "inspection", "handle_follower": "following",
 }
 
-# Room -> the rooms it may include besides itself. `geometry` and `optimization` meet only in `solver`.
+# Folder -> the folders it may include besides itself. `geometry` and `optimization` meet only in `solver`.
 BASE = {"base"}
 LINES = BASE | {"geometry", "reflection"}
 SOLVER = LINES | {"threads", "optimization", "optimization/linear"}
@@ -56,7 +56,7 @@ WALLS = {
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
-def room_of(path: str) -> str:
+def folder_of(path: str) -> str:
     """`native/src/geometry/mesh.h` or `geometry/mesh.h` -> `geometry`, `reflines/target.h` -> `reflection`."""
     for root in ROOTS:
         path = path.removeprefix(root + "/")
@@ -71,16 +71,16 @@ def native_includes() -> list[tuple[str, str, str]]:
             for bracket, included in INCLUDE.findall((ROOT / file).read_text())]
 
 
-def test_every_room_has_a_row() -> None:
-    unknown = {room_of(file.as_posix()) for file in cpp_files() if file.parts[0] == "native"} - set(MAY_INCLUDE)
+def test_every_folder_has_a_row() -> None:
+    unknown = {folder_of(file.as_posix()) for file in cpp_files() if file.parts[0] == "native"} - set(MAY_INCLUDE)
     assert not unknown, f"say in MAY_INCLUDE what these may include: {unknown}"
 
 
-def test_rooms_include_only_what_stands_below_them() -> None:
+def test_folders_include_only_what_stands_below_them() -> None:
     wrong = []
     for file, bracket, included in native_includes():
-        room, other = room_of(file), room_of(included)
-        if bracket == '"' and other != room and other not in MAY_INCLUDE.get(room, set()):
+        folder, other = folder_of(file), folder_of(included)
+        if bracket == '"' and other != folder and other not in MAY_INCLUDE.get(folder, set()):
             wrong.append(f"{file} includes {included}")
     assert not wrong, "\n".join(wrong)
 

@@ -1,4 +1,4 @@
-"""The faults of the mutation lane can be put in, and name a test; the lane itself takes long and runs by hand."""
+"""The faults of the mutation suite can be put in, and name a test; the suite itself takes long and runs by hand."""
 import tomllib
 
 import pytest

@@ -58,7 +58,7 @@ def promises() -> list[str]:
 
 
 def is_run(name: str) -> bool:
-    """Whether a lane of `./run test` runs a test of this name: FILE, or FILE::FUNCTION of Python."""
+    """Whether a suite of `./run test` runs a test of this name: FILE, or FILE::FUNCTION of Python."""
     path, _, function = name.partition("::")
     if not (ROOT / path).is_file() or path.split("/")[1] not in {"native", "bindings", "addon", "ui", "rules"}:
         return False

@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from test_comments import CPP_ROOMS, PYTHON_ROOMS, remarks, rooms
+from test_comments import CPP_FOLDERS, PYTHON_FOLDERS, files_below, remarks
 from tree import ROOT
 
 PAGE = Path("tests/README.md")
 MANUAL = Path("addon/manual/index.html")
-FILES = [file for file in rooms(PYTHON_ROOMS, ".py") if file.parts[0] == "addon"]
-CPP_FILES = rooms(CPP_ROOMS, ".h", ".cpp")
+FILES = [file for file in files_below(PYTHON_FOLDERS, ".py") if file.parts[0] == "addon"]
+CPP_FILES = files_below(CPP_FOLDERS, ".h", ".cpp")
 WORDS = re.compile(r"[a-z]+")
 NO_NAME = re.compile(r'"(?:[^"\\]|\\.)*"|^\s*#include.*')
 CAMEL_CASE = re.compile(r"(?<=[a-z])(?=[A-Z])")

@@ -1,4 +1,4 @@
-"""Blender is closed while threads are at work: it ends soon and well. What the lane counts is the exit code."""
+"""Blender is closed while threads are at work: it ends soon and well. What the suite counts is the exit code."""
 import sys
 from collections.abc import Generator
 

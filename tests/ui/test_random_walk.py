@@ -1,6 +1,6 @@
 """A random walk through Blender in a window: no step may end in an error of Python or a crash, whatever came before.
 
-    REFLINES_WALK=500 REFLINES_SEED=3    length and seed; the lane walks a shorter way, `./run walk` a long one
+    REFLINES_WALK=500 REFLINES_SEED=3    length and seed; the suite walks a shorter way, `./run walk` a long one
 """
 import os
 import sys

@@ -1,11 +1,11 @@
-"""Runs the test lanes and adds their counts up; the last line is always "N passed, N failed, N skipped".
+"""Runs the test suites and adds their counts up; the last line is always "N passed, N failed, N skipped".
 
-A lane is one way of running tests: native executables, Python without Blender, Blender in the background, Blender in a
-window, the rules of the house, an installed package in other Debians. A lane that crashes before its counts can be read
+A suite is one way of running tests: native executables, Python without Blender, Blender in the background, Blender in a
+window, the rules of the house, an installed package in other Debians. A suite that crashes before its counts are read
 counts as one failure. Each failed test is named by a line "FAILED name: why" where it fails, and once more at the end,
 below what hundreds of other tests print.
 
-REFLINES_ADDON names an installed add-on and REFLINES_FOLDER its place: then the lanes test that one, and build nothing.
+REFLINES_ADDON names an installed add-on, REFLINES_FOLDER its place: then the suites test that one, and build nothing.
 """
 import argparse
 import os
@@ -29,7 +29,7 @@ BLENDER = "/usr/bin/blender"
 INSTALLED = "REFLINES_ADDON" in os.environ
 COUNTS_LINE = re.compile(r"(\d+) passed, (\d+) failed, (\d+) skipped\s*")
 FAILED_LINE = re.compile(r"((?:\w+: )?)FAILED (.+)")  # tests that run beside others have a mark before it
-FAILED_BEFORE = re.compile(r"== failed: (.+)")  # those of a whole lane, at its end
+FAILED_BEFORE = re.compile(r"== failed: (.+)")  # those of a whole suite, at its end
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Counts:
         return f"{self.passed} passed, {self.failed} failed, {self.skipped} skipped"
 
 
-AT_ONCE = 3  # lanes: one of windows, which mostly waits, and two of one process each
+AT_ONCE = 3  # suites: one of windows, which mostly waits, and two of one process each
 SECOND_TRIES = 3  # Blenders with window tests that are run once more; where more of them fail it is no chance
 NO_ARCHIVE = 75  # how .ci/package.py ends where Debian's archive cannot be had
 
@@ -99,7 +99,7 @@ def run_with_junit(command: Sequence[str], report: Path, env: dict[str, str] | N
     return judged(junit_counts(report), code, command[0])
 
 
-def pytest_lane(tests: str) -> Counts:
+def pytest_suite(tests: str) -> Counts:
     """Runs a folder of tests, or one file of them."""
     env = os.environ | {"PYTHONPATH": os.environ.get("REFLINES_FOLDER", str(ROOT / "addon"))}
     report = OUT / f"{Path(tests).stem}.xml"
@@ -107,7 +107,7 @@ def pytest_lane(tests: str) -> Counts:
     return run_with_junit(command, report, env)
 
 
-def native_lane(preset: str = "native", env: dict[str, str] | None = None) -> Counts:
+def native_suite(preset: str = "native", env: dict[str, str] | None = None) -> Counts:
     """Runs the native tests of a test preset of CMakePresets.json, each in a process of its own."""
     return run_with_junit(["ctest", "--preset", preset], OUT / f"ctest_{preset}.xml", env, timeout=7200)
 
@@ -150,7 +150,7 @@ def script_options(script: str) -> list[str]:
     return ["--python-exit-code", "1", "--python", "tests/in_blender.py", "--", script]
 
 
-def addon_lane(*files: str) -> Counts:
+def addon_suite(*files: str) -> Counts:
     """Runs the tests in background Blender: these files, or all."""
     command = [BLENDER, "-b", "--factory-startup", *script_options("tests/addon/run.py"), *files]
     return run_reporting(command, blender_environment(), 1800)
@@ -193,7 +193,7 @@ def group_window_tests() -> list[list[Path]]:
     return groups + [[path] for path in files.values()]
 
 
-def ui_lane() -> Counts:
+def ui_suite() -> Counts:
     """Window tests on virtual screens, with simulated mouse and keys; one Blender more than there are cores, for
     most of their time they wait."""
     groups = group_window_tests()
@@ -216,57 +216,57 @@ def try_again(found: Sequence[Counts], run: Callable[[int], Counts]) -> list[Cou
     return [second.get(index, counts) for index, counts in enumerate(found)]
 
 
-def hostile_lane() -> Counts:
-    """Runs those tests of other lanes whose scenes, files and arguments are hostile on purpose."""
+def hostile_suite() -> Counts:
+    """Runs those tests of other suites whose scenes, files and arguments are hostile on purpose."""
     addon = [f"tests/addon/test_{name}.py" for name in ("hostile_scenes", "hostile_files", "tampered")]
-    return (pytest_lane("bindings/test_hostile.py") + addon_lane(*addon)
+    return (pytest_suite("bindings/test_hostile.py") + addon_suite(*addon)
             + window_counts(0, [ROOT / "tests/ui/test_hostile.py"]))
 
 
-def rooted_lane(*script: str) -> Counts:
+def rooted_suite(*script: str) -> Counts:
     """Runs a script that works in other Debians, which takes root."""
     cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     become_root = [] if os.geteuid() == 0 else ["sudo", f"XDG_CACHE_HOME={cache}"]
     return run_reporting([*become_root, PYTHON, *script], os.environ, 4500)
 
 
-def packed_lane(*script: str) -> Counts:
+def packed_suite(*script: str) -> Counts:
     """Packs the add-on and runs a script that tests the package in other Debians."""
     packed = subprocess.run(["./run", "package", "linux"], cwd=ROOT).returncode
     if packed == NO_ARCHIVE:
         return Counts(skipped=1)
     if packed != 0:
         return crashed("there is no package to test")
-    return rooted_lane(*script)
+    return rooted_suite(*script)
 
 
 @dataclass(frozen=True)
-class Lane:
+class Suite:
     run: Callable[[], Counts]
     built: bool               # needs the native build
-    rooms: tuple[str, ...]    # a change below one of these calls for the lane
+    folders: tuple[str, ...]  # a change below one of these calls for the suite
     asked: bool = False       # runs only when it is asked for, by its name or by --all
-    within: bool = False      # its tests are those of other lanes, so that --all leaves it out
+    within: bool = False      # its tests are those of other suites, so that --all leaves it out
 
 
-def sanitizers_lane(kind: str) -> Counts:
+def sanitizers_suite(kind: str) -> Counts:
     return run_reporting([PYTHON, "tests/sanitizers.py", kind], os.environ, 10800)
 
 
-SHARED = ("CMakeLists.txt", "CMakePresets.json", "tests/lanes.py", "run", ".ci/")
-LANES = {
-    "rules": Lane(lambda: pytest_lane("rules"), False, ("",)),
-    "native": Lane(native_lane, True, ("native/", "tests/native/", *SHARED)),
-    "bindings": Lane(lambda: pytest_lane("bindings"), True, ("native/", "tests/bindings/", *SHARED)),
-    "addon": Lane(addon_lane, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
-    "ui": Lane(ui_lane, True, ("addon/", "tests/ui/", *SHARED)),
-    "hostile": Lane(hostile_lane, True, (), asked=True, within=True),
-    "matrix": Lane(lambda: packed_lane(".ci/matrix.py"), False, (), asked=True),
-    "release": Lane(lambda: packed_lane(".ci/release.py", "--test"), False, (), asked=True),
-    "windows": Lane(lambda: rooted_lane(".ci/windows.py"), True, (), asked=True),
-    "asan": Lane(lambda: sanitizers_lane("asan"), False, (), asked=True),
-    "tsan": Lane(lambda: sanitizers_lane("tsan"), False, (), asked=True),
-    "fuzz": Lane(lambda: sanitizers_lane("fuzz"), False, (), asked=True),
+SHARED = ("CMakeLists.txt", "CMakePresets.json", "tests/suites.py", "run", ".ci/")
+SUITES = {
+    "rules": Suite(lambda: pytest_suite("rules"), False, ("",)),
+    "native": Suite(native_suite, True, ("native/", "tests/native/", *SHARED)),
+    "bindings": Suite(lambda: pytest_suite("bindings"), True, ("native/", "tests/bindings/", *SHARED)),
+    "addon": Suite(addon_suite, True, ("native/", "addon/", "tests/addon/", "blend_samples/", *SHARED)),
+    "ui": Suite(ui_suite, True, ("addon/", "tests/ui/", *SHARED)),
+    "hostile": Suite(hostile_suite, True, (), asked=True, within=True),
+    "matrix": Suite(lambda: packed_suite(".ci/matrix.py"), False, (), asked=True),
+    "release": Suite(lambda: packed_suite(".ci/release.py", "--test"), False, (), asked=True),
+    "windows": Suite(lambda: rooted_suite(".ci/windows.py"), True, (), asked=True),
+    "asan": Suite(lambda: sanitizers_suite("asan"), False, (), asked=True),
+    "tsan": Suite(lambda: sanitizers_suite("tsan"), False, (), asked=True),
+    "fuzz": Suite(lambda: sanitizers_suite("fuzz"), False, (), asked=True),
 }
 
 
@@ -280,16 +280,16 @@ def changed_files() -> list[str]:
     return git_lines("diff", "--name-only", base[0]) + git_lines("ls-files", "--others", "--exclude-standard")
 
 
-def chosen_lanes(arguments: argparse.Namespace) -> list[str]:
-    present = [name for name in LANES if LANES[name].asked or (ROOT / "tests" / name).is_dir()]
-    unknown = [name for name in arguments.lanes if name not in present]
+def chosen_suites(arguments: argparse.Namespace) -> list[str]:
+    present = [name for name in SUITES if SUITES[name].asked or (ROOT / "tests" / name).is_dir()]
+    unknown = [name for name in arguments.suites if name not in present]
     if unknown:
-        sys.exit(f"no test lane {', '.join(unknown)}; there are {', '.join(present)}")
+        sys.exit(f"no test suite {', '.join(unknown)}; there are {', '.join(present)}")
     if arguments.changed:
         files = changed_files()
-        return [name for name in present if any(file.startswith(LANES[name].rooms) for file in files)]
-    return arguments.lanes or [name for name in present if not LANES[name].asked
-                               or arguments.all and not LANES[name].within]
+        return [name for name in present if any(file.startswith(SUITES[name].folders) for file in files)]
+    return arguments.suites or [name for name in present if not SUITES[name].asked
+                                or arguments.all and not SUITES[name].within]
 
 
 def succeeds(*command: str) -> bool:
@@ -300,47 +300,47 @@ def configured() -> bool:
     return (ROOT / "build/release/build.ninja").is_file() or succeeds("cmake", "--preset", "release")
 
 
-def run_lane(name: str, *, built: bool) -> Counts:
+def run_suite(name: str, *, built: bool) -> Counts:
     print(f"== {name}", flush=True)
     start = time.monotonic()
-    if LANES[name].built and not built:
-        counts = crashed(f"{name}: the native build failed, so this lane cannot run")
+    if SUITES[name].built and not built:
+        counts = crashed(f"{name}: the native build failed, so this suite cannot run")
     else:
-        counts = LANES[name].run()
+        counts = SUITES[name].run()
     print(f"== {name}: {counts} ({time.monotonic() - start:.0f} s)", flush=True)
     return counts
 
 
 def run_beside(name: str) -> Counts:
-    """Runs a lane in a process of its own, whose lines are marked with its name. Threads that wait for others of their
-    process sleep: those that spin kept the others from running, and a test took 220 s beside other lanes, 15 s alone.
+    """Runs a suite in a process of its own, whose lines are marked with its name. Threads that wait for others of their
+    process sleep: those that spin kept the others from running, and a test took 220 s beside other suites, 15 s alone.
     """
     env = os.environ | {"OMP_WAIT_POLICY": "passive"}
     return run_reporting([PYTHON, __file__, name, "--built"], env, 4500, f"{name}: ", FAILED_BEFORE)
 
 
-def run_lanes(names: Sequence[str], *, built: bool = False) -> Counts:
-    """Runs lanes: those of every day at once, longest first, and then those that are asked for, one after the other."""
+def run_suites(names: Sequence[str], *, built: bool = False) -> Counts:
+    """Runs suites: those of every day at once, longest first, then those that are asked for, one after the other."""
     if not built:
         built = INSTALLED or configured()  # the rules read the compile commands
-        if not INSTALLED and any(LANES[name].built for name in names):
+        if not INSTALLED and any(SUITES[name].built for name in names):
             built = built and succeeds("cmake", "--build", "--preset", "release")
-    beside = [name for name in reversed(names) if not LANES[name].asked]
+    beside = [name for name in reversed(names) if not SUITES[name].asked]
     beside = beside if built and not INSTALLED and len(beside) > 1 else []
     with ThreadPoolExecutor(AT_ONCE) as pool:
         total = sum(pool.map(run_beside, beside), Counts())
-    return sum((run_lane(name, built=built) for name in names if name not in beside), total)
+    return sum((run_suite(name, built=built) for name in names if name not in beside), total)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="./run test", description=__doc__)
-    parser.add_argument("lanes", nargs="*", metavar="LANE", help=", ".join(LANES))
-    parser.add_argument("--changed", action="store_true", help="only the lanes that changes touch")
-    parser.add_argument("--all", action="store_true", help="with the lanes that otherwise run only by name: matrix, "
+    parser.add_argument("suites", nargs="*", metavar="SUITE", help=", ".join(SUITES))
+    parser.add_argument("--changed", action="store_true", help="only the suites that changes touch")
+    parser.add_argument("--all", action="store_true", help="with the suites that otherwise run only by name: matrix, "
                                                               "release, windows, asan, tsan, fuzz")
     parser.add_argument("--built", action="store_true", help="the native build is as it should be")
     arguments = parser.parse_args()
-    total = run_lanes(chosen_lanes(arguments), built=arguments.built)
+    total = run_suites(chosen_suites(arguments), built=arguments.built)
     print(*(f"== failed: {what}\n" for what in total.failures), sep="", end="")
     print(total)
     return 0 if total.failed == 0 and total.passed + total.skipped > 0 else 1
