@@ -2,6 +2,7 @@
 module; and how well what a press says of its results ranks them.
 """
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import reflines
@@ -21,6 +22,7 @@ def clean(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return -0.15 * x * x - 0.1 * y * y - 0.03 * x**3
 
 
+@cache
 def dented(depth: float = DEPTH, radius: float = RADIUS, count: int = 1) -> Height:
     return lambda x, y: clean(x, y) - depth * sum(np.exp(-((x - a) ** 2 + (y - b) ** 2) / radius**2)
                                                   for a, b in CENTRES[:count])

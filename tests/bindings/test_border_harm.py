@@ -1,4 +1,6 @@
 """A press whose border continues the curvature of the surroundings does no more harm than one with a clamped border."""
+from functools import cache
+
 import numpy as np
 import pytest
 import reflines
@@ -28,11 +30,6 @@ def shape(kind: str, V: Array) -> Array:
     return result
 
 
-def press(panel: Panel, border: str) -> tuple[Array, reflines.SmoothPanelReport]:
-    return reflines.smooth_panel(panel.V[panel.used], panel.own, border=border, around=panel.around,
-                                 view_direction=VIEW, line_direction=LINES[0])
-
-
 def is_said(report: reflines.SmoothPanelReport) -> bool:
     return any(note.kind.startswith("continuing_") for note in report.notes)
 
@@ -42,13 +39,20 @@ def make_panel(kind: str, diagonals: str) -> Panel:
     return Panel(shape(kind, V), F)
 
 
+@cache
+def press(kind: str, diagonals: str, border: str) -> tuple[Array, reflines.SmoothPanelReport]:
+    panel = make_panel(kind, diagonals)
+    return reflines.smooth_panel(panel.V[panel.used], panel.own, border=border, around=panel.around,
+                                 view_direction=VIEW, line_direction=LINES[0])
+
+
 @pytest.mark.parametrize("diagonals", DIAGONALS)
 @pytest.mark.parametrize("kind", ["hem", "hem across", "fillet", "bulge"])
 @pytest.mark.parametrize("border", CONTINUED)
 def test_a_strong_bend_of_the_region_is_not_bent_to_the_surroundings(border: str, kind: str, diagonals: str) -> None:
     """A hem moved to the limit, ten times as far as with a clamped border; a fillet nine times."""
     panel = make_panel(kind, diagonals)
-    moves = {each: np.abs(press(panel, each)[0] - panel.V[panel.used]).max() for each in ("clamped", border)}
+    moves = {each: np.abs(press(kind, diagonals, each)[0] - panel.V[panel.used]).max() for each in ("clamped", border)}
     print(f"{kind}, {diagonals}: {moves}")
     assert moves["clamped"] > 0.0
     assert moves[border] < 3.001 * moves["clamped"]
@@ -58,8 +62,7 @@ def test_a_strong_bend_of_the_region_is_not_bent_to_the_surroundings(border: str
 @pytest.mark.parametrize("kind", ["ripples", "dent", "hem", "hem across", "fillet", "bulge"])
 @pytest.mark.parametrize("border", CONTINUED)
 def test_no_light_ends_less_even_or_it_is_clamped_to_the_bit(border: str, kind: str, diagonals: str) -> None:
-    panel = make_panel(kind, diagonals)
-    clamped, (positions, told) = press(panel, "clamped"), press(panel, border)
+    clamped, (positions, told) = press(kind, diagonals, "clamped"), press(kind, diagonals, border)
     if is_said(told):
         assert np.array_equal(positions, clamped[0])
     for late, early in zip(told.score_after, clamped[1].score_after, strict=True):
@@ -71,10 +74,9 @@ def test_no_light_ends_less_even_or_it_is_clamped_to_the_bit(border: str, kind: 
 @pytest.mark.parametrize("diagonals", DIAGONALS)
 @pytest.mark.parametrize("border", CONTINUED)
 def test_what_is_less_even_is_clamped_and_said_and_what_is_good_is_kept(border: str, diagonals: str) -> None:
-    assert is_said(press(make_panel("steep dent", "jittered"), border)[1])
-    panel = make_panel("dent", diagonals)
-    positions, told = press(panel, border)
-    assert not is_said(told) and not np.array_equal(positions, press(panel, "clamped")[0])
+    assert is_said(press("steep dent", "jittered", border)[1])
+    positions, told = press("dent", diagonals, border)
+    assert not is_said(told) and not np.array_equal(positions, press("dent", diagonals, "clamped")[0])
 
 
 @pytest.mark.parametrize("slope", [0.2, 1.0, 3.0])

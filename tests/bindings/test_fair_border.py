@@ -59,8 +59,9 @@ def error(panel: Panel, V: Array, wanted: Array, where: Array) -> float:
     return float(np.degrees(np.sqrt(np.mean(np.arccos(np.clip(cosine, -1.0, 1.0)) ** 2))))
 
 
-@pytest.mark.parametrize("diagonals", ["regular", "random", "jittered", "4-8"])
-@pytest.mark.parametrize("kind", ["noise", "ripples", "dent"])
+@pytest.mark.parametrize(("kind", "diagonals"), [
+    ("noise", "random"), ("noise", "jittered"), ("ripples", "4-8"), ("ripples", "regular"), ("dent", "jittered"),
+    ("dent", "4-8")])
 def test_flaws_across_the_border_go_from_the_region(kind: str, diagonals: str) -> None:
     clean, F = design(diagonals)
     flawed = clean.copy()
@@ -75,7 +76,7 @@ def test_flaws_across_the_border_go_from_the_region(kind: str, diagonals: str) -
     assert left[1] < 1.2 * left[0] and left[1] < 1.05 * before
 
 
-@pytest.mark.parametrize("diagonals", ["regular", "random", "jittered", "4-8"])
+@pytest.mark.parametrize("diagonals", ["random", "4-8"])
 def test_a_clean_panel_keeps_its_border(diagonals: str) -> None:
     panel = Panel(*design(diagonals))
     V, told = fair(panel)
@@ -193,8 +194,8 @@ def free_moves(border: Callable) -> Array:
     return (border(panel, limit=np.inf)[0] - panel.V)[panel.used, 2]
 
 
-@pytest.mark.parametrize("side", [(-1.0, 1.0), (0.0, 1.0), (-0.5, 0.1)])
-@pytest.mark.parametrize("strength", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize(("strength", "side"), [(0.0, (-1.0, 1.0)), (0.3, (-0.5, 0.1)), (1.0, (0.0, 1.0)),
+                                                (1.0, (-0.5, 0.1))])
 def test_the_vertices_that_the_limit_holds_back_are_counted(strength: float, side: tuple[float, float]) -> None:
     """Those that go beyond it where there is none, whatever share of the move is made, and it is said."""
     panel, limit = noisy_panel(), 1e-4

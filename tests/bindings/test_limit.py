@@ -292,7 +292,7 @@ SOLVE_MESH = """
 import sys
 import reflines
 from sample_panels import LINE, VIEW, panel, rippled
-positions, triangles = panel(140)
+positions, triangles = panel(125)
 start = rippled(positions, amplitude=3e-4, wavelength=0.15)
 optimizer = reflines.ShapeOptimizer(start, triangles, view_direction=VIEW, line_direction=LINE)
 optimizer.solve(reflines.smooth(optimizer, length=0.3), limit=1e-4)
@@ -303,7 +303,7 @@ import sys
 import reflines
 from sample_cages import LINE, VIEW, dented, hood, optimizer
 for share in (0.3, 0.03):
-    solver = optimizer(dented(hood(24, 20), VIEW, LINE), level=3)
+    solver = optimizer(dented(hood(18, 15), VIEW, LINE), level=3)
     target = reflines.smooth(solver, length=0.35)
     limit = share * solver.solve(target).largest_move
     solver.reset()

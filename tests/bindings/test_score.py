@@ -7,7 +7,7 @@ import reflines
 from sample_panels import grid
 
 VIEW, LINE = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
-DEPTHS = (1e-5, 1e-4, 3e-4, 1e-3, 2e-3, 3e-3, 5e-3, 1e-2)
+DEPTHS = (1e-5, 3e-4, 1e-3, 2e-3, 3e-3, 5e-3, 1e-2)
 CELLS = 100
 BEND, TWIST, WAVE = 0.15, 2e-3, 0.2  # z = -BEND y^2 + TWIST y sin(2 pi x / WAVE)
 
