@@ -1,9 +1,9 @@
 """Tests the package in the Blender of each Debian: 3.4 in bookworm, 4.3 in trixie, 5.2 in sid.
 
 Each suite of Debian gets a root of its own by debootstrap, kept in the cache folder, with Blender and what the tests
-need, but without the libraries that the solver is made of. There the package is installed as a user would, and the tests run
-against what was installed; the add-on's source is not there at all. A suite whose archive cannot be had counts as
-skipped. Needs root.
+need, but without the libraries that the solver is made of. There the package is installed as a user would, and the
+tests run against what was installed; the add-on's source is not there at all. A suite whose archive cannot be had
+counts as skipped. Needs root.
 
     .ci/matrix.py [SUITE...]
 """
