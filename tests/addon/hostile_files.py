@@ -191,6 +191,12 @@ def put_object(path: str, value: object, ob: bpy.types.Object) -> None:
     put(ob, f"reflection_lines.{path}", value)
 
 
+def put_report(value: float, ob: bpy.types.Object) -> None:
+    """Puts a number in the place of every number of the report."""
+    for name in REPORT:
+        put_object(f"report.{name}", value, ob)
+
+
 def put_all(value: object, ob: bpy.types.Object) -> None:
     for block in (bpy.context.scene, ob):
         put(block, "reflection_lines", value)
@@ -275,8 +281,7 @@ FILES: dict[str, Change] = {
     **{f"no number in {path}": partial(put_scene, path, NAN) for path in NUMBERS},
     **{f"endless {path}": partial(put_scene, path, INF) for path in NUMBERS},
     **{f"count {path}": partial(put_scene, path, value) for path, value in COUNTS.items()},
-    **{f"report with {value} in {name}": partial(put_object, f"report.{name}", value)
-       for name in REPORT for value in (NAN, -HUGE)},
+    **{f"report with {value} in every number": partial(put_report, value) for value in (NAN, -HUGE)},
     "text for a length": partial(put_scene, "length", "text"),
     "a list for a choice": partial(put_scene, "border", [1.0, 2.0]),
     "a number for the stripes": partial(put_scene, "stripes", 5),

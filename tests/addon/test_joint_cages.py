@@ -3,7 +3,6 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-import pytest
 from reflection_lines.model.beside import Crossing
 from reflection_lines.read import gather
 
@@ -67,14 +66,13 @@ def share_gone(before: np.ndarray, after: np.ndarray, dent: tuple) -> float | No
     return float(np.median(((after - before) @ view)[near]) / (depth / (view @ out))) if near.any() else None
 
 
-@pytest.mark.parametrize("even", [False, True])
-def test_bonnet_wing_and_door_of_the_car_are_healed_in_one_press(even: bool) -> None:
+def test_bonnet_wing_and_door_of_the_car_are_healed_in_one_press() -> None:
     """Bonnet and door are meshes, the wing is a cage, and all have a Mirror; two dents lie across their shut lines."""
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / "car.blend"), load_ui=False)
     bpy.ops.object.mode_set(mode='OBJECT')
     panels = car_crossings.dent_shut_lines()
     before = {ob.name: places(ob) for ob in panels}
-    assert scenes.smooth(border='follow', even_flush=even) == {'FINISHED'}
+    assert scenes.smooth(border='follow') == {'FINISHED'}
     for ob in panels:
         shares = [share_gone(before[ob.name], places(ob), dent) for dent in car_crossings.DENTS]
         known = [share for share in shares if share is not None]

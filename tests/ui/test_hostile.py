@@ -18,7 +18,7 @@ from picture import drawn
 from window import Steps
 
 # Not drawn: what tools alone read, and a second value where there is one.
-UNSEEN = ("record", "run: ", "handles: ", "endless ", f"report with {-hostile_scenes.HUGE}")
+UNSEEN = ("record", "run: ", "handles: ", "endless ")
 FOLDER = tempfile.mkdtemp()
 PATH, SOLVED = (os.path.join(FOLDER, name) for name in ("hostile.blend", "solved.blend"))
 
