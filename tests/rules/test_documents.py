@@ -13,7 +13,8 @@ from tree import ROOT, python_files
 README = Path("README.md")
 BENCHMARKS = Path("tests/bench/README.md")
 MANUAL = Path("addon/manual/index.html")
-DOCUMENTS = (README, BENCHMARKS, MANUAL, *map(Path, ("blend_samples/README.md", "CHANGELOG.md", "tests/README.md")))
+DOCUMENTS = (README, BENCHMARKS, MANUAL, *map(Path, ("blend_samples/README.md", "CHANGELOG.md", "tests/README.md",
+                                                     "tests/bench/trials.md")))
 LONGEST_README = 950   # words; the models of this project have 40 to 1,000
 LARGEST_PICTURES = 1.1e6  # bytes of all pictures that the package carries for the manual
 
