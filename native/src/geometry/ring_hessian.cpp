@@ -16,8 +16,8 @@ namespace {
 // matrix holds squares, so this is a ratio of 1e-5 between the points' own singular values.
 constexpr double kOnConic = 1e-10;
 
-// The cubic_error above which a cubic is fitted instead of a quadratic: inside irregular meshes rings have 0.13 to 0.41
-// at aspect 1, 0.3 to 0.4 round poles, where cubics double or triple the noise, and up to 8 at aspect 8.
+// The cubic_error above which a cubic is fitted instead of a quadratic: what rings of compact triangles have at most.
+// Round poles, with as much, cubics would double or triple the noise.
 constexpr double kMostRingError = 0.4;
 
 // The penalty on third derivatives, relative to one point of the fit at distance 1.

@@ -14,8 +14,7 @@ constexpr double kPaperThreshold = 5.0;
 // and every ring costs fill. The paper's measure grows with the aspect.
 constexpr double kMostMagnitude = 5.0;
 
-// The cubic_error above which kConsistent takes the ring: irregular meshes of aspect 1 have 0.45 to 0.72, of aspect 8
-// up to 17.
+// The cubic_error above which kConsistent takes the ring: irregular meshes of compact triangles have less.
 constexpr double kMostCubicError = 0.8;
 
 bool is_good(const HeightField& field, int t, const HessianStencil& six, StencilKind kind) {

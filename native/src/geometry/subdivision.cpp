@@ -115,11 +115,9 @@ Far::TopologyDescriptor describe(const Cage& cage, const Tags& tags) {
   return descriptor;
 }
 
-// Refines uniformly, though adaptive refinement with limit stencils is faster: a cage of 2,025 vertices at level 3
-// takes 0.37 s of processor time, 0.12 s of it OpenSubdiv's, against 0.05 s and the same conversion; once a session.
-// But patches give the limit only, so that faces and refined positions need the uniform levels all the same, and they
-// deviate from it where uniform refinement does not: by 4e-3 of the size at the smooth corner of a sheet isolated to
-// level 3.
+// Refines uniformly, though adaptive refinement with limit stencils is faster: patches give the limit only, so that
+// faces and refined positions need the uniform levels all the same, and they deviate from it, by 4e-3 of the size at
+// the smooth corner of a sheet, where uniform refinement does not.
 Refiner refine(const Cage& cage, const SubdivisionOptions& options) {
   Sdc::Options rules;
   rules.SetCreasingMethod(Sdc::Options::CREASE_UNIFORM);

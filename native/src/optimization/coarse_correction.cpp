@@ -32,9 +32,8 @@ void run_in_parallel(const std::function<void()>& first, const std::function<voi
 }  // namespace
 
 // Moves the start near the minimum by the coarse problem before the first factorization: a factor at a distant start
-// needed 26 steps on the bumps of the benchmark, or a second factor, and one near the minimum needs 1 to 5, at the cost
-// of one evaluation of the fine problem and some steps. The coarse problem occupies one thread, for about as long as
-// the symbolic analysis, which needs no values, takes on another.
+// needs up to 26 steps, or a second factor, one near the minimum few. The coarse problem occupies one thread, for about
+// as long as the symbolic analysis, which needs no values, takes on another.
 void Descent::approach() {
   if (!learns_from_steps() || factor_is_kept() || stopping_.is_cancelled() || gradient_is_small()) return;
   const SparseMatrix* pattern = problem_.size() > kWorthAThread ? problem_.pattern() : nullptr;

@@ -8,8 +8,8 @@ namespace reflines {
 
 // Marks the features (#T) of a field (#T x 2): connected triangles whose |grad theta| is over 8 times the region's
 // median and over 10 / diagonal, and that together extend farther than `length`. A strong bend shorter than the
-// length in every direction is a flaw and is smoothed; an extended one is design. Without this a smoothing length of
-// 0.2 m removes a fillet of 4 cm radius: measured on a car's bonnet cut out with its flanks, vertices move by 36 mm.
+// length in every direction is a flaw and is smoothed; an extended one is design, as a fillet of 4 cm radius is, which
+// a smoothing length of 0.2 m would remove.
 Mask strong_features(const HeightField& field, const PlaneVectors& gradient, double length);
 
 // Measures how far the tools change the lines of each triangle (#T) of a field (#T x 2): 1 up to a third of `strong`,

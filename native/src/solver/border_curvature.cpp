@@ -15,8 +15,8 @@ namespace {
 constexpr double kRangeEdges = 6.0;     // mean edges that the pull reaches at least
 constexpr double kRangeFraction = 0.1;  // of the region's diagonal that it reaches at least
 
-// The factor of the range where third derivatives continue the second ones: with 1, 1.25 and 1.5 a clean bonnet moves
-// by 8, 11 and 14 mm, and the rate of the curvature across comes nearer.
+// The factor of the range where third derivatives continue the second ones: with more the rate of the curvature across
+// comes nearer, and a clean bonnet moves further.
 constexpr double kFlowRange = 1.5;
 
 double measure_mean_edge(const HeightField& field) {

@@ -230,8 +230,7 @@ Jets average_along(const Beside& beside, const Jets& own) {
 Vector5 BorderJet::at(const Vector2& place) const {
   if (!flows) return u;
   // The place tends to the range from inside, and leaves the polynomial like the fifth power of the distance. Without
-  // a range, a clean bonnet whose surroundings begin to bend down beside the region moves by 67 mm, with it by 14 mm;
-  // half the range gives 12 mm, but leaves the rates across beside dents and ripples 13 and 35 % further off.
+  // a range, a clean bonnet whose surroundings begin to bend down beside the region moves five times as far.
   const double far = place.squaredNorm() / (range * range), fraction = std::pow(1 + far * far, -0.25);
   const double x = fraction * place.x(), y = fraction * place.y();
   const Vector3 turned(third(0) * x + third(1) * y, third(1) * x + third(2) * y, third(2) * x + third(3) * y);

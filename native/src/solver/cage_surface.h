@@ -8,8 +8,7 @@ namespace reflines {
 
 // A region of a subdivision surface, with its own indices of vertices and triangles. The unknowns' start is relative to
 // the mean of the cage's vertices and not to the region's centroid, as the surface's heights are: the constant c of z =
-// B x + c takes up the difference, and the other origin changes the last bits of every cage's result (20 of 20 cases of
-// the bit identity test) to no gain.
+// B x + c takes up the difference, and the other origin changes the last bits of every cage's result to no gain.
 struct CageSurface {
   SparseMatrix S;       // #vertices x #V
   Positions positions;  // S V; of symmetric cages symmetric to the last bit

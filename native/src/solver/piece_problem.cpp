@@ -10,9 +10,7 @@ namespace reflines {
 namespace {
 
 // The default proximity with a free border, where the lines leave affine functions open (see
-// TargetTerms::build_crossing). Measured with a clean panel as target for a rippled one, free on all sides: with 1e-6
-// it tilts by 7 times the ripples (the lines hardly determine it), with 10 by 1 %, and up to 1000 the lines come out
-// the same.
+// TargetTerms::build_crossing): a rippled panel, free on all sides, tilts by 1 % of the ripples.
 constexpr double kFreeBorderProximity = 10.0;
 
 // The default proximity of cages: a vertex may move no sample that counts (weight 0, hidden lines), and then the

@@ -12,8 +12,7 @@ namespace {
 // The relative change (root mean squares) of the unreachable part below which iteration stops: it turns lines by some
 // 0.1 degrees.
 constexpr double kInvisible = 0.002;
-// The number of averages in a row: of 1, 2 and 4 the third round leaves kinks of 0.7, 0.5, 0.4 degrees with random
-// diagonals.
+// The number of averages in a row: after one, more of the kinks by random diagonals is left, after more hardly less.
 constexpr int kAverages = 2;
 // The range of the weight of the previous round in Anderson's method.
 constexpr double kFarthest = 4.0, kMostOfBefore = 0.5;

@@ -15,9 +15,9 @@ namespace reflines {
 // The unreachable part of a smooth target is a smooth residual r that in the continuum is orthogonal to every motion:
 // the integral of r D phi vanishes for every phi. The second-order stencils D are exact on quadratic heights but not
 // conservative: sum A r . D phi is 0 up to noise as large as r on motions of a few triangles, which bends the lines
-// from triangle to triangle however fine the mesh is (by 18 degrees on a 4-8 mesh). A target without r has no such
-// effect. r is the fixed point of c = average(target - field solved for target - c), found by Anderson's method of
-// depth one: on a 4-8 mesh the imprint itself averages to half of r, and plain iteration only halves it in each round.
+// from triangle to triangle however fine the mesh is. A target without r has no such effect. r is the fixed point of c
+// = average(target - field solved for target - c), found by Anderson's method of depth one: on a 4-8 mesh the imprint
+// itself averages to half of r, and plain iteration only halves it in each round.
 //
 // Beside values r is no longer orthogonal: it balances what the values lack. So what values with reachable_only lack is
 // taken off them too; others are to be met.

@@ -24,7 +24,7 @@ constexpr double kStayWeight = 1e4;
 constexpr double kFirmest = kStayWeight - 1;  // where the map is 0
 // The weight of the values around a pull, for an area of radius^2, and the fraction of the radius where it falls to 0.
 // Heights under a held border come to a third to three quarters of c; without it the rest is a corner of the line at
-// the handle. At a fifth of the radius along the line 0.74 of the pull are left without it, and 0.80 with it.
+// the handle.
 constexpr double kRoundWeight = 500;
 constexpr double kRound = 1.0 / 3;
 constexpr double kPlaceEdges = 2.5;  // edges that the triangles around a place measure across

@@ -29,7 +29,7 @@ Vector compute_gaussian(double deviation) {
 }
 
 // Convolves the columns of `image`, with border values continued; a whole column for each weight, as they lie in
-// memory. A row for each took 40 times as long: 9 s instead of 0.2 for 64 pixels on 1024 x 1024.
+// memory: row by row it takes 40 times as long.
 Eigen::MatrixXd blur_columns(const Eigen::MatrixXd& image, const Vector& kernel) {
   const Eigen::Index rows = image.rows(), radius = kernel.size() / 2;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, image.cols());

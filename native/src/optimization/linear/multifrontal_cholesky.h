@@ -14,9 +14,8 @@ namespace reflines {
 // Computes the values of a supernodal factor, whose structure CHOLMOD has found, by the multifrontal method (Duff and
 // Reid, ACM Trans. Math. Software 9, 1983; Liu, SIAM Review 34, 1992): each supernode adds the update matrices of its
 // children to its columns, factors them densely, and leaves an update matrix to its parent. Subtrees of the elimination
-// tree are factored at the same time, and the few large fronts above them by tiles on all cores. CHOLMOD's own
-// factorization, whose fronts are too small here to gain by threads, takes 222 ms for 100,000 unknowns; this 130 on two
-// cores.
+// tree are factored at the same time, and the few large fronts above them by tiles on all cores: it takes 0.6 of the
+// time of CHOLMOD's own factorization on two cores, whose fronts are too small here to gain by threads.
 class MultifrontalCholesky {
  public:
   // Takes the structure of the factor, whose values may be allocated later, of a matrix with this pattern (lower
