@@ -6,7 +6,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import adjust, panel, shown, undone_and_redone
+from dragging import adjust, comes_to, panel, shown, undone_and_redone
 from window import Steps
 
 
@@ -81,4 +81,18 @@ def test_resolve_in_edit_mode_is_one_step_there(driver: window.Window) -> Steps:
     assert bpy.context.mode == 'EDIT_MESH'
     after = shown(driver)
     assert not np.array_equal(after, before)
+    yield from undone_and_redone(driver, before, after)
+
+
+def test_resolve_after_ctrl_z_in_edit_mode_presses_again(driver: window.Window) -> Steps:
+    """The run outlives the undo there, its region does not: that is the selection."""
+    panel(driver)
+    before = shown(driver)
+    yield from press_smooth(driver)
+    after = shown(driver)
+    driver.key('Z', ctrl=True)
+    yield from comes_to(driver, before)
+    with driver.override():
+        assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
+    assert bpy.context.mode == 'EDIT_MESH' and np.array_equal(shown(driver), after)
     yield from undone_and_redone(driver, before, after)
