@@ -18,6 +18,7 @@ from tree import ROOT, cpp_files
 BUILD = ROOT / "build/release"
 JUDGED = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "reflection_lines/tidy"
 ROOTS = ("native/include", "native/src", "native", ".")  # where the build looks for an include
+PRECOMPILED = re.compile(r"-Winvalid-pch -include \S+|-fpch-preprocess")  # of g++, which clang cannot read
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -56,7 +57,8 @@ def fingerprint(file: Path, version: bytes) -> str:
 def flags_by_file() -> dict[Path, tuple[str, ...]]:
     """The compiler's flags for each translation unit of the build."""
     entries = json.loads(read_compile_commands())
-    words = {Path(entry["file"]).relative_to(ROOT): shlex.split(entry["command"]) for entry in entries}
+    words = {Path(entry["file"]).relative_to(ROOT): shlex.split(PRECOMPILED.sub("", entry["command"]))
+             for entry in entries}
     return {file: tuple(command[1:command.index("-o")]) for file, command in words.items()}
 
 
