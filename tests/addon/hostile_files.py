@@ -4,7 +4,7 @@ and saved without the add-on's own hand in it.
 import base64
 import json
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -191,9 +191,9 @@ def put_object(path: str, value: object, ob: bpy.types.Object) -> None:
     put(ob, f"reflection_lines.{path}", value)
 
 
-def put_report(value: float, ob: bpy.types.Object) -> None:
-    """Puts a number in the place of every number of the report."""
-    for name in REPORT:
+def put_report(value: float, names: Sequence[str], ob: bpy.types.Object) -> None:
+    """Puts a number in the place of these of the report."""
+    for name in names:
         put_object(f"report.{name}", value, ob)
 
 
@@ -261,7 +261,7 @@ NUMBERS = ("length", "limit", "strength", "stripes.image_rotation", "direction.d
            "direction.radius", "direction.angle", "warp.amount", "pattern.width", "pattern.blur", "pull.radius",
            "marks.gap", "marks.curvature")
 COUNTS = {"stripes.count": -5, "brush.size": -7}
-REPORT = ("length", "score_before", "score_after", "largest_move", "cage_move", "residual_before", "residual_after",
+REPORT = ("length", "score_before", "score_after", "cage_move", "residual_before", "residual_after",
           "automatic_limit", "automatic_length", "seconds")
 FILES: dict[str, Change] = {
     **{f"record: {name}": partial(change_record, change) for name, change in RECORDS.items()},
@@ -281,7 +281,9 @@ FILES: dict[str, Change] = {
     **{f"no number in {path}": partial(put_scene, path, NAN) for path in NUMBERS},
     **{f"endless {path}": partial(put_scene, path, INF) for path in NUMBERS},
     **{f"count {path}": partial(put_scene, path, value) for path, value in COUNTS.items()},
-    **{f"report with {value} in every number": partial(put_report, value) for value in (NAN, -HUGE)},
+    "report with NaN in every number": partial(put_report, NAN, ("largest_move", *REPORT)),
+    "report with a number below all in every one": partial(put_report, -HUGE, REPORT),
+    "report with a number below all for the move": partial(put_report, -HUGE, ("largest_move",)),
     "text for a length": partial(put_scene, "length", "text"),
     "a list for a choice": partial(put_scene, "border", [1.0, 2.0]),
     "a number for the stripes": partial(put_scene, "stripes", 5),
