@@ -11,7 +11,8 @@ import scenes
 
 
 @pytest.mark.parametrize("change", hostile_files.FILES.values(), ids=hostile_files.FILES)
-def test_tools_end_well(panel, change, capfd, tmp_path: Path) -> None:
+def test_tools_end_well(change, capfd, tmp_path: Path) -> None:
+    panel = scenes.edited_panel(cells=8)
     assert scenes.smooth() == {'FINISHED'}
     scenes.object_mode()
     sys.modules["reflection_lines.state.persistence"].save_solves()
