@@ -7,6 +7,7 @@ from reflection_lines import native
 from reflection_lines.state import solve_history
 
 import scenes
+from test_automatic_smooth import unit_axis
 from test_borders import set_border
 
 CELLS, MARGIN = 48, 10
@@ -32,11 +33,6 @@ def rim() -> np.ndarray:
 def own_vertices() -> np.ndarray:
     i, j = np.arange(ROW**2) % ROW, np.arange(ROW**2) // ROW
     return np.maximum(np.abs(i - CELLS // 2), np.abs(j - CELLS // 2)) <= CELLS // 2 - MARGIN
-
-
-def unit_axis(ob: bpy.types.Object) -> np.ndarray:
-    axis = np.array(ob.matrix_world, dtype=float)[:3, 2]
-    return axis / np.linalg.norm(axis)
 
 
 def test_a_press_gives_the_positions_of_the_native_function_to_the_bit() -> None:

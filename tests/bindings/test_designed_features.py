@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 import reflines
 from sample_panels import Array, grid
+from test_smooth_panel import VIEW, theta
 
-VIEW, LINES = np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0])
+LINES = np.array([0.0, -1.0, 0.0])
 SIZE = np.array([1.4, 1.0])
 DIAGONAL = float(np.hypot(*SIZE))
 
@@ -67,13 +68,6 @@ def error(V: Array, clean: Array, F: Array, where: Array | float = 1.0) -> float
         off = theta(V, F, light) - theta(clean, F, light)
         squared += (off**2 * area).sum() / area.sum() / 2
     return float(np.degrees(np.sqrt(squared)))
-
-
-def theta(V: Array, F: Array, a: Array) -> Array:
-    n = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    r = 2 * (n @ VIEW)[:, None] * n / (n * n).sum(1)[:, None] - VIEW
-    across = VIEW - (VIEW @ a) * a
-    return np.arctan2(r @ np.cross(a, across), r @ across)
 
 
 def press(V: Array, F: Array, z: Array) -> tuple[Array, object]:

@@ -1,5 +1,4 @@
 """Waves longer than flaws may be design: a press leaves them and says so; the size of flaws is a setting."""
-import importlib.util
 import sys
 from pathlib import Path
 
@@ -7,11 +6,13 @@ import numpy as np
 import pytest
 import reflines
 from sample_panels import grid
+from test_sample_lengths import measure_error
+
+from bench.restoration import JUDGE, load_judge
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
 import panel_shapes  # noqa: E402
 
-JUDGE = Path(__file__).resolve().parents[3] / "shared/restoration/restoration.py"
 DOOR = {"view_direction": (1.0, -0.10, 0.22), "line_direction": (0.0, 1.0, 0.0)}
 Array = np.ndarray
 
@@ -23,14 +24,6 @@ def make_door() -> tuple[Array, Array, Array]:
     used, F = np.unique(np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]), return_inverse=True)
     straight = np.column_stack([clean, V[:, 1:]])
     return V[used], straight[used], F.reshape(-1, 3).astype(np.int32)
-
-
-def measure_error(V: Array, clean: Array, F: Array) -> float:
-    """Degrees: root mean square angle of the triangles' normals to the clean ones."""
-    sides = [np.cross(P[F[:, 1]] - P[F[:, 0]], P[F[:, 2]] - P[F[:, 0]]) for P in (V, clean)]
-    area = np.linalg.norm(sides[1], axis=1)
-    turned = np.linalg.norm(np.cross(*sides), axis=1) / (area * np.linalg.norm(sides[0], axis=1))
-    return float(np.degrees(np.sqrt((turned**2 * area).sum() / area.sum())))
 
 
 def test_the_doors_waves_go() -> None:
@@ -82,9 +75,7 @@ def test_waves_on_a_plain_panel_are_told() -> None:
 @pytest.mark.parametrize("name", ["drivaer_hood", "drivaer_hood_wide", "subaru_roof"])
 def test_of_real_panels_only_wavy_ones_are_told(name: str) -> None:
     """Not clean ones, nor those with noise, ripples or dents; and twice the size makes nothing told of worse."""
-    spec = importlib.util.spec_from_file_location("restoration", JUDGE)
-    judge = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(judge)
+    judge = load_judge()
     panel = judge.json.loads((JUDGE.parent / "selections.json").read_text())[name]
     V, F = judge.load(panel["file"], panel.get("patch"))
     view = judge.unit(panel["view_direction"])

@@ -4,10 +4,6 @@ The panel is a bonnet made in code: crowned, with a character line that runs on 
 jittered grid with random diagonals. Errors are read by the paper's eq. 1 at the triangles' normals, which shares no
 code with the solver.
 """
-import importlib.util
-from pathlib import Path
-from types import ModuleType
-
 import numpy as np
 import pytest
 import reflines
@@ -15,9 +11,10 @@ from sample_panels import LINE as PANEL_LINE
 from sample_panels import VIEW as PANEL_VIEW
 from sample_panels import grid, panel, rippled
 
+from bench.restoration import JUDGE, load_judge
+
 VIEW, LINES = np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0])
 LIGHTS = (LINES, np.array([1.0, 0.0, 0.0]))
-JUDGE = Path(__file__).resolve().parents[3] / "shared/restoration/restoration.py"
 
 
 def design(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -265,13 +262,6 @@ def test_a_cancelled_press_raises(bonnet: tuple[np.ndarray, np.ndarray]) -> None
     progress.cancel()
     with pytest.raises(reflines.Cancelled):
         press(*bonnet, progress=progress)
-
-
-def load_judge() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("restoration", JUDGE)
-    judge = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(judge)
-    return judge
 
 
 @pytest.mark.skipif(not JUDGE.is_file(), reason="the judge's panels are not here")
