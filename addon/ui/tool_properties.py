@@ -121,8 +121,8 @@ class SmoothSettings:
                               description="Smooth only along the lines: they become straight, their spacing stays")
     lights: lights_property()
     symmetric: BoolProperty(name="Symmetric", default=True, **SAVED,
-                            description="With the automatic length, what one half of a symmetric panel has and the "
-                            "other has not is a flaw")
+                            description="With the automatic length, what one half of the panel has and the other has "
+                            "not is a flaw, where they are alike otherwise")
     flaw_size: FloatProperty(name="Flaw Size", default=1.0, min=0.1, soft_min=0.5, soft_max=4.0, max=16.0,
                              precision=2, **SAVED, description="Of the automatic length: with 2, waves twice as long "
                              "count as flaws, and so may designs of that size")

@@ -59,7 +59,7 @@ struct SmoothPanelOptions {
   // Fractions of the limit for each vertex (#V, of a cage its own): the lowest moves -1 to 0, the highest 0 to 1.
   // Empty: -1 and 1 everywhere.
   MoveLimit limit_range;
-  bool symmetric = true;               // what one half of a symmetric panel has and the other has not is a flaw
+  bool symmetric = true;               // what one of two halves that are alike otherwise has is a flaw
   std::shared_ptr<Progress> progress;  // or none
 };
 
@@ -127,8 +127,8 @@ struct SmoothPanelResult {
 };
 
 // Takes flaws out of a panel V (#V x 3), F (#F x 3) seen along `view_direction` under `line_direction`:
-//  1. what one half of a symmetric panel has and the other has not is a flaw (restoration/mirror_evidence.h);
-//  2. so are round dents and bumps with good surface around them (restoration/bump_removal.h);
+//  1. round dents and bumps with good surface around them are flaws (restoration/bump_removal.h);
+//  2. so is what one half has and the other has not, where they are alike otherwise (restoration/mirror_evidence.h);
 //  3. the rest is smoothed up to a length that differs by place: none where curvature varies as a design's does
 //     (restoration/adaptive_smoother.h); and the shape with the lines of that surface is solved for, within the limit.
 // Each of these is a weight that varies with the surface, so that a small change of the input has a small effect. A
