@@ -38,7 +38,7 @@ class Halves {
     const Vector typical = mean.of(unbounded.cwiseAbs2()).cwiseSqrt(), most = kRules.symmetry.roughest * typical;
     images.design =
         find_designed_differences(xy_, field_.F, rise, typical, kRules.symmetry.deepest * diagonal_, length_);
-    const Vector spared = average_over(kRules.symmetry.taper).of((!images.design).cast<double>().matrix());
+    const Vector spared = average_over(kRules.symmetry.averaged).of((!images.design).cast<double>().matrix());
     // Bounded as that of the heights is: else the peak of a dent would count in the difference only, and a quarter of
     // it would be taken for a bump of the other side.
     const Vector own = mean.of(unbounded.cwiseMin(most).cwiseAbs2());
@@ -63,10 +63,10 @@ class Halves {
   Vector find_rise(const SeenPoints& points, const MirrorImages& images) const {
     const Vector own = find_mirrored_rise(points, images) - images.kept, paired = images.paired.cast<double>();
     if ((own.array() == 0).all()) return own;
-    const Vector mean = DiskMean(xy_, paired, kRules.symmetry.taper * length_).of(own);
+    const Vector mean = DiskMean(xy_, paired, kRules.symmetry.averaged * length_).of(own);
     const Eigen::ArrayXd inexact = images.aside.array() / (kRules.symmetry.exact * diagonal_);
     const Eigen::ArrayXd rise = mean.array() + paired.array() / (1.0 + inexact.square()) * (own - mean).array();
-    const Eigen::ArrayXd squared = average_over(kRules.symmetry.taper).of(rise.square().matrix());
+    const Eigen::ArrayXd squared = average_over(kRules.symmetry.averaged).of(rise.square().matrix());
     const Eigen::ArrayXd least = (kRules.symmetry.aside * images.aside.array()).square() + kLeast;
     return rise * squared / (squared + least);
   }

@@ -159,12 +159,11 @@ double find_images(const SeenPoints& points, const PointGrid& grid, double diago
 // Finds how surely the surface is symmetric around each place q (#V x 2), and how far aside images lie there.
 void weigh_around(const PlanePositions& q, double length, MirrorImages& images) {
   const Vector paired = images.paired.cast<double>();
-  const double radius = kRules.symmetry.around * length;
   const double whole = smoothstep(kRules.symmetry.least_paired, kRules.symmetry.most_paired, paired.mean());
-  images.weight = DiskMean(q, Vector::Ones(q.rows()), radius).of(paired).unaryExpr([&](double fraction) {
+  images.weight = DiskMean(q, Vector::Ones(q.rows()), length).of(paired).unaryExpr([&](double fraction) {
     return whole * smoothstep(kRules.symmetry.unpaired, kRules.symmetry.paired, fraction);
   });
-  images.aside = DiskMean(q, paired, radius).of(images.aside);
+  images.aside = DiskMean(q, paired, length).of(images.aside);
 }
 
 // Returns true where two planes have the same images for the most part: they are one plane but for flaws, which do not

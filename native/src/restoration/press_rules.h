@@ -66,22 +66,20 @@ struct SymmetryRules {
   double aside = 3.0;            // times how far aside they lie there: lower differences tell nothing
   double deepest = 3e-3;         // diagonals: a difference of height that may be a flaw
   double least_paired = 0.25, most_paired = 0.5;  // of all vertices: from no plane of symmetry to one
-  double around = 1.0;                            // lengths: of "around a place", where vertices have partners:
-  double unpaired = 0.6, paired = 0.95;           // of those there, from none to all
+  double unpaired = 0.6, paired = 0.95;           // of the vertices within a length: from no symmetry there to all
   double smooth = 2.0;                            // lengths: over which differences are smooth, and so design:
   double unexplained = 0.7, explained = 0.95;     // of their squares that a quadratic explains, from none to all
   double design_height = 3e-4;                    // diagonals: by smooth ones of that halves are hardly alike
   double roughness_radius = 0.56;                 // lengths: over which roughness is compared
-  double roughest = 2.0;         // root mean squares of the difference: roughness counts up to that, as of fillets
-  double taper = 0.28;           // lengths: over which corrections rise from nothing beside designed differences
-  double design_slope = 0.045;   // slope from which on a difference is design: that of a steep dent
-  double typical = 4.0;          // medians of the slope: up to that it is everywhere, and so a flaw
-  double averaged = 0.28;        // lengths: over which slopes and heights are averaged, lest noise decide
-  double above_roughness = 1.0;  // mean squares of the roughness around that a designed difference is higher than
-  double skirt = 0.05;           // of a difference's steep part: where its region ends
-  double floor = 2.0;            // medians of the whole: likewise
-  double held_difference =
-      1e-5;  // diagonals: lower differences are none; of what stays, they end symmetry, lest lines kink
+  double roughest = 2.0;        // root mean squares of the difference: roughness counts up to that, as of fillets
+  double design_slope = 0.045;  // slope from which on a difference is design: that of a steep dent
+  double typical = 4.0;         // medians of the slope: up to that it is everywhere, and so a flaw
+  double averaged = 0.28;       // lengths: over which differences and their slopes are averaged, lest noise decide, and
+                                // corrections rise from nothing beside those that are design
+  double above_roughness = 1.0;   // mean squares of the roughness around that a designed difference is higher than
+  double skirt = 0.05;            // of a difference's steep part: where its region ends
+  double floor = 2.0;             // medians of the whole: likewise
+  double held_difference = 1e-5;  // diagonals: lower ones are none; with more among what stays halves may move apart
 };
 
 // Rules of the border; see held_border.h and tangent_match.h.
