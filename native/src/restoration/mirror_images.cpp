@@ -178,18 +178,18 @@ using Found = std::pair<double, MirrorImages>;  // with how far the halves diffe
 // symmetric across its middle, by their normals over `axes`, lest the last digit decide.
 void sort_images(std::vector<Found>& found, const Positions& axes) {
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.first < b.first; });
-  const auto normal = [&](const Found& each) {
-    Vector result = axes * each.second.plane.normal;
-    int first = 0;
-    result.cwiseAbs().maxCoeff(&first);
-    for (int k = static_cast<int>(result.size()) - 1; k >= 0; --k)
-      if (std::abs(result(k)) > kAlike) first = k;
-    return Vector(std::copysign(1.0, result(first)) * result);
+  const auto normal = [&](const Found& each) -> Vector {
+    const Vector result = axes * each.second.plane.normal;
+    for (const double component : result) {
+      if (std::abs(component) > kAlike) return std::copysign(1.0, component) * result;
+    }
+    return result;
   };
   const auto is_before = [&](const Found& a, const Found& b) {
     const Vector one = normal(a), other = normal(b);
-    for (Eigen::Index k = 0; k < one.size(); ++k)
+    for (Eigen::Index k = 0; k < one.size(); ++k) {
       if (std::abs(one(k) - other(k)) > kAlike) return one(k) < other(k);
+    }
     return false;
   };
   for (auto begin = found.begin(); begin != found.end();) {
@@ -212,7 +212,8 @@ std::vector<MirrorImages> find_mirror_images(const SeenPoints& points, double di
   for (const MirrorAcross& plane : list_planes(points.P, diagonal, axes, frame)) {
     MirrorImages images{.plane = plane};
     find_images(points, grid, diagonal, stride, images);
-    if (static_cast<double>(images.paired.count() * stride) < kRules.symmetry.least_paired * count) continue;
+    const double sampled = static_cast<double>(images.paired.count() * stride) / count;
+    if (sampled < kRules.symmetry.least_paired) continue;  // no weight: the other points need not be looked at
     const double difference = find_images(points, grid, diagonal, 1, images);
     const auto is_same = [&](const auto& other) { return are_alike(images, other.second); };
     if (std::any_of(found.begin(), found.end(), is_same)) continue;
