@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 
+import gaps
 import scenes
 from test_across_gap import places, start_several
 from test_joined_mirrors import VIEWS
@@ -87,14 +88,8 @@ def measure_gap(left: bpy.types.Object, right: bpy.types.Object,
                 inner: Callable[[Array], Array] = lies_inside) -> dict[str, Array]:
     addon, scene = sys.modules["reflection_lines"], bpy.context.scene
     seen = addon.view.facing.read_patch_view(scene, addon.read.gather.gather_patch(left))
-    (V, F), (W, G) = surface(left), surface(right)
-    found = addon.native.reflines.check_shut_lines(
-        V, V, F, np.ones(len(F), dtype=bool), W, G, label=np.zeros(len(G), dtype=int),
-        view_direction=seen.view_direction, line_direction=seen.line_direction,
-        spacing=2.0 * np.pi / scene.reflection_lines.stripes.count)
-    chosen = inner(V[found.edges].mean(axis=1))
-    assert chosen.sum() > 10
-    return {name: getattr(found.after, name)[chosen] for name in ("gap", "flush", "kink", "line_offset")}
+    found, middle = gaps.measure(surface(left), surface(right), seen)
+    return gaps.choose(found, inner(middle))
 
 
 @pytest.mark.parametrize("levels", [2, 3])
@@ -112,10 +107,7 @@ def test_lines_run_on_over_the_gap_as_before(tool: str, kind: str, levels: int) 
           *(float(after[name].max() - before[name].max()) for name in ("kink", "line_offset")),
           *(float(np.abs(after[name] - before[name]).max()) for name in ("flush", "gap")))
     assert min(rims) > 4e-5
-    assert after["kink"].max() < before["kink"].max() + KINK
-    assert after["line_offset"].max() < before["line_offset"].max() + OFFSET
-    assert np.abs(after["flush"] - before["flush"]).max() < FIT
-    assert np.abs(after["gap"] - before["gap"]).max() < FIT
+    gaps.assert_kept(before, after, kink=KINK, offset=OFFSET, fit=FIT)
     bpy.ops.ed.undo()
     assert all(np.array_equal(places(bpy.data.objects[name]), old)
                for name, old in zip(("Left", "Right"), was, strict=True))

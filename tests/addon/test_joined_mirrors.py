@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 import pytest
 
+import gaps
 import scenes
 from test_across_gap import places, start_several
 from test_joined_panels import FIT, GAP, KINK, OFFSET, list_triangles, remove_all
@@ -60,15 +61,8 @@ def with_image(ob: bpy.types.Object) -> tuple[Array, Array]:
 def measure_gap(one: bpy.types.Object, other: bpy.types.Object) -> dict[str, Array]:
     addon, scene = sys.modules["reflection_lines"], bpy.context.scene
     seen = addon.view.facing.read_patch_view(scene, addon.read.gather.gather_patch(one))
-    (V, F), (W, G) = with_image(one), with_image(other)
-    found = addon.native.reflines.check_shut_lines(
-        V, V, F, np.ones(len(F), dtype=bool), W, G, label=np.zeros(len(G), dtype=int),
-        view_direction=seen.view_direction, line_direction=seen.line_direction,
-        spacing=2.0 * np.pi / scene.reflection_lines.stripes.count)
-    middle = V[found.edges].mean(axis=1)
-    inner = (np.abs(middle) < 0.8).all(axis=1)
-    assert inner.sum() > 10
-    return {name: getattr(found.after, name)[inner] for name in ("gap", "flush", "kink", "line_offset")}
+    found, middle = gaps.measure(with_image(one), with_image(other), seen)
+    return gaps.choose(found, (np.abs(middle) < 0.8).all(axis=1))
 
 
 def turn(**settings: object) -> set[str]:

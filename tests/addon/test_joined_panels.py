@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 import pytest
 
+import gaps
 import scenes
 from test_across_gap import places, start_several
 
@@ -61,13 +62,8 @@ def measure_gap(left: bpy.types.Object, right: bpy.types.Object) -> dict[str, Ar
     addon, scene = sys.modules["reflection_lines"], bpy.context.scene
     panels = [addon.read.gather.gather_patch(ob) for ob in (left, right)]
     seen = addon.view.view_and_light.read_scene_view(scene, addon.model.meeting.find_middle(panels))
-    (V, F), (W, G) = ((places(ob), list_triangles(ob)) for ob in (left, right))
-    found = addon.native.reflines.check_shut_lines(
-        V, V, F, np.ones(len(F), dtype=bool), W, G, label=np.zeros(len(G), dtype=int),
-        view_direction=seen.view_direction, line_direction=seen.line_direction,
-        spacing=2.0 * np.pi / scene.reflection_lines.stripes.count)
-    inner = np.abs(V[found.edges].mean(axis=1)[:, 1]) < 0.8
-    return {name: getattr(found.after, name)[inner] for name in ("gap", "flush", "kink", "line_offset")}
+    found, middle = gaps.measure(*((places(ob), list_triangles(ob)) for ob in (left, right)), seen)
+    return gaps.choose(found, np.abs(middle[:, 1]) < 0.8)
 
 
 def list_triangles(ob: bpy.types.Object) -> Array:
@@ -116,10 +112,7 @@ def test_lines_run_on_over_the_gap_as_before(tool: str, kind: str) -> None:
     print(tool, kind, moves, [float(each[name].max()) for each in (before, after) for name in ("kink", "line_offset")],
           float(np.abs(after["flush"] - before["flush"]).max()))
     assert min(moves) > 1e-4
-    assert after["kink"].max() < before["kink"].max() + KINK
-    assert after["line_offset"].max() < before["line_offset"].max() + OFFSET
-    assert np.abs(after["flush"] - before["flush"]).max() < FIT
-    assert np.abs(after["gap"] - before["gap"]).max() < FIT
+    gaps.assert_kept(before, after, kink=KINK, offset=OFFSET, fit=FIT)
     bpy.ops.ed.undo()
     assert all(np.array_equal(places(bpy.data.objects[name]), old)
                for name, old in zip(("Left", "Right"), was, strict=True))
