@@ -252,25 +252,37 @@ def test_a_cancelled_limited_solve_can_be_followed_by_another():
 
 @pytest.mark.parametrize("share", [0.3, 0.1, 0.03, 0.01])
 def test_rounds_that_change_few_of_many_contacts_take_no_factorization(share):
-    """A factorization for each round made these 11, 14, 10 and 11, and those without relaxation before them 7."""
+    """A factorization for each round made these 11, 14, 10 and 11; without relaxation the first takes 4."""
     positions, triangles = ripples(60, amplitude=1e-3)
     positions[:, 2] += np.random.default_rng(1).normal(0, 1e-4, len(positions))
     largest = made(positions, triangles).solve(reflines.smooth(made(positions, triangles), length=0.5)).largest_move
     solver = made(positions, triangles)
     report = solver.solve(reflines.smooth(solver, length=0.5), limit=share * largest)
     assert report.converged and report.limited_fraction > 0.05
-    assert report.factorizations <= 4
+    assert report.factorizations <= 3
 
 
-@pytest.mark.parametrize("share", [0.15, 0.17])
-def test_active_sets_that_follow_each_other_in_a_ring_are_left(share):
-    """Without, these went on to the last round of each step, and ended after 99 factorizations unconverged."""
+@pytest.mark.parametrize(("noise", "angle"), [(1e-5, 0.02), (1e-5, 0.2), (1e-4, 0.1)])
+def test_active_sets_that_follow_each_other_in_a_ring_are_left(noise, angle):
+    """Without, these went on to the last round of each step, and ended unconverged after 265, 5246 and 381 solves."""
+    positions, triangles = ripples(amplitude=1e-2)
+    positions[:, 2] += np.random.default_rng(1).normal(0, noise, len(positions))
+    target = reflines.turn(made(positions, triangles, border="free"), angle=angle)
+    largest = made(positions, triangles, border="free").solve(target).largest_move
+    report = made(positions, triangles, border="free").solve(target, limit=0.01 * largest)
+    assert report.converged, report.message
+    assert report.factorizations <= 15
+
+
+def test_few_contacts_take_no_factorization_of_their_own():
+    """Eliminated, the contacts of these took 9 and 8 factorizations, and at last an estimate from inside."""
     positions, triangles = panel(24)
     positions[:, 2] += np.random.default_rng(1).normal(0, 3e-4, len(positions))
     largest = made(positions, triangles, border="free").solve(turned(positions, triangles)).largest_move
-    report = made(positions, triangles, border="free").solve(turned(positions, triangles), limit=share * largest)
-    assert report.converged, report.message
-    assert report.factorizations <= 15
+    for share in (0.15, 0.17):
+        report = made(positions, triangles, border="free").solve(turned(positions, triangles), limit=share * largest)
+        assert report.converged, report.message
+        assert report.factorizations <= 3
 
 
 def turned(positions, triangles):

@@ -21,6 +21,12 @@ void BorderColumns::clear() {
   right_.resize(0);
 }
 
+void BorderColumns::use_halves(bool may) {
+  if (count() > 0) return;
+  has_halves_ = may && solver_.has_halves();
+  right_.resize(0);
+}
+
 int BorderColumns::find(int unknown) const {
   const auto place = std::find(unknowns_.begin(), unknowns_.end(), unknown);
   return place == unknowns_.end() ? -1 : static_cast<int>(place - unknowns_.begin());
@@ -82,13 +88,10 @@ void BorderColumns::add_whole(const SparseMatrix& columns, const Progress* progr
 }
 
 Vector BorderColumns::begin(const Vector& right) {
-  if (!has_halves_) {
+  if (right_.size() == 0 || right != right_) {
     right_ = solved_ = right;
-    solver_.solve(solved_);
-    ++solves_;
-  } else if (right_.size() == 0 || right != right_) {
-    right_ = solved_ = right;
-    solver_.solve_lower(solved_);
+    has_halves_ ? solver_.solve_lower(solved_) : solver_.solve(solved_);
+    solves_ += has_halves_ ? 0 : 1;
   }
   return multiply_transposed(solved_);
 }
@@ -109,24 +112,28 @@ Vector BorderColumns::multiply_transposed(const Vector& x) const {
 }
 
 Vector BorderColumns::finish(const Vector& z) {
+  if (!has_halves_ && z.isZero(0)) return solved_;
+  return finish_from(has_halves_ ? solved_ : right_, z);
+}
+
+Vector BorderColumns::respond(const Vector& z) { return -finish_from(Vector::Zero(right_.size()), z); }
+
+// Takes off B z, and makes the solve whole.
+Vector BorderColumns::finish_from(Vector x, const Vector& z) {
   Eigen::Index first = 0;
   if (has_halves_) {
-    Vector x = solved_;
     for (const SparseColumns& block : halves_) {
       block.subtract_product(z.segment(first, block.value.cols()), x);
       first += block.value.cols();
     }
     solver_.solve_upper(x);
-    ++solves_;
-    return x;
+  } else {
+    for (const SparseMatrix& columns : columns_) {
+      x -= columns * z.segment(first, columns.cols());
+      first += columns.cols();
+    }
+    solver_.solve(x);
   }
-  if (z.isZero(0)) return solved_;
-  Vector x = right_;
-  for (const SparseMatrix& columns : columns_) {
-    x -= columns * z.segment(first, columns.cols());
-    first += columns.cols();
-  }
-  solver_.solve(x);
   ++solves_;
   return x;
 }

@@ -1,6 +1,7 @@
 // The sparse columns by which a factored matrix is bordered.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "optimization/linear/linear_solver.h"
@@ -14,15 +15,18 @@ namespace reflines {
 // (L^-1 P)^T L^-1 P, and the products need no solve; else they take one for each column.
 class BorderColumns {
  public:
-  // Columns of functions of many unknowns have dense halves, and are quicker without.
-  explicit BorderColumns(LinearSolver& solver, bool use_halves = true)
-      : solver_(solver), has_halves_(use_halves && solver.has_halves()) {}
+  explicit BorderColumns(LinearSolver& solver) : solver_(solver), has_halves_(solver.has_halves()) {}
 
   void clear();
+  // Columns of functions of many unknowns have dense halves, and are quicker without.
+  void use_halves(bool may);
   int count() const { return static_cast<int>(unknowns_.size()); }
   int find(int unknown) const;  // the unknown's column, or -1
 
   int solves() const { return solves_; }  // made until now
+
+  // Returns the unknowns in an order in which their columns are cheap to add.
+  std::vector<int> sort(std::vector<int> unknowns) const { return solver_.sort_by_elimination(std::move(unknowns)); }
 
   // Adds columns (n x #unknowns). Throws Cancelled, and adds none then.
   void add(const std::vector<int>& unknowns, const SparseMatrix& columns, const Progress* progress);
@@ -33,12 +37,14 @@ class BorderColumns {
   // `finish` returns x.
   Vector begin(const Vector& right);
   Vector finish(const Vector& z);
+  Vector respond(const Vector& z);  // A^-1 B z
 
  private:
   void add_halves(const SparseMatrix& columns, const Progress* progress);
   void multiply_last_half(Eigen::Index right);
   void add_whole(const SparseMatrix& columns, const Progress* progress);
   Vector multiply_transposed(const Vector& x) const;
+  Vector finish_from(Vector x, const Vector& z);
 
   LinearSolver& solver_;
   bool has_halves_;

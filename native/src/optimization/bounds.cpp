@@ -30,7 +30,11 @@ Vector Bounds::ends(const Sides& held) const {
   return ends;
 }
 
-Bounds Bounds::seen_from(const Vector& x) const { return {low - x, high - x}; }
+Vector Bounds::nearest(const Vector& x, const Contacts& contacts) const {
+  Vector result = nearest(x);
+  for (const Contact& own : contacts) result(own.row) = end(own.row, own.side);
+  return result;
+}
 
 double Bounds::projected_norm(const Vector& x, const Vector& gradient) const {
   double squared = 0.0;
@@ -51,6 +55,12 @@ int count_changes(const Sides& before, const Sides& after) {
   int changes = 0;
   for (size_t k = 0; k < before.size(); ++k) changes += before[k] != after[k];
   return changes;
+}
+
+void clear_held(const Sides& held, Vector& x) {
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    if (held[k] != Side::kBetween) x(k) = 0.0;
+  }
 }
 
 }  // namespace reflines

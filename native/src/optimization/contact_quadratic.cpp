@@ -12,9 +12,18 @@ namespace {
 constexpr int kMaxRounds = 200;
 
 // The contacts, and their fraction of the unknowns, above which the search ends, for the small program takes their
-// cube: of 1,927 unknowns 1,125 contacts take 5.1 s, and InteriorPoint 2.7.
-constexpr double kMostContactFraction = 0.4;
-constexpr size_t kMostContacts = 800;
+// cube: of 1,927 unknowns 1,125 contacts take 5.1 s, and InteriorPoint 2.7. Elimination, which bounds have, is quicker
+// sooner.
+constexpr double kMostContactFraction = 0.4, kMostHeldFraction = 0.03;
+constexpr size_t kMostContacts = 800, kMostHeld = 256;
+
+// The violation below which a peak is not yet held, relative to the largest, where there are many: most of these vanish
+// with the larger ones.
+constexpr double kLeastViolation = 0.05;
+constexpr size_t kManyPeaks = 16;
+
+// The part of the wanted gradient that a violation of a bound, which is cut off, may cost.
+constexpr double kCutOff = 0.1;
 
 // The relative softness of contacts, without which those of neighbours, whose functions are nearly equal, could not be
 // known apart. Refinement takes back what it lets pass.
@@ -81,55 +90,72 @@ Complementarity solve_complementarity(const Eigen::MatrixXd& S, const Vector& c,
   return {y.cwiseMax(0.0), std::move(positive)};
 }
 
-Vector ContactQuadratic::solve(Vector right) {
-  counts_.solves += factor_.solve(right);
-  return right;
-}
-
-// Returns the columns of the contacts among the known ones, to which new contacts are added.
-std::vector<int> ContactQuadratic::find_known(const Contacts& contacts) {
-  std::vector<int> result, wanted;
-  std::vector<Eigen::Triplet<double>> entries;
+// Returns the contacts' system; new contacts are added to the known ones.
+ContactQuadratic::System ContactQuadratic::find_system(Contacts contacts) {
+  System result;
+  std::vector<int> unknown;
   for (const Contact& contact : contacts) {
-    result.push_back(known_.find(contact.row));
-    if (result.back() >= 0) continue;
-    result.back() = known_.count() + static_cast<int>(wanted.size());
-    for (SparseMatrix::InnerIterator entry(rows_, contact.row); entry; ++entry) {
-      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(wanted.size()), entry.value());
+    if (known_.find(contact.row) < 0) unknown.push_back(contact.row);
+  }
+  if (!unknown.empty()) add_columns(limits_.are_bounds ? known_.sort(std::move(unknown)) : unknown);
+  result.sign.resize(static_cast<Eigen::Index>(contacts.size()));
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    result.column.push_back(known_.find(contacts[i].row));
+    result.sign(static_cast<Eigen::Index>(i)) = contacts[i].sign();
+  }
+  result.S = result.sign.asDiagonal() * known_.products()(result.column, result.column) * result.sign.asDiagonal();
+  result.contacts = std::move(contacts);
+  return result;
+}
+
+void ContactQuadratic::add_columns(const std::vector<int>& rows) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (size_t j = 0; j < rows.size(); ++j) {
+    for (SparseMatrix::InnerIterator entry(rows_, rows[j]); entry; ++entry) {
+      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(j), entry.value());
     }
-    wanted.push_back(contact.row);
   }
-  if (wanted.empty()) return result;
-  SparseMatrix columns(rows_.rows(), static_cast<Eigen::Index>(wanted.size()));
+  SparseMatrix columns(rows_.rows(), static_cast<Eigen::Index>(rows.size()));
   columns.setFromTriplets(entries.begin(), entries.end());
-  const int before = known_.solves();
-  known_.add(wanted, columns, progress_);
-  counts_.solves += known_.solves() - before;
+  known_.add(rows, columns, progress_);
+}
+
+// Returns how far the free minimum moves the contacts' functions into their range.
+Vector ContactQuadratic::free_changes(const System& system, const Vector& gradient) {
+  Vector right = -gradient;
+  clear_held(limits_.held, right);
+  return system.sign.cwiseProduct(Vector(known_.begin(right)(system.column)));
+}
+
+Vector ContactQuadratic::changes(const System& system, const Vector& d) const {
+  Vector result = system.sign;
+  for (size_t i = 0; i < system.contacts.size(); ++i)
+    result(static_cast<Eigen::Index>(i)) *= rows_.col(system.contacts[i].row).dot(d);
   return result;
 }
 
-Eigen::MatrixXd ContactQuadratic::compliance(const Contacts& contacts) {
-  const std::vector<int> known = find_known(contacts);
-  Vector sign(static_cast<Eigen::Index>(contacts.size()));
-  for (size_t i = 0; i < contacts.size(); ++i) sign(static_cast<Eigen::Index>(i)) = contacts[i].sign();
-  return sign.asDiagonal() * known_.products()(known, known) * sign.asDiagonal();
-}
-
-// Returns the changes of the contacts' functions, > 0 into their range.
-Vector ContactQuadratic::changes(const Contacts& contacts, const Vector& d) const {
-  Vector result(static_cast<Eigen::Index>(contacts.size()));
-  for (size_t i = 0; i < contacts.size(); ++i) {
-    result(static_cast<Eigen::Index>(i)) = contacts[i].sign() * rows_.col(contacts[i].row).dot(d);
-  }
+Vector ContactQuadratic::border(const System& system, const Vector& forces) const {
+  Vector result = Vector::Zero(known_.count());
+  result(system.column) = -system.sign.cwiseProduct(forces);
   return result;
 }
 
-Vector ContactQuadratic::ends(const Contacts& contacts, const Vector& low, const Vector& high) const {
-  Vector result(static_cast<Eigen::Index>(contacts.size()));
-  for (size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& own = contacts[i];
-    result(static_cast<Eigen::Index>(i)) = own.side == Side::kLow ? low(own.row) : -high(own.row);
+// Returns the minimum with the contacts' forces, corrected for the differences from the wanted changes that softness
+// and rounding left.
+Vector ContactQuadratic::finish(const System& system, const Vector& forces, const Vector& wanted, double tolerance) {
+  Vector d = known_.finish(border(system, forces));
+  for (int k = 0; k < kMaxRefinements && wanted.size() > 0; ++k) {
+    const Vector left = wanted - changes(system, d);
+    if (left.cwiseAbs().maxCoeff() <= tolerance) break;
+    d -= known_.respond(border(system, solve_softly(system.S, left)));
   }
+  return d;
+}
+
+Vector ContactQuadratic::ends(const Contacts& contacts, const Bounds& range) {
+  Vector result(static_cast<Eigen::Index>(contacts.size()));
+  for (size_t i = 0; i < contacts.size(); ++i)
+    result(static_cast<Eigen::Index>(i)) = contacts[i].sign() * range.end(contacts[i].row, contacts[i].side);
   return result;
 }
 
@@ -145,71 +171,85 @@ Vector ContactQuadratic::take_off(const Contacts& contacts, const Vector& forces
 }
 
 Vector ContactQuadratic::find_forces(const Contacts& contacts, const Vector& gradient) {
-  return solve_softly(compliance(contacts), changes(contacts, solve(gradient)));
-}
-
-// Corrects a step with forces for the differences that softness and rounding left.
-Vector ContactQuadratic::refine(const Contacts& contacts, const Vector& wanted, double tolerance, Vector d) {
-  if (contacts.empty()) return d;
-  const Eigen::MatrixXd S = compliance(contacts);
-  for (int k = 0; k < kMaxRefinements; ++k) {
-    const Vector left = wanted - changes(contacts, d);
-    if (k > 0 && left.cwiseAbs().maxCoeff() <= tolerance) break;
-    d -= solve(take_off(contacts, solve_softly(S, left), Vector::Zero(d.size())));
-  }
-  return d;
+  const System system = find_system(contacts);
+  return -solve_softly(system.S, free_changes(system, gradient));
 }
 
 Vector ContactQuadratic::step_along(const Contacts& contacts, const Vector& gradient, const Vector& change,
                                     double tolerance) {
-  return refine(contacts, change, tolerance, solve(-gradient));
+  const System system = find_system(contacts);
+  return finish(system, solve_softly(system.S, change - free_changes(system, gradient)), change, tolerance);
 }
 
-std::optional<ContactQuadratic::Minimum> ContactQuadratic::minimize(const Vector& gradient, const Vector& low,
-                                                                    const Vector& high, double tolerance,
-                                                                    Contacts contacts) {
-  const auto most =
-      std::min(kMostContacts, static_cast<size_t>(kMostContactFraction * static_cast<double>(rows_.rows())));
-  const Vector free = solve(-gradient);
-  for (int round = 0; round < kMaxRounds; ++round) {
+size_t ContactQuadratic::most_contacts() const {
+  const double fraction = limits_.are_bounds ? kMostHeldFraction : kMostContactFraction;
+  return std::min(limits_.are_bounds ? kMostHeld : kMostContacts,
+                  static_cast<size_t>(fraction * static_cast<double>(rows_.rows())));
+}
+
+ContactQuadratic::Minimum ContactQuadratic::minimize(const QuadraticModel& model, const Bounds& range, double wanted,
+                                                     Contacts contacts) {
+  const bool bounds = limits_.are_bounds;
+  const double tolerance = bounds ? kCutOff * wanted / model.H.diagonal().maxCoeff() : 0.5 * limits_.tolerance;
+  if (contacts.size() > most_contacts()) contacts.clear();
+  Minimum result{{}, std::move(contacts), false};
+  for (int round = 0; round < kMaxRounds && result.contacts.size() <= most_contacts(); ++round) {
     throw_if_cancelled(progress_);
-    const Vector missing = ends(contacts, low, high) - changes(contacts, free);
-    const Complementarity pressed = solve_complementarity(compliance(contacts), missing, tolerance);
-    Contacts pressing;
-    for (size_t i = 0; i < contacts.size(); ++i) {
-      if (pressed.positive[i]) pressing.push_back(contacts[i]);
+    result = let_go(model.gradient, range, tolerance, result.contacts);
+    if (bounds) {
+      const Vector inside = range.nearest(result.d, result.contacts);
+      if (range.projected_norm(inside, model.gradient_at(inside)) <= wanted) return {inside, result.contacts, true};
     }
-    Vector d = -solve(take_off(contacts, pressed.y, gradient));
-    d = refine(pressing, ends(pressing, low, high), 0.25 * tolerance, d);
-    contacts = pressing;
-    for (const Contact& peak : find_peaks(low, high, tolerance, d)) {
-      if (std::find(pressing.begin(), pressing.end(), peak) == pressing.end()) contacts.push_back(peak);
+    const size_t pressing = result.contacts.size();
+    for (const Contact& peak : find_peaks(model.H, range, tolerance, result.d)) {
+      if (std::find(result.contacts.begin(), result.contacts.end(), peak) == result.contacts.end())
+        result.contacts.push_back(peak);
     }
-    if (contacts.size() == pressing.size()) return Minimum{d, contacts};
-    if (contacts.size() > most) break;
+    result.complete = result.contacts.size() == pressing;
+    if (result.complete) break;
   }
-  return {};
+  return result;
+}
+
+// Returns the minimum with those of the contacts that press on.
+ContactQuadratic::Minimum ContactQuadratic::let_go(const Vector& gradient, const Bounds& range, double tolerance,
+                                                   const Contacts& contacts) {
+  const System all = find_system(contacts);
+  const Complementarity pressed =
+      solve_complementarity(all.S, ends(contacts, range) - free_changes(all, gradient), tolerance);
+  Contacts pressing;
+  for (const int i : list(pressed.positive)) pressing.push_back(contacts[i]);
+  const Vector forces = pressed.y(list(pressed.positive));
+  return {finish(find_system(pressing), forces, ends(pressing, range), 0.25 * tolerance), pressing, false};
 }
 
 // Returns the functions that are the farthest beyond their range of all those that depend on the unknown which counts
-// most in them.
-Contacts ContactQuadratic::find_peaks(const Vector& low, const Vector& high, double tolerance, const Vector& d) const {
-  const Vector value = rows_.transpose() * d;
-  const auto beyond = [&](int i) { return std::max(value(i) - high(i), low(i) - value(i)); };
+// most in them; of single unknowns, of all those that H couples to them.
+Contacts ContactQuadratic::find_peaks(const SparseMatrix& H, const Bounds& range, double tolerance,
+                                      const Vector& d) const {
+  const Vector value = rows_.transpose() * d, beyond = (value - range.high).cwiseMax(range.low - value);
   std::vector<int> farthest(rows_.rows(), -1);
-  for (int i = 0; i < rows_.cols(); ++i) {
-    if (!(beyond(i) > tolerance)) continue;
-    for (SparseMatrix::InnerIterator entry(rows_, i); entry; ++entry) {
-      int& other = farthest[entry.row()];
-      if (other < 0 || beyond(i) > beyond(other)) other = i;
+  const auto compare = [&](int k, int i) {
+    if (farthest[k] < 0 || beyond(i) > beyond(farthest[k])) farthest[k] = i;
+  };
+  const SparseMatrix& coupling = limits_.are_bounds ? H : rows_;
+  for (int i = 0; i < coupling.cols(); ++i) {
+    for (SparseMatrix::InnerIterator entry(coupling, i); entry; ++entry) {
+      const int k = static_cast<int>(entry.row());
+      if (beyond(i) > tolerance) compare(k, i);
+      if (limits_.are_bounds && beyond(k) > tolerance) compare(i, k);
     }
   }
   Contacts peaks;
+  double most = 0.0;
   for (int k = 0; k < rows_.rows(); ++k) {
     const int i = farthest[k];
     if (i < 0 || find_heaviest(rows_, i) != k) continue;
-    peaks.push_back({i, value(i) > high(i) ? Side::kHigh : Side::kLow});
+    peaks.push_back({i, value(i) > range.high(i) ? Side::kHigh : Side::kLow});
+    most = std::max(most, beyond(i));
   }
+  if (limits_.are_bounds && peaks.size() > kManyPeaks)
+    std::erase_if(peaks, [&](const Contact& peak) { return beyond(peak.row) < kLeastViolation * most; });
   return peaks;
 }
 

@@ -3,15 +3,6 @@
 #include <utility>
 
 namespace reflines {
-namespace {
-
-void clear(const Sides& held, Vector& x) {
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
-    if (held[k] != Side::kBetween) x(k) = 0.0;
-  }
-}
-
-}  // namespace
 
 void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progress* progress) {
   forget();
@@ -24,6 +15,7 @@ void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progr
     }
   }
   solver_.factorize(matrix, progress);
+  ++factorizations_;
   is_current_ = true;
 }
 
@@ -46,29 +38,28 @@ HeldFactor::Differences HeldFactor::find_differences(const Sides& held) const {
 }
 
 bool HeldFactor::leaves_out(const Sides& held) const {
-  if (!is_current_ || !differences_.contacts.empty() || !differences_.released.empty()) return false;
+  if (!is_current_) return false;
   const Differences differences = find_differences(held);
   return differences.contacts.empty() && differences.released.empty();
 }
 
-std::optional<int> HeldFactor::hold(const SparseMatrix& H, const Sides& held, const Progress* progress) {
-  if (!is_current_) return {};
+bool HeldFactor::hold(const SparseMatrix& H, const Sides& held, const Progress* progress) {
+  if (!is_current_) return false;
   Differences differences = find_differences(held);
   // A shifted matrix is not H, to which released unknowns are coupled.
-  if (solver_.diagonal_shift() > 0.0 && !differences.released.empty()) return {};
+  if (solver_.diagonal_shift() > 0.0 && !differences.released.empty()) return false;
   std::vector<int> wanted;
   for (const std::vector<int>* unknowns : {&differences.contacts, &differences.released}) {
     for (const int k : *unknowns) {
       if (border_.find(k) < 0) wanted.push_back(k);
     }
   }
-  if (static_cast<int>(wanted.size()) > kMostNewColumns) return {};
-  wanted = solver_.sort_by_elimination(std::move(wanted));
-  const int before = border_.solves();
+  if (static_cast<int>(wanted.size()) > kMostNewColumns) return false;
+  wanted = border_.sort(std::move(wanted));
   if (!wanted.empty()) border_.add(wanted, make_columns(H, wanted), progress);
   differences_ = std::move(differences);
   factorize_schur_complement(H);
-  return border_.solves() - before;
+  return true;
 }
 
 // Returns the columns of the border: the unit vector of a contact, and a released unknown's column of H without the
@@ -124,48 +115,27 @@ void HeldFactor::factorize_schur_complement(const SparseMatrix& H) {
                        coupling_.transpose() * of_contacts_.solve(coupling_));
 }
 
-Vector HeldFactor::select_left_out(const Vector& x) const {
-  Vector result = Vector::Zero(x.size());
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
-    if (factored_[k] != Side::kBetween) result(k) = x(k);
-  }
-  for (const int k : differences_.released) result(k) = 0.0;
-  return result;
-}
-
-Vector HeldFactor::find_forces(const Vector& right, const Vector& at_contacts) {
-  if (differences_.contacts.empty()) return {};
-  Vector kept = right;
-  clear(factored_, kept);
-  return find_border(border_.begin(kept), right(differences_.released), at_contacts)(contact_column_);
-}
-
-int HeldFactor::solve(Vector& x, const Vector& at_contacts) {
+void HeldFactor::solve(Vector& x) {
   const Vector of_released = x(differences_.released);
-  clear(factored_, x);
-  const int before = border_.solves();
-  const Vector z = find_border(border_.begin(x), of_released, at_contacts);
+  clear_held(factored_, x);
+  const Vector z = find_border(border_.begin(x), of_released);
   x = border_.finish(z);
-  clear(factored_, x);
-  for (const int k : differences_.contacts) x(k) = at_contacts.size() > 0 ? at_contacts(k) : 0.0;
+  clear_held(factored_, x);
+  x(differences_.contacts).setZero();
   x(differences_.released) = z(released_column_);
-  return border_.solves() - before;
 }
 
 // Returns the border's unknowns: forces of contacts, moves of released unknowns, and 0 for those that are neither now.
-Vector HeldFactor::find_border(const Vector& reached, const Vector& of_released, const Vector& at_contacts) const {
+Vector HeldFactor::find_border(const Vector& reached, const Vector& of_released) const {
   Vector z = Vector::Zero(reached.size());
   Vector beyond = reached(contact_column_);
-  if (at_contacts.size() > 0) beyond -= at_contacts(differences_.contacts);
   if (!released_column_.empty()) {
     const Vector right = of_released - reached(released_column_) + coupling_.transpose() * of_contacts_.solve(beyond);
     const Vector moves = of_released_.solve(right);
     z(released_column_) = moves;
     beyond -= coupling_ * moves;
   }
-  if (contact_column_.empty()) return z;
-  const Vector forces = of_contacts_.solve(beyond);
-  z(contact_column_) = forces;
+  if (!contact_column_.empty()) z(contact_column_) = Vector(of_contacts_.solve(beyond));
   return z;
 }
 

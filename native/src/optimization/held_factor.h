@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <optional>
 #include <vector>
 
 #include "optimization/border_columns.h"
@@ -16,7 +15,7 @@ namespace reflines {
 // it the symbolic analysis, stays that of the whole matrix. A few unknowns can be held or released without another
 // factorization, by the Schur complement of the system that is bordered by their columns: with C new contacts, whose
 // forces are the unknowns y, and R released ones,
-//   H_FF x_F + H_FR x_R + E_C y = b_F,   H_RF x_F + H_RR x_R = b_R,   E_C^T x_F = x_C.
+//   H_FF x_F + H_FR x_R + E_C y = b_F,   H_RF x_F + H_RR x_R = b_R,   E_C^T x_F = 0.
 class HeldFactor {
  public:
   // The number of new columns above which another factorization is made.
@@ -31,27 +30,22 @@ class HeldFactor {
   void forget();
   bool is_current() const { return is_current_; }  // the solver's factor is that of the matrix given last
 
-  // Holds these unknowns and no others, of the matrix H that was factored. Returns the number of solves that took: none
-  // where the solver has halves, else one for each new column. Returns nothing where another factorization is cheaper,
-  // or there is none of H. Throws Cancelled.
-  std::optional<int> hold(const SparseMatrix& H, const Sides& held, const Progress* progress);
+  // Holds these unknowns and no others, of the matrix H that was factored: without a solve where the solver has halves,
+  // else by one for each new column. Returns false where another factorization is cheaper, or there is none of H.
+  // Throws Cancelled.
+  bool hold(const SparseMatrix& H, const Sides& held, const Progress* progress);
 
-  // Returns true where the factor leaves out all that is held, and nothing else.
+  // Returns whether there is a factor of H that leaves out these unknowns and no others.
   bool leaves_out(const Sides& held) const;
 
-  Vector select_left_out(const Vector& x) const;  // x (n) for the unknowns that the factor leaves out, else 0
+  void solve(Vector& x);  // held unknowns become 0, whatever their right-hand side
 
-  // Solves for x. Held unknowns become 0, and contacts their entries of `at_contacts` (n, or empty for 0), whatever
-  // their right-hand side. Returns the number of solves by the factor.
-  int solve(Vector& x, const Vector& at_contacts = {});
+  // Returns the columns beside the factor, to which the search for contacts adds its own.
+  BorderColumns& border() { return border_; }
 
-  // Returns whether the forces of contacts cost no solve beside the first for a right-hand side.
-  bool tells_forces() const { return solver_.has_halves(); }
-
-  // Returns the forces (#contacts) by which these, the held unknowns that the factor does not leave out, balance the
-  // right-hand side at their entries of `at_contacts` (n).
-  Vector find_forces(const Vector& right, const Vector& at_contacts);
-  const std::vector<int>& contacts() const { return differences_.contacts; }
+  // These count the work since this was made.
+  int factorizations() const { return factorizations_; }
+  int solves() const { return border_.solves(); }
 
  private:
   // The unknowns whose state differs from that in the factor, ascending.
@@ -62,11 +56,12 @@ class HeldFactor {
   SparseMatrix make_columns(const SparseMatrix& H, const std::vector<int>& unknowns) const;
   Eigen::MatrixXd select_block(const SparseMatrix& H, const std::vector<int>& unknowns) const;
   void factorize_schur_complement(const SparseMatrix& H);
-  Vector find_border(const Vector& reached, const Vector& of_released, const Vector& at_contacts) const;
+  Vector find_border(const Vector& reached, const Vector& of_released) const;
 
   LinearSolver& solver_;
   Sides factored_;  // n: held by the factor
   bool is_current_ = false;
+  int factorizations_ = 0;
   BorderColumns border_;  // of unknowns that were contacts or released since the factorization
   Differences differences_;
   std::vector<int> contact_column_, released_column_;  // their places in the border

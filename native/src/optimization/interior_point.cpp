@@ -9,7 +9,7 @@
 namespace reflines {
 namespace {
 
-constexpr int kMaxSteps = 60, kMaxSettlingSteps = 15;
+constexpr int kMaxSteps = 60;
 constexpr double kFractionOfLongest = 0.995;
 
 // A factorization takes as long as ten solves: three further correctors save a quarter of the factorizations, and more
@@ -27,31 +27,25 @@ constexpr double kTouching = 40.0;
 constexpr int kPatience = 15;
 constexpr double kGain = 0.5;
 
-// The relative change of the set of held unknowns at which it has settled, and the relative size of the products above
-// which it is meaningless.
-constexpr double kSettled = 0.02;
-constexpr double kSmallGap = 1e-5;
-
 constexpr int kBlock = 256;  // columns of the matrix that a thread sums at a time
 
 }  // namespace
 
 InteriorPoint::InteriorPoint(const QuadraticModel& model, const StepLimits& limits, double extent, HeldFactor& factor,
-                             Report& counts, const Progress* progress)
+                             const Progress* progress)
     : model_(model),
       limits_(limits),
       factor_(factor),
-      counts_(counts),
       progress_(progress),
       d_(Vector::Zero(model.gradient.size())),
-      values_(Vector::Zero(limits.low.size())) {
+      values_(Vector::Zero(limits.range.low.size())) {
   if (limits.rows != nullptr) by_unknown_ = *limits.rows;
-  ends_ = {make_end(limits.low, 1.0), make_end(limits.high, -1.0)};
+  ends_ = {make_end(limits.range.low, 1.0), make_end(limits.range.high, -1.0)};
   place_start(extent);
 }
 
 InteriorPoint::End InteriorPoint::make_end(const Vector& bound, double sign) const {
-  const auto exists = bound.array().isFinite() && limits_.low.array() < limits_.high.array();
+  const auto exists = bound.array().isFinite() && limits_.range.low.array() < limits_.range.high.array();
   return {sign, exists.cast<double>(), exists.select(bound.array(), 0.0), Vector::Ones(bound.size()),
           Vector::Zero(bound.size())};
 }
@@ -64,7 +58,7 @@ void InteriorPoint::place_start(double extent) {
   for (End& end : ends_) {
     for (int i = 0; i < values_.size(); ++i) {
       if (end.exists(i) == 0) continue;
-      const double range = limits_.high(i) - limits_.low(i);
+      const double range = limits_.range.high(i) - limits_.range.low(i);
       end.slack(i) = std::max(-end.sign * end.bound(i), 0.1 * (std::isfinite(range) ? range : extent));
     }
     sum += end.slack.dot(end.exists);
@@ -103,25 +97,19 @@ SparseMatrix InteriorPoint::build_matrix() const {
   return result;
 }
 
-void InteriorPoint::clear_held(Vector& x) const {
-  for (int k = 0; k < x.size(); ++k) {
-    if (limits_.held[k] != Side::kBetween) x(k) = 0.0;
-  }
-}
-
 Vector InteriorPoint::dual_residual() const {
   Vector residual = model_.gradient_at(d_) - limits_.pull(present_forces());
-  clear_held(residual);
+  clear_held(limits_.held, residual);
   return residual;
 }
 
 // Solves with a refinement that brings back the digits which A^T D A loses; D alone loses none.
 Vector InteriorPoint::solve_system(const Vector& right) {
   Vector x = right;
-  counts_.solves += factor_.solve(x);
+  factor_.solve(x);
   if (limits_.rows == nullptr) return x;
   Vector left = right - matrix_.selfadjointView<Eigen::Lower>() * x;
-  counts_.solves += factor_.solve(left);
+  factor_.solve(left);
   return x + left;
 }
 
@@ -212,7 +200,6 @@ void InteriorPoint::iterate() {
   matrix_ = build_matrix();
   factor_.factorize(matrix_, limits_.held, progress_);
   factor_.forget();  // for the factor is not that of H
-  ++counts_.factorizations;
   auto [change, wanted_product] = predict_and_correct();
   for (int k = 0; k < kFurtherCorrectors; ++k) {
     if (longest(change) > 0.95 || !correct_further(change, wanted_product)) break;
@@ -254,33 +241,6 @@ InteriorPoint::Minimum InteriorPoint::minimize(double tolerance, double wanted) 
     if (!(error < best)) continue;
     best = error;
     result = {d_, present_forces()};
-  }
-  return result;
-}
-
-Sides InteriorPoint::estimate_held() {
-  const int always = count_held(limits_.held);
-  const double first_product = mean_product();
-  Sides held = read_held();
-  for (int step = 0; step < kMaxSettlingSteps; ++step) {
-    iterate();
-    const Sides before = std::exchange(held, read_held());
-    const int count = count_held(held) - always;
-    const bool settled = count > 0 && count_changes(before, held) <= 2 + kSettled * count;
-    if (settled && mean_product() <= kSmallGap * first_product) break;
-  }
-  return held;
-}
-
-// Returns the held unknowns, and those whose force is larger than the slack times their own stiffness.
-Sides InteriorPoint::read_held() const {
-  Sides result = limits_.held;
-  for (int k = 0; k < d_.size(); ++k) {
-    const double stiffness = model_.H.valuePtr()[model_.H.outerIndexPtr()[k]];
-    for (const End& end : ends_) {
-      if (end.exists(k) != 0 && end.force(k) > stiffness * end.slack(k))
-        result[k] = end.sign > 0 ? Side::kLow : Side::kHigh;
-    }
   }
   return result;
 }

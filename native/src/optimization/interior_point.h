@@ -7,7 +7,6 @@
 #include "optimization/held_factor.h"
 #include "optimization/quadratic_model.h"
 #include "reflines/progress.h"
-#include "reflines/report.h"
 #include "reflines/types.h"
 
 namespace reflines {
@@ -18,10 +17,10 @@ namespace reflines {
 // method that leaves a bound row by row takes one for each.
 class InteriorPoint {
  public:
-  // Takes what outlives it, the limits with low <= 0 <= high; `counts` collects factorizations and solves. `extent` is
-  // the expected size of a function where its range is infinite. `progress` may be null. The factor is overwritten.
+  // Takes what outlives it, the limits with low <= 0 <= high. `extent` is the expected size of a function where its
+  // range is infinite. `progress` may be null. The factor is overwritten.
   InteriorPoint(const QuadraticModel& model, const StepLimits& limits, double extent, HeldFactor& factor,
-                Report& counts, const Progress* progress);
+                const Progress* progress);
 
   // Iterates until the functions are within their ranges but for `tolerance`, and what forces of functions farther than
   // that from an end, and the model's gradient, leave is at most `wanted`; or until no more digits are gained. Returns
@@ -30,10 +29,6 @@ class InteriorPoint {
     Vector d, forces;
   };
   Minimum minimize(double tolerance, double wanted);
-
-  // Iterates until the set of unknowns at their bounds has settled, and returns it with those that are held. Only where
-  // A = I. Throws Cancelled.
-  Sides estimate_held();
 
  private:
   // One end of every range: slack = sign (A d - bound) > 0, and force > 0 is its multiplier.
@@ -54,7 +49,6 @@ class InteriorPoint {
   void place_start(double extent);
   SparseMatrix build_matrix() const;
   Vector dual_residual() const;
-  void clear_held(Vector& x) const;
   Vector solve_system(const Vector& right);
   Change solve(const Products& products, bool residuals);
   std::pair<Change, double> predict_and_correct();
@@ -65,12 +59,10 @@ class InteriorPoint {
   void iterate();
   double measure_error(double tolerance, double wanted) const;
   Vector present_forces() const { return ends_[0].force - ends_[1].force; }
-  Sides read_held() const;
 
   const QuadraticModel& model_;
   const StepLimits& limits_;
   HeldFactor& factor_;
-  Report& counts_;
   const Progress* progress_;
   Eigen::SparseMatrix<double, Eigen::RowMajor, int> by_unknown_;  // n x m: the functions of each unknown; empty: A = I
   SparseMatrix matrix_;                                           // H + A^T D A

@@ -43,6 +43,7 @@ LimitedDescent::LimitedDescent(Problem& problem, ActiveSet& active, const Minimi
 }
 
 void LimitedDescent::run(Vector& x) {
+  const int factorizations = work_.held_factor.factorizations(), solves = work_.held_factor.solves();
   evaluate_start(x);
   const bool kept = active_.has_factor(choose_model(options_.strategy));
   try {
@@ -51,6 +52,8 @@ void LimitedDescent::run(Vector& x) {
     stopping_.is_cancelled();
   }
   finish(x);
+  report_.factorizations += work_.held_factor.factorizations() - factorizations;
+  report_.solves += work_.held_factor.solves() - solves;
 }
 
 void LimitedDescent::descend() {
@@ -170,7 +173,6 @@ bool LimitedDescent::renew_model() {
   stopping_.tell("assembling");
   work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
   work_.held_factor.forget();
-  active_.forget_factor();
   renewed_ = new_model_pays();
   work_.usual_steps = 1;
   work_.extra_steps = 0;
@@ -225,8 +227,8 @@ void LimitedDescent::try_step(double step) {
 void LimitedDescent::take_step() {
   if (learns_from_steps()) {
     const Vector step = work_.trial - work_.x;
-    Vector change = work_.trial_gradient - work_.gradient;
-    if (active_.prepare_pair(step, change)) work_.memory.learn(step, change);
+    const Vector change = work_.trial_gradient - work_.gradient;
+    if (active_.keeps_contacts()) work_.memory.learn(step, change);
   }
   work_.x.swap(work_.trial);
   work_.gradient.swap(work_.trial_gradient);

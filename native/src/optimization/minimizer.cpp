@@ -4,8 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "optimization/active_bounds.h"
-#include "optimization/active_rows.h"
+#include "optimization/active_set.h"
 #include "optimization/descent.h"
 #include "optimization/limited_descent.h"
 #include "optimization/workspace.h"
@@ -32,17 +31,6 @@ Report measure_time(const Run& run) {
   return report;
 }
 
-template <typename Active, typename Limits>
-Report minimize_within(Problem& problem, const Limits& limits, Vector& x, const MinimizerOptions& options,
-                       Progress* progress, Workspace& workspace) {
-  return measure_time([&] {
-    Report report;
-    Active active(limits, workspace, report, progress);
-    LimitedDescent(problem, active, options, progress, workspace, report).run(x);
-    return report;
-  });
-}
-
 }  // namespace
 
 Minimizer::Minimizer(LinearSolverKind kind) : workspace_(std::make_unique<Workspace>(kind)) {}
@@ -56,16 +44,15 @@ Report Minimizer::minimize(Problem& problem, Vector& x, const MinimizerOptions& 
   return measure_time([&] { return Descent(problem, options, progress, *workspace_).run(x); });
 }
 
-Report Minimizer::minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options,
-                           Progress* progress) {
-  check(options);
-  return minimize_within<ActiveBounds>(problem, bounds, x, options, progress, *workspace_);
-}
-
 Report Minimizer::minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options,
                            Progress* progress) {
   check(options);
-  return minimize_within<ActiveRows>(problem, limits, x, options, progress, *workspace_);
+  return measure_time([&] {
+    Report report;
+    ActiveSet active(limits, *workspace_, progress);
+    LimitedDescent(problem, active, options, progress, *workspace_, report).run(x);
+    return report;
+  });
 }
 
 }  // namespace reflines

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "optimization/bounds.h"
 #include "optimization/linear/linear_solver.h"
 #include "optimization/problem.h"
 #include "optimization/row_limits.h"
@@ -30,11 +29,8 @@ class Minimizer {
   // options out of range; SolverFailure). `progress` may be null.
   Report minimize(Problem& problem, Vector& x, const MinimizerOptions& options = {}, Progress* progress = nullptr);
 
-  // Minimizes within bounds, which x satisfies exactly (see ActiveBounds); a start outside is first moved into them.
-  Report minimize(Problem& problem, const Bounds& bounds, Vector& x, const MinimizerOptions& options = {},
-                  Progress* progress = nullptr);
-
-  // Minimizes within limits of linear functions of x (see ActiveRows); a start outside is first moved into them.
+  // Minimizes within limits of linear functions of x, or within bounds, which x satisfies exactly (see ActiveSet); a
+  // start outside is first moved into them.
   Report minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options = {},
                   Progress* progress = nullptr);
 

@@ -16,7 +16,7 @@ struct QuadraticModel {
 // The limits low <= A d <= high.
 struct StepLimits {
   const SparseMatrix* rows;  // A^T, n x m; null where A = I
-  Vector low, high;          // m; infinite where there is none
+  const Bounds& range;       // m; infinite where there is none
   const Sides& held;         // n: unknowns that stay at 0
 
   Vector values(const Vector& d) const { return rows == nullptr ? d : Vector(rows->transpose() * d); }

@@ -91,20 +91,20 @@ double largest_finite(const Vector& values) {
 }  // namespace
 
 RowLimits::RowLimits(const SparseMatrix& modes, Vector low, Vector high, Vector origin, double rounding)
-    : modes_(modes), low_(std::move(low)), high_(std::move(high)), origin_(std::move(origin)), rounding_(rounding) {
-  if (modes_.nonZeros() == 0 || modes_.coeffs().minCoeff() >= 0) return;
+    : modes_(&modes), range_{std::move(low), std::move(high)}, origin_(std::move(origin)), rounding_(rounding) {
+  if (modes.nonZeros() == 0 || modes.coeffs().minCoeff() >= 0) return;
   throw InvalidInput("A limit of the move needs a surface whose vertices follow the unknowns by weights of 0 or more.");
 }
 
-Vector RowLimits::values(const Vector& x) const { return modes_.transpose() * (x - origin_); }
+RowLimits::RowLimits(const Bounds& bounds) : range_(bounds), origin_(Vector::Zero(bounds.low.size())) {}
 
-bool RowLimits::is_beyond(int i, double value) const {
-  return value != 0 && (value > high_(i) - rounding_ || value < low_(i) + rounding_);
-}
+Vector RowLimits::values(const Vector& x) const { return are_bounds() ? x : modes_->transpose() * (x - origin_); }
 
-bool RowLimits::contain_values(const Vector& values) const {
-  for (int i = 0; i < values.size(); ++i) {
-    if (is_beyond(i, values(i))) return false;
+bool RowLimits::contain(const Vector& x) const {
+  const Vector all = values(x);
+  for (int i = 0; i < all.size(); ++i) {
+    const double rounding = all(i) == 0 ? 0.0 : rounding_;
+    if (all(i) > range_.high(i) - rounding || all(i) < range_.low(i) + rounding) return false;
   }
   return true;
 }
@@ -112,33 +112,39 @@ bool RowLimits::contain_values(const Vector& values) const {
 int RowLimits::count_beyond(const Vector& x) const {
   const Vector all = values(x);
   int count = 0;
-  for (int i = 0; i < all.size(); ++i) count += all(i) > high_(i) || all(i) < low_(i);
+  for (int i = 0; i < all.size(); ++i) count += all(i) > range_.high(i) || all(i) < range_.low(i);
   return count;
 }
 
 double RowLimits::choose_tolerance(double extent) const {
-  const double limit = low_.size() > 0 ? std::max(largest_finite(low_), largest_finite(high_)) : 0.0;
+  const double limit = range_.low.size() > 0 ? std::max(largest_finite(range_.low), largest_finite(range_.high)) : 0.0;
   const double size = limit > 0 ? std::min(limit, extent) : extent;
   return std::max({kTolerance * size, kPrecision * extent, 4 * rounding_});
 }
 
 RowLimits::Narrow RowLimits::narrow(double extent) const {
+  if (are_bounds()) {
+    SparseMatrix identity(range_.low.size(), range_.low.size());
+    identity.setIdentity();
+    return {std::move(identity), true, range_, origin_, 0.0, range_.points(), {}};
+  }
   Narrow result;
   result.tolerance = choose_tolerance(extent);
   result.origin = origin_;
-  result.held.assign(modes_.rows(), Side::kBetween);
-  const Means all = take_means(modes_, result.held);
-  const Directions only =
-      find_directions(all.rows, low_.cwiseQuotient(all.sum), high_.cwiseQuotient(all.sum), kNoRoom * result.tolerance);
+  result.held.assign(modes_->rows(), Side::kBetween);
+  const Means all = take_means(*modes_, result.held);
+  const Directions only = find_directions(all.rows, range_.low.cwiseQuotient(all.sum),
+                                          range_.high.cwiseQuotient(all.sum), kNoRoom * result.tolerance);
   for (int k = 0; k < only.up.size(); ++k) {
     if (only.up(k) && only.down(k)) result.held[k] = Side::kLow;
   }
-  auto [rows, sum] = take_means(modes_, result.held);
+  auto [rows, sum] = take_means(*modes_, result.held);
   result.rows = std::move(rows);
-  result.low = (low_.cwiseQuotient(sum).array() + result.tolerance).matrix();
-  result.high = (high_.cwiseQuotient(sum).array() - result.tolerance).matrix();
+  result.range.low = (range_.low.cwiseQuotient(sum).array() + result.tolerance).matrix();
+  result.range.high = (range_.high.cwiseQuotient(sum).array() - result.tolerance).matrix();
   result.merge_equal(sum);
-  const auto [up, down] = find_directions(result.rows, result.low, result.high, kBaseMove * result.tolerance);
+  const auto [up, down] =
+      find_directions(result.rows, result.range.low, result.range.high, kBaseMove * result.tolerance);
   result.base = origin_ + kBaseMove * result.tolerance * (up.cast<double>() - down.cast<double>()).matrix();
   return result;
 }
@@ -147,13 +153,13 @@ RowLimits::Narrow RowLimits::narrow(double extent) const {
 void RowLimits::Narrow::merge_equal(const Vector& sum) {
   const std::vector<int> leader = find_equal_columns(rows);
   for (int i = 0; i < rows.cols(); ++i) {
-    low(leader[i]) = std::max(low(leader[i]), low(i));
-    high(leader[i]) = std::min(high(leader[i]), high(i));
+    range.low(leader[i]) = std::max(range.low(leader[i]), range.low(i));
+    range.high(leader[i]) = std::min(range.high(leader[i]), range.high(i));
   }
   std::vector<int> kept;
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < rows.cols(); ++i) {
-    if (leader[i] != i || !(sum(i) > 0) || !(std::isfinite(low(i)) || std::isfinite(high(i)))) continue;
+    if (leader[i] != i || !(sum(i) > 0) || !(std::isfinite(range.low(i)) || std::isfinite(range.high(i)))) continue;
     for (SparseMatrix::InnerIterator entry(rows, i); entry; ++entry) {
       entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(kept.size()), entry.value());
     }
@@ -162,33 +168,34 @@ void RowLimits::Narrow::merge_equal(const Vector& sum) {
   SparseMatrix chosen(rows.rows(), static_cast<Eigen::Index>(kept.size()));
   chosen.setFromTriplets(entries.begin(), entries.end());
   rows = std::move(chosen);
-  low = Vector(low(kept));
-  high = Vector(high(kept));
+  range.low = Vector(range.low(kept));
+  range.high = Vector(range.high(kept));
 }
 
 Vector RowLimits::Narrow::pull_inside(const Vector& from, const Vector& to) const {
   Vector end = to;
   for (int k = 0; k < end.size(); ++k) {
-    if (held[k] != Side::kBetween) end(k) = origin(k);
+    if (held[k] != Side::kBetween) end(k) = from(k);
   }
   const Vector first = values(from), last = values(end);
   double fraction = 1.0;
   for (int i = 0; i < last.size(); ++i) {
-    if (last(i) > high(i)) fraction = std::min(fraction, (high(i) - first(i)) / (last(i) - first(i)));
-    if (last(i) < low(i)) fraction = std::min(fraction, (low(i) - first(i)) / (last(i) - first(i)));
+    if (last(i) > range.high(i)) fraction = std::min(fraction, (range.high(i) - first(i)) / (last(i) - first(i)));
+    if (last(i) < range.low(i)) fraction = std::min(fraction, (range.low(i) - first(i)) / (last(i) - first(i)));
   }
-  return fraction == 1.0 ? end : Vector(from + std::max(fraction, 0.0) * (end - from));
+  return clip(fraction == 1.0 ? end : Vector(from + std::max(fraction, 0.0) * (end - from)));
 }
 
-double RowLimits::Narrow::longest_step(const Vector& x, const Vector& step) const {
+Vector RowLimits::Narrow::end_step(const Vector& x, const Vector& step) const {
+  if (are_bounds) return clip(x + step);
   const Vector first = values(x), way = rows.transpose() * step;
   const double beyond = kBeyond * tolerance;
   double part = 1.0;
   for (int i = 0; i < way.size(); ++i) {
-    if (first(i) + way(i) > high(i) + beyond) part = std::min(part, (high(i) + beyond - first(i)) / way(i));
-    if (first(i) + way(i) < low(i) - beyond) part = std::min(part, (low(i) - beyond - first(i)) / way(i));
+    if (first(i) + way(i) > range.high(i) + beyond) part = std::min(part, (range.high(i) + beyond - first(i)) / way(i));
+    if (first(i) + way(i) < range.low(i) - beyond) part = std::min(part, (range.low(i) - beyond - first(i)) / way(i));
   }
-  return std::max(part, 0.0);
+  return x + std::max(part, 0.0) * step;
 }
 
 }  // namespace reflines

@@ -1,4 +1,4 @@
-// The bounds of a piece's unknowns that follow from the limit of its vertices.
+// The limits of a piece's unknowns that follow from the limit of its vertices.
 #include <algorithm>
 #include <limits>
 
@@ -23,28 +23,19 @@ void PieceProblem::set_limit(const MoveLimit& limit, double rounding) {
   limit_size_ = std::max(largest(limit_.lowest.array()), largest(limit_.highest.array()));
 }
 
-Bounds PieceProblem::bounds() const {
+RowLimits PieceProblem::limits() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Bounds bounds{Vector::Constant(size(), -kInfinity), Vector::Constant(size(), kInfinity)};
-  const Vector& start = map_.start();
+  const int count = map_.moving_count();
+  Bounds range{Vector::Constant(count, -kInfinity), Vector::Constant(count, kInfinity)};
   for (int v = 0; v < piece_.field.vertex_count(); ++v) {
     const int k = map_.moving_index()[v];
     if (k < 0) continue;
-    bounds.low(k) = std::max(bounds.low(k), start(k) + limit_.lowest(v));
-    bounds.high(k) = std::min(bounds.high(k), start(k) + limit_.highest(v));
+    const double start = is_mesh() ? map_.start()(k) : 0.0;  // bounds are absolute
+    range.low(k) = std::max(range.low(k), start + limit_.lowest(v));
+    range.high(k) = std::min(range.high(k), start + limit_.highest(v));
   }
-  return bounds;
-}
-
-RowLimits PieceProblem::row_limits() const {
-  Vector low(map_.moving_count()), high(map_.moving_count());
-  for (int v = 0; v < piece_.field.vertex_count(); ++v) {
-    const int k = map_.moving_index()[v];
-    if (k < 0) continue;
-    low(k) = limit_.lowest(v);
-    high(k) = limit_.highest(v);
-  }
-  return RowLimits(map_.moving_transposed(), low, high, map_.start(), limit_rounding_);
+  return is_mesh() ? RowLimits(range)
+                   : RowLimits(map_.moving_transposed(), range.low, range.high, map_.start(), limit_rounding_);
 }
 
 double PieceProblem::move(int v) const {

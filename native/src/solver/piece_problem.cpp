@@ -214,9 +214,8 @@ TargetTerms::Misfit PieceProblem::misfit(const std::vector<Target>& targets, boo
 
 Report PieceProblem::minimize(const MinimizerOptions& options, Progress* progress) {
   Vector x = x_;
-  const Report report = !limit_.exists() ? minimizer_->minimize(*this, x, options, progress)
-                        : is_mesh()      ? minimizer_->minimize(*this, bounds(), x, options, progress)
-                                         : minimizer_->minimize(*this, row_limits(), x, options, progress);
+  const Report report = limit_.exists() ? minimizer_->minimize(*this, limits(), x, options, progress)
+                                        : minimizer_->minimize(*this, x, options, progress);
   set_heights(x);
   return report;
 }

@@ -97,8 +97,7 @@ class PieceProblem : public Problem {
 
  private:
   Vector find_unseen(const std::vector<Target>& targets) const;
-  Bounds bounds() const;         // of a mesh's unknowns
-  RowLimits row_limits() const;  // of a cage's surface
+  RowLimits limits() const;  // of a mesh's unknowns, or of a cage's surface
   double touching_distance(int v) const;
   void find_hidden(const std::vector<Vector>& sight);
   HessianAssembly& assembly();
