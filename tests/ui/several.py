@@ -27,7 +27,7 @@ def begin_anew(first: window.Test, name: str) -> window.Test:
     def test(_driver: window.Window) -> window.Steps:
         print(f"-- {name}", flush=True)
         bpy.ops.wm.read_homefile(use_factory_startup=True)
-        bpy.context.preferences.system.viewport_aa = 'OFF'
+        window.draw_sparingly()
         bpy.context.preferences.view.show_splash = False
         bpy.context.preferences.view.smooth_view = SMOOTH_VIEW
         yield 0.5
