@@ -1,12 +1,36 @@
-"""Measures the lines across a gap as Check does, and tells whether a tool kept them."""
+"""Builds panels beside a gap, measures the lines across it as Check does, and tells whether a tool kept them."""
 import sys
+from collections.abc import Callable, Sequence
 
 import bpy
 import numpy as np
 
+import scenes
+
 Array = np.ndarray
 Surface = tuple[Array, Array]  # V #V x 3, F #F x 3
 MEASURES = ("gap", "flush", "kink", "line_offset")
+
+
+def build_sheet(name: str, columns: Callable[[float], Array], rows: Array, height: scenes.Height) -> bpy.types.Object:
+    """Builds a sheet of quads with columns that depend on y."""
+    points = [(x, y, height(x, y)) for y in rows for x in columns(y)]
+    count = len(columns(0.0))
+    faces = [(i, i + 1, i + count + 1, i + count) for j in range(len(rows) - 1)
+             for i in range(j * count, (j + 1) * count - 1)]
+    return scenes.linked(name, points, faces)
+
+
+def find_moves(objects: Sequence[bpy.types.Object], was: Sequence[Array]) -> list[Array]:
+    """Returns how far the vertices of objects have moved in the world (#V x 3 each)."""
+    return [scenes.world(ob) - old for ob, old in zip(objects, was, strict=True)]
+
+
+def assert_undone(objects: Sequence[bpy.types.Object], was: Sequence[Array]) -> None:
+    """Holds that one undo brings every bit from before."""
+    names = [ob.name for ob in objects]
+    bpy.ops.ed.undo()
+    assert not any(move.any() for move in find_moves([bpy.data.objects[name] for name in names], was))
 
 
 def measure(one: Surface, other: Surface, seen: object) -> tuple[dict[str, Array], Array]:

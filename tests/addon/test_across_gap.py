@@ -47,14 +47,6 @@ def find_parent() -> bpy.types.Object:
     return found
 
 
-def places(ob: bpy.types.Object) -> Array:
-    if ob.mode == 'EDIT':
-        ob.update_from_editmode()
-    V = np.array([vertex.co[:] for vertex in ob.data.vertices], dtype=float)
-    matrix = np.array(ob.matrix_world)
-    return V @ matrix[:3, :3].T + matrix[:3, 3]
-
-
 def slopes(V: Array, x: float) -> tuple[Array, Array]:
     """The slope along x of a sheet at its side x, from a parabola through its three last columns; ascending y."""
     order = np.lexsort([V[:, 1], np.round(np.abs(V[:, 0] - x), 4)])
@@ -90,15 +82,15 @@ def test_the_kink_goes_and_the_gap_stays(kind: str, gap: float) -> None:
     right = half("Right", 0.5 * gap, 1.0, scenes.crown, 17, MATRICES[kind])
     left = half("Left", -1.0, -0.5 * gap, bent)
     start(left)
-    before, other = places(left), places(right)
+    before, other = scenes.world(left), scenes.world(right)
     held = np.abs(before[:, 0] + 0.5 * gap) < 1e-6
     kinks = [kink(before, other, gap)]
     assert scenes.smooth(border='follow') == {'FINISHED'}
-    after = places(left)
+    after = scenes.world(left)
     kinks.append(kink(after, other, gap))
     print(kind, gap, kinks)
     assert kinks[0] > 2.5 and kinks[1] < 0.3
-    assert np.array_equal(after[held], before[held]) and np.array_equal(places(right), other)
+    assert np.array_equal(after[held], before[held]) and np.array_equal(scenes.world(right), other)
 
 
 def test_halves_of_one_mesh_that_are_not_joined_follow_each_other() -> None:
@@ -110,10 +102,10 @@ def test_halves_of_one_mesh_that_are_not_joined_follow_each_other() -> None:
     bpy.ops.object.join()
     start(left)
     scenes.select_faces(left, lambda face: face < count)
-    before = places(left)
+    before = scenes.world(left)
     own = np.arange(len(before)) < (CELLS + 1) * (2 * CELLS + 1)
     assert scenes.smooth(border='follow') == {'FINISHED'}
-    after = places(left)
+    after = scenes.world(left)
     assert kink(before[own], before[~own], 0.0) > 2.5 and kink(after[own], after[~own], 0.0) < 0.3
     assert np.array_equal(after[~own], before[~own])
 
@@ -127,9 +119,9 @@ def test_halves_of_one_mesh_that_touch_are_smoothed_as_if_they_were_joined(borde
     scenes.activate(left)
     bpy.ops.object.join()
     start(left)
-    before = places(left)
+    before = scenes.world(left)
     assert scenes.smooth(border=border) == {'FINISHED'}
-    after = places(left)
+    after = scenes.world(left)
     assert kink(before[:count], before[count:], 0.0) > 5.0 and kink(after[:count], after[count:], 0.0) < 0.3
     assert np.abs(flush(after[:count], after[count:], 0.0) - flush(before[:count], before[count:], 0.0)).max() < 3e-5
     assert "not joined" not in left.reflection_lines.report.notes
@@ -172,7 +164,7 @@ def test_what_is_no_neighbour_changes_no_bit(change: Callable) -> None:
         left = half("Left", -1.0, 0.0, bent)
         start(left)
         assert scenes.smooth(border='clamped' if alone else 'follow') == {'FINISHED'}
-        results.append(places(left))
+        results.append(scenes.world(left))
     assert np.array_equal(*results)
 
 
@@ -187,7 +179,7 @@ def test_panels_that_overlap_are_pressed_each_by_itself(change: str) -> None:
         left = half("Left", -1.0, 0.0, bent)
         start_several(left, right)
         assert scenes.smooth(border=border) == {'FINISHED'}
-        results.append(np.concatenate([places(left), places(right)]))
+        results.append(np.concatenate([scenes.world(left), scenes.world(right)]))
     assert np.array_equal(*results)
 
 
@@ -198,9 +190,9 @@ def test_a_neighbour_is_followed_as_its_modifiers_leave_it() -> None:
     left = half("Left", -1.0, 0.0, bent)
     start(left)
     assert scenes.smooth(border='follow') == {'FINISHED'}
-    other = places(right)
+    other = scenes.world(right)
     other[:, 2] += 1.0
-    assert kink(places(left), other, 0.0) < 0.3
+    assert kink(scenes.world(left), other, 0.0) < 0.3
 
 
 def test_a_segment_follows_alone() -> None:
@@ -214,8 +206,8 @@ def test_a_segment_follows_alone() -> None:
         vertex[layer] = 57000 if abs(vertex.co.x) < 1e-6 and vertex.co.y > -0.1 else 0
     bmesh.update_edit_mesh(left.data)
     scenes.smooth(border='clamped')
-    y, one = slopes(places(left), 0.0)
-    jump = np.degrees(np.abs(slopes(places(right), 0.0)[1] - one))
+    y, one = slopes(scenes.world(left), 0.0)
+    jump = np.degrees(np.abs(slopes(scenes.world(right), 0.0)[1] - one))
     assert jump[(y > 0.3) & (y < 0.8)].max() < 1.0 and jump[(y > -0.6) & (y < -0.3)].min() > 1.7
 
 
@@ -246,9 +238,9 @@ def test_two_objects_in_edit_mode_become_one_surface(kind: str, gap: float) -> N
     right = half("Right", 0.5 * gap, 1.0, lambda x, y: bent(-x, y), 17, MATRICES[kind])
     left = half("Left", -1.0, -0.5 * gap, bent)
     start_several(left, right)
-    before = places(left), places(right)
+    before = scenes.world(left), scenes.world(right)
     assert scenes.smooth(border='follow') == {'FINISHED'}
-    after = places(left), places(right)
+    after = scenes.world(left), scenes.world(right)
     print(kind, gap, kink(*before, gap), kink(*after, gap))
     assert kink(*before, gap) > 5.0 and kink(*after, gap) < 0.3
     assert np.abs(flush(*after, gap) - flush(*before, gap)).max() < 3e-5  # the rims have different vertices
@@ -266,7 +258,7 @@ def test_several_objects_are_pressed_alike_whatever_their_order() -> None:
         right, left = half("Right", 0.002, 1.0, dented, 17), half("Left", -1.0, -0.002, bent)
         start_several(*(left, right)[::order])
         scenes.smooth(border='follow')
-        results.append(np.concatenate([places(left), places(right)]))
+        results.append(np.concatenate([scenes.world(left), scenes.world(right)]))
     assert np.array_equal(*results)
 
 
@@ -276,9 +268,9 @@ def test_an_object_that_cannot_be_solved_leaves_the_others_to_be() -> None:
     away = half("Away", 3.0, 4.0, dented)
     away.data.flip_normals()
     start_several(left, right, away)
-    before = places(left), places(right), places(away)
+    before = scenes.world(left), scenes.world(right), scenes.world(away)
     assert scenes.smooth(border='follow') == {'FINISHED'}
-    after = places(left), places(right), places(away)
+    after = scenes.world(left), scenes.world(right), scenes.world(away)
     assert [np.array_equal(*pair) for pair in zip(before, after, strict=True)] == [False, False, True]
 
 
@@ -294,7 +286,7 @@ def test_a_linked_neighbour_is_followed_and_stays(tmp_path: Path) -> None:
     left = half("Left", -1.0, 0.0, bent)
     start(left)
     assert scenes.smooth(border='follow') == {'FINISHED'}
-    assert kink(places(left), places(right), 0.0) < 0.3
+    assert kink(scenes.world(left), scenes.world(right), 0.0) < 0.3
 
 
 def test_an_instance_of_a_collection_is_followed() -> None:
@@ -308,4 +300,4 @@ def test_an_instance_of_a_collection_is_followed() -> None:
     left = half("Left", -1.0, 0.0, bent)
     start(left)
     assert scenes.smooth(border='follow') == {'FINISHED'}
-    assert kink(places(left), places(right), 0.0) < 0.3
+    assert kink(scenes.world(left), scenes.world(right), 0.0) < 0.3

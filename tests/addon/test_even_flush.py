@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import scenes
-from test_across_gap import MATRICES, flush, half, places, start, start_several
+from test_across_gap import MATRICES, flush, half, start, start_several
 from test_shut_lines import check
 
 GAP, DEEP = 0.008, 0.002
@@ -33,9 +33,9 @@ def measure(ob: bpy.types.Object) -> float:
 @pytest.mark.parametrize("kind", list(MATRICES))
 def test_the_flush_of_two_objects_becomes_even_and_is_told(kind: str) -> None:
     left, right = start_wavy(kind)
-    before, checked = (places(left), places(right)), measure(left)
+    before, checked = (scenes.world(left), scenes.world(right)), measure(left)
     assert scenes.smooth(border='follow', even_flush=True) == {'FINISHED'}
-    after = places(left), places(right)
+    after = scenes.world(left), scenes.world(right)
     assert np.ptp(flush(*before, GAP)) > 1.7 * DEEP and np.ptp(flush(*after, GAP)) < 0.1 * DEEP
     assert all(np.allclose(*each, atol=1e-6) for each in zip((V[:, :2] for V in before), (V[:, :2] for V in after),
                                                              strict=True))
@@ -45,9 +45,9 @@ def test_the_flush_of_two_objects_becomes_even_and_is_told(kind: str) -> None:
 
 def test_switched_off_the_flush_stays() -> None:
     objects = start_wavy()
-    before = places(objects[0]), places(objects[1])
+    before = scenes.world(objects[0]), scenes.world(objects[1])
     assert scenes.smooth(border='follow') == {'FINISHED'}
-    after = places(objects[0]), places(objects[1])
+    after = scenes.world(objects[0]), scenes.world(objects[1])
     assert np.abs(flush(*after, GAP) - flush(*before, GAP)).max() < 0.02 * DEEP
     assert "Flush" not in objects[0].reflection_lines.report.notes
 
@@ -60,6 +60,6 @@ def test_without_another_panel_that_moves_it_says_so_and_does_nothing_more() -> 
         left = half("Left", -1.0, -0.5 * GAP, scenes.crown)
         start(left)
         assert scenes.smooth(border='follow', even_flush=even) == {'FINISHED'}
-        found.append(places(left))
+        found.append(scenes.world(left))
         assert ("no shut line lies between panels that move" in left.reflection_lines.report.notes) == even
     assert np.array_equal(*found)

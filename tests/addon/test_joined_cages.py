@@ -10,26 +10,19 @@ import pytest
 
 import gaps
 import scenes
-from test_across_gap import places, start_several
-from test_joined_mirrors import VIEWS
-from test_joined_mirrors import find_rim as find_mirrored_rim
-from test_joined_mirrors import height as mirrored_height
-from test_joined_mirrors import straighten as mirrored_straighten
-from test_joined_mirrors import turn as mirrored_turn
-from test_joined_panels import FIT, GAP, KINK, TOOLS, bow, height, remove_all, straighten, turn
+import test_joined_mirrors as mirrors
+import test_joined_panels as panels
+from test_across_gap import start_several
 
 Array = np.ndarray
+COUNTS = {"Rear": (9, 10), "Front": (11, 11), "Bonnet": (7, 20), "Wing": (8, 23)}  # of mirrored cages, as of panels
 OFFSET = 3.0  # percent of the lines' spacing that a tool may add: of meshes 2.0, see there
 
 
 def sheet(name: str, columns: Callable[[float], Array], rows: Array, levels: int, *,
           mirrored: bool = False) -> bpy.types.Object:
-    shape = mirrored_height if mirrored else height
-    points = [(x, y, shape(x, y)) for y in rows for x in columns(y)]
-    count = len(columns(0.0))
-    faces = [(i, i + 1, i + count + 1, i + count) for j in range(len(rows) - 1)
-             for i in range(j * count, (j + 1) * count - 1)]
-    ob = scenes.linked(name, points, faces)
+    shape = mirrors.height if mirrored else panels.height
+    ob = gaps.build_sheet(name, columns, rows, shape)
     if mirrored:
         ob.modifiers.new("Mirror", 'MIRROR')
     ob.modifiers.new("Subdivision", 'SUBSURF').levels = levels
@@ -64,10 +57,11 @@ def subdivide(cage: object, level: int) -> object:
 
 def start(kind: str = "straight", levels: int = 2) -> tuple[bpy.types.Object, bpy.types.Object]:
     """Left, which is active, and Right, all faces selected; their cages have other faces."""
-    remove_all()
-    middle = bow if kind == "curved" else (lambda _y: 0.0)
-    right = sheet("Right", lambda y: np.linspace(middle(y) + 0.5 * GAP, 1.0, 11), np.linspace(-1.0, 1.0, 19), levels)
-    left = sheet("Left", lambda y: np.linspace(-1.0, middle(y) - 0.5 * GAP, 13), np.linspace(-1.0, 1.0, 25), levels)
+    panels.remove_all()
+    middle = panels.bow if kind == "curved" else (lambda _y: 0.0)
+    h = 0.5 * panels.GAP
+    right = sheet("Right", lambda y: np.linspace(middle(y) + h, 1.0, 11), np.linspace(-1.0, 1.0, 19), levels)
+    left = sheet("Left", lambda y: np.linspace(-1.0, middle(y) - h, 13), np.linspace(-1.0, 1.0, 25), levels)
     start_several(right, left)
     bpy.ops.ed.undo_push(message="Start")
     return left, right
@@ -94,36 +88,42 @@ def measure_gap(left: bpy.types.Object, right: bpy.types.Object,
 
 @pytest.mark.parametrize("levels", [2, 3])
 @pytest.mark.parametrize("kind", ["straight", "curved"])
-@pytest.mark.parametrize("tool", list(TOOLS))
+@pytest.mark.parametrize("tool", list(panels.TOOLS))
 def test_lines_run_on_over_the_gap_as_before(tool: str, kind: str, levels: int) -> None:
     """The border of a surface is straight across it, so that these have a kink of 1.2 degrees at the gap to begin with.
     """
     left, right = start(kind, levels)
-    before, was = measure_gap(left, right), [places(left), places(right)]
-    assert TOOLS[tool](border='automatic') == {'FINISHED'}
+    before, was = measure_gap(left, right), [scenes.world(left), scenes.world(right)]
+    assert panels.TOOLS[tool](border='automatic') == {'FINISHED'}
     after = measure_gap(left, right)
-    rims = [np.abs(places(ob) - old)[find_rim(old, kind), 2].max() for ob, old in zip((left, right), was, strict=True)]
+    rims = find_rim_moves((left, right), was, kind)
     print(tool, kind, levels, rims,
           *(float(after[name].max() - before[name].max()) for name in ("kink", "line_offset")),
           *(float(np.abs(after[name] - before[name]).max()) for name in ("flush", "gap")))
     assert min(rims) > 4e-5
-    gaps.assert_kept(before, after, kink=KINK, offset=OFFSET, fit=FIT)
-    bpy.ops.ed.undo()
-    assert all(np.array_equal(places(bpy.data.objects[name]), old)
-               for name, old in zip(("Left", "Right"), was, strict=True))
+    gaps.assert_kept(before, after, kink=panels.KINK, offset=OFFSET, fit=panels.FIT)
+    gaps.assert_undone((left, right), was)
 
 
 def find_rim(V: Array, kind: str = "straight") -> Array:
-    return np.flatnonzero(np.abs(V[:, 0] - (bow(V[:, 1]) if kind == "curved" else 0.0)) < GAP)
+    return np.flatnonzero(np.abs(V[:, 0] - (panels.bow(V[:, 1]) if kind == "curved" else 0.0)) < panels.GAP)
 
 
-def test_the_order_of_the_cages_changes_no_bit() -> None:
+def find_rim_moves(pair: tuple[bpy.types.Object, bpy.types.Object], was: list[Array],
+                   kind: str = "straight") -> list[float]:
+    return [np.abs(move)[find_rim(old, kind), 2].max()
+            for move, old in zip(gaps.find_moves(pair, was), was, strict=True)]
+
+
+@pytest.mark.parametrize("begin", [panels.start, lambda: mirrors.start("across", "even"), start],
+                         ids=["panels", "mirrored panels", "cages"])
+def test_the_order_changes_no_bit(begin: Callable) -> None:
     shapes = []
-    for active in ("Left", "Right"):
-        pair = start()
-        bpy.context.view_layer.objects.active = bpy.data.objects[active]
-        assert straighten(border='automatic') == {'FINISHED'}
-        shapes.append([places(ob) for ob in pair])
+    for active in (0, 1):
+        pair = begin()
+        bpy.context.view_layer.objects.active = pair[active]
+        assert panels.straighten(border='automatic') == {'FINISHED'}
+        shapes.append([scenes.world(ob) for ob in pair])
     assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
 
 
@@ -131,9 +131,9 @@ def test_cages_of_other_levels_are_one_and_of_other_rules_are_not() -> None:
     for name, value in (("levels", 3), ("use_limit_surface", False)):
         left, right = start()
         setattr(right.modifiers[0], name, value)
-        was = [places(left), places(right)]
-        assert turn(border='follow') == {'FINISHED'}
-        rims = [np.abs(places(ob) - old)[find_rim(old), 2].max() for ob, old in zip((left, right), was, strict=True)]
+        was = [scenes.world(left), scenes.world(right)]
+        assert panels.turn(border='follow') == {'FINISHED'}
+        rims = find_rim_moves((left, right), was)
         assert (min(rims) > 1e-4) == (name == "levels") and (max(rims) > 0.0) == (name == "levels")
         assert ("here it was Tangent" in left.reflection_lines.report.notes) == (name != "levels")
 
@@ -144,7 +144,7 @@ def test_rims_keep_to_the_limit_and_to_its_side(side: str) -> None:
     was = [surface(ob, 2)[0] for ob in (left, right)]  # as finely as it is solved for
     for ob in (left, right):
         ob.reflection_lines.limit_side = side
-    assert turn(limit=4e-4, border='automatic') == {'FINISHED'}
+    assert panels.turn(limit=4e-4, border='automatic') == {'FINISHED'}
     for ob, old in zip((left, right), was, strict=True):
         move = (1.0 if side == 'OUTWARD' else -1.0) * (surface(ob, 2)[0] - old)[:, 2]
         assert move.min() >= -1e-6 and 5e-5 < move[find_rim(old)].max() <= 4.001e-4
@@ -154,27 +154,29 @@ def test_rims_keep_to_the_limit_and_to_its_side(side: str) -> None:
 def test_a_part_of_a_cage_is_joined_where_it_ends_at_the_gap() -> None:
     left, right = start()
     scenes.select_faces(right, lambda face: face < 10 * 9)  # the lower half, in rows of 10
-    was = places(right)
-    assert turn(border='automatic') == {'FINISHED'}
-    moved = np.abs(places(right) - was)[:, 2] > 0.0
+    was = scenes.world(right)
+    assert panels.turn(border='automatic') == {'FINISHED'}
+    moved = np.abs(scenes.world(right) - was)[:, 2] > 0.0
     assert moved[find_rim(was)].any() and not moved[was[:, 1] > 1e-6].any()
-    assert np.abs(places(left)[find_rim(places(left)), 2]).max() > 0.0
+    assert np.abs(scenes.world(left)[find_rim(scenes.world(left)), 2]).max() > 0.0
 
 
+@pytest.mark.parametrize(("begin", "border"), [(panels.start, 'follow'), (start, 'automatic')],
+                         ids=["panels", "cages"])
 @pytest.mark.parametrize("tool", ["straighten", "pull"])
-def test_re_solve_moves_both_again(tool: str) -> None:
-    left, right = start()
-    assert TOOLS[tool](border='automatic') == {'FINISHED'}
-    was = [places(left), places(right)]
+def test_re_solve_moves_both_again_and_leaves_no_step(tool: str, begin: Callable, border: str) -> None:
+    pair = begin()
+    assert panels.TOOLS[tool](border=border) == {'FINISHED'}
+    was = [scenes.world(ob) for ob in pair]
     scenes.object_mode()
-    bpy.context.view_layer.objects.active = left
+    bpy.context.view_layer.objects.active = pair[0]
     assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
-    assert all(np.abs(places(ob) - old).max() < 1e-6 for ob, old in zip((left, right), was, strict=True))
+    assert all(np.abs(move).max() < 1e-6 for move in gaps.find_moves(pair, was))
 
 
-@pytest.mark.parametrize("gap", [0.0, GAP])
+@pytest.mark.parametrize("gap", [0.0, panels.GAP])
 def test_three_cages_that_meet_in_a_t_move_as_one(gap: float) -> None:
-    remove_all()
+    panels.remove_all()
     h = 0.5 * gap
     upper = sheet("Upper", lambda _y: np.linspace(h, 1.0, 9), np.linspace(h, 1.0, 11), 2)
     lower = sheet("Lower", lambda _y: np.linspace(h, 1.0, 11), np.linspace(-1.0, -h, 9), 2)
@@ -182,53 +184,37 @@ def test_three_cages_that_meet_in_a_t_move_as_one(gap: float) -> None:
     start_several(upper, lower, left)
     every = {ob.name: ob for ob in (left, lower, upper)}
     before = [measure_gap(*pair) for pair in ((left, lower), (left, upper), (lower, upper))]
-    assert turn(border='automatic') == {'FINISHED'}
+    assert panels.turn(border='automatic') == {'FINISHED'}
     after = [measure_gap(*pair) for pair in ((left, lower), (left, upper), (lower, upper))]
     assert json.loads(left.reflection_lines.run.joined) == sorted(every)
     for one, other in zip(before, after, strict=True):
         print(gap, *(float(other[name].max() - one[name].max()) for name in ("kink", "line_offset")),
               float(np.abs(other["flush"] - one["flush"]).max()))
-        assert other["kink"].max() < one["kink"].max() + 3.0 * KINK
+        assert other["kink"].max() < one["kink"].max() + 3.0 * panels.KINK
 
 
-def start_mirrored(gap: str, view: str) -> tuple[bpy.types.Object, bpy.types.Object]:
-    """Front and Rear, whose gap crosses the seam, or Wing beside Bonnet, which alone has one, all of them mirrored."""
-    remove_all()
-    h = 0.5 * GAP
-    if gap == "across":
-        second = sheet("Rear", lambda _y: np.linspace(0.0, 1.0, 9), np.linspace(h, 1.0, 10), 2, mirrored=True)
-        first = sheet("Front", lambda _y: np.linspace(0.0, 1.0, 11), np.linspace(-1.0, -h, 11), 2, mirrored=True)
-    else:
-        second = sheet("Bonnet", lambda _y: np.linspace(0.0, 0.5 - h, 7), np.linspace(-1.0, 1.0, 20), 2, mirrored=True)
-        first = sheet("Wing", lambda _y: np.linspace(0.5 + h, 1.2, 8), np.linspace(-1.0, 1.0, 23), 2, mirrored=True)
-    start_several(second, first)
-    bpy.ops.reflines.set_up(part='CAMERA', direction=VIEWS[view][0])
-    bpy.ops.reflines.set_up(part='LIGHT', direction=VIEWS[view][1])
-    bpy.ops.ed.undo_push(message="Start")
-    return first, second
+def mirrored_sheet(name: str, columns: Array, rows: Array) -> bpy.types.Object:
+    return sheet(name, lambda _y: columns, rows, 2, mirrored=True)
 
 
-@pytest.mark.parametrize("view", list(VIEWS))
+@pytest.mark.parametrize("view", list(mirrors.VIEWS))
 @pytest.mark.parametrize("gap", ["across", "along"])
 @pytest.mark.parametrize("tool", ["turn", "straighten"])
 def test_mirrored_cages_are_one_and_their_seams_stay_in_the_plane(tool: str, gap: str, view: str) -> None:
-    pair = start_mirrored(gap, view)
+    pair = mirrors.start(gap, view, mirrored_sheet, COUNTS)
     inner = (lambda middle: (np.abs(middle) < 0.8).all(axis=1)) if gap == "across" else (
         lambda middle: np.abs(middle[:, 1]) < 0.8)
-    before, was = measure_gap(*pair, inner), [places(ob) for ob in pair]
-    assert {"turn": mirrored_turn, "straighten": mirrored_straighten}[tool]() == {'FINISHED'}
+    before, was = measure_gap(*pair, inner), [scenes.world(ob) for ob in pair]
+    assert mirrors.TOOLS[tool]() == {'FINISHED'}
     after = measure_gap(*pair, inner)
-    rims = [np.linalg.norm(places(ob) - old, axis=1)[find_mirrored_rim(ob, gap)].max()
-            for ob, old in zip(pair, was, strict=True)]
+    moves = gaps.find_moves(pair, was)
+    rims = [np.linalg.norm(move, axis=1)[mirrors.find_rim(ob, gap)].max()
+            for ob, move in zip(pair, moves, strict=True)]
     print(tool, gap, view, rims, *(float(after[name].max() - before[name].max()) for name in ("kink", "line_offset")),
           float(np.abs(after["flush"] - before["flush"]).max()))
     assert min(rims) > 5e-5
-    for ob, old in zip(pair, was, strict=True):
-        seam = old[:, 0] == 0.0
-        assert np.array_equal(places(ob)[seam, 0], old[seam, 0])
-        if view == "oblique":
-            assert np.array_equal(places(ob)[seam], old[seam])
-    assert after["kink"].max() < before["kink"].max() + 2.0 * KINK
-    assert np.abs(after["flush"] - before["flush"]).max() < FIT
-    bpy.ops.ed.undo()
-    assert all(np.array_equal(places(bpy.data.objects[ob.name]), old) for ob, old in zip(pair, was, strict=True))
+    for move, old in zip(moves, was, strict=True):
+        assert not move[old[:, 0] == 0.0, slice(0, 3 if view == "oblique" else 1)].any()
+    assert after["kink"].max() < before["kink"].max() + 2.0 * panels.KINK
+    assert np.abs(after["flush"] - before["flush"]).max() < panels.FIT
+    gaps.assert_undone(pair, was)

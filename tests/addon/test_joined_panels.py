@@ -12,7 +12,7 @@ import pytest
 
 import gaps
 import scenes
-from test_across_gap import places, start_several
+from test_across_gap import start_several
 
 Array = np.ndarray
 GAP = 0.008
@@ -31,16 +31,12 @@ def bow(y: float) -> float:
 
 
 def sheet(name: str, columns: Callable[[float], Array], rows: Array, step: float = 0.0) -> bpy.types.Object:
-    """A sheet of quads with columns that depend on y."""
-    points = [(x, y, height(x, y) + step) for y in rows for x in columns(y)]
-    count = len(columns(0.0))
-    faces = [(i, i + 1, i + count + 1, i + count) for j in range(len(rows) - 1)
-             for i in range(j * count, (j + 1) * count - 1)]
-    return scenes.linked(name, points, faces)
+    return gaps.build_sheet(name, columns, rows, lambda x, y: height(x, y) + step)
 
 
 def start(kind: str = "straight", gap: float = GAP) -> tuple[bpy.types.Object, bpy.types.Object]:
-    """Left, which is active, and Right, all faces selected; both have other meshes."""
+    """Left, which is active, and Right, all faces selected; both have other meshes. Nothing else is left."""
+    remove_all()
     middle = bow if kind == "curved" else (lambda _y: 0.0)
     step = 0.001 if kind == "step" else 0.0
     right = sheet("Right", lambda y: np.linspace(middle(y) + 0.5 * gap, 1.0, 18), np.linspace(-1.0, 1.0, 37), step)
@@ -50,9 +46,16 @@ def start(kind: str = "straight", gap: float = GAP) -> tuple[bpy.types.Object, b
     return left, right
 
 
+def remove_all() -> None:
+    if bpy.context.mode != 'OBJECT':
+        scenes.object_mode()
+    for old in list(bpy.data.objects):
+        bpy.data.objects.remove(old)
+
+
 def find_rim(ob: bpy.types.Object, kind: str = "straight") -> Array:
     """The vertices at the gap, without its ends."""
-    V = places(ob)
+    V = scenes.world(ob)
     return np.flatnonzero((np.abs(V[:, 0] - (bow(V[:, 1]) if kind == "curved" else 0.0)) < GAP)
                           & (np.abs(V[:, 1]) < 0.99))
 
@@ -62,7 +65,7 @@ def measure_gap(left: bpy.types.Object, right: bpy.types.Object) -> dict[str, Ar
     addon, scene = sys.modules["reflection_lines"], bpy.context.scene
     panels = [addon.read.gather.gather_patch(ob) for ob in (left, right)]
     seen = addon.view.view_and_light.read_scene_view(scene, addon.model.meeting.find_middle(panels))
-    found, middle = gaps.measure(*((places(ob), list_triangles(ob)) for ob in (left, right)), seen)
+    found, middle = gaps.measure(*((scenes.world(ob), list_triangles(ob)) for ob in (left, right)), seen)
     return gaps.choose(found, np.abs(middle[:, 1]) < 0.8)
 
 
@@ -71,9 +74,9 @@ def list_triangles(ob: bpy.types.Object) -> Array:
     return np.array([triangle.vertices[:] for triangle in ob.data.loop_triangles])
 
 
-def turn(**settings: object) -> set[str]:
+def turn(place: tuple[float, float, float] = (-0.1, 0.1, 0.0), **settings: object) -> set[str]:
     """Turns the lines around a place beside the gap."""
-    bpy.context.scene.cursor.location = (-0.1, 0.1, 0.0)
+    bpy.context.scene.cursor.location = place
     return bpy.ops.reflines.direction('EXEC_DEFAULT', True, **{"angle": 0.3, "centre": 'CURSOR', "radius": 0.5,
                                                                "border": 'follow', **settings})
 
@@ -105,17 +108,15 @@ TOOLS = {"turn": turn, "straighten": straighten, "warp": warp, "pull": pull}
 @pytest.mark.parametrize("tool", list(TOOLS))
 def test_lines_run_on_over_the_gap_as_before(tool: str, kind: str) -> None:
     left, right = start(kind)
-    before, was = measure_gap(left, right), [places(left), places(right)]
+    before, was = measure_gap(left, right), [scenes.world(left), scenes.world(right)]
     assert TOOLS[tool]() == {'FINISHED'}
     after = measure_gap(left, right)
-    moves = [np.abs(places(ob) - old)[:, 2].max() for ob, old in zip((left, right), was, strict=True)]
+    moves = [np.abs(move[:, 2]).max() for move in gaps.find_moves((left, right), was)]
     print(tool, kind, moves, [float(each[name].max()) for each in (before, after) for name in ("kink", "line_offset")],
           float(np.abs(after["flush"] - before["flush"]).max()))
     assert min(moves) > 1e-4
     gaps.assert_kept(before, after, kink=KINK, offset=OFFSET, fit=FIT)
-    bpy.ops.ed.undo()
-    assert all(np.array_equal(places(bpy.data.objects[name]), old)
-               for name, old in zip(("Left", "Right"), was, strict=True))
+    gaps.assert_undone((left, right), was)
 
 
 @pytest.mark.parametrize("tool", list(TOOLS))
@@ -125,10 +126,10 @@ def test_a_perspective_view_is_that_of_the_middle_of_both(tool: str) -> None:
     camera = bpy.context.scene.reflection_lines.camera
     camera.data.type, camera.location = 'PERSP', (0.4, -0.6, 4.0)
     bpy.context.view_layer.update()
-    before, was = measure_gap(left, right), [places(left), places(right)]
+    before, was = measure_gap(left, right), [scenes.world(left), scenes.world(right)]
     assert TOOLS[tool]() == {'FINISHED'}
     after = measure_gap(left, right)
-    moves = [places(ob) - old for ob, old in zip((left, right), was, strict=True)]
+    moves = gaps.find_moves((left, right), was)
     assert min(np.abs(move)[find_rim(ob)].max() for ob, move in zip((left, right), moves, strict=True)) > 1e-4
     assert after["kink"].max() < before["kink"].max() + KINK
     assert after["line_offset"].max() < before["line_offset"].max() + OFFSET
@@ -145,9 +146,9 @@ def test_a_dense_panel_beside_a_coarse_one_gets_no_fold_behind_its_rim() -> None
     right = sheet("Right", lambda _y: np.linspace(0.5 * GAP, 1.0, 7), np.linspace(-1.0, 1.0, 13))
     left = sheet("Left", lambda _y: np.linspace(-1.0, -0.5 * GAP, 101), np.linspace(-1.0, 1.0, 201))
     start_several(right, left)
-    before, was = measure_gap(left, right), places(left)
+    before, was = measure_gap(left, right), scenes.world(left)
     assert straighten() == {'FINISHED'}
-    move = (places(left) - was)[:, 2].reshape(201, 101)
+    move = (scenes.world(left) - was)[:, 2].reshape(201, 101)
     bend = np.abs(np.diff(move, n=2, axis=1))[20:-20]
     assert bend[:, -3:].max() < 3.0 * bend[:, -12:-6].max()
     assert measure_gap(left, right)["kink"].max() < before["kink"].max() + KINK
@@ -160,9 +161,9 @@ def test_rims_that_touch_move_as_one(tool: str) -> None:
     right = sheet("Right", lambda _y: np.linspace(0.0, 1.0, 18), rows)
     left = sheet("Left", lambda _y: np.linspace(-1.0, 0.0, 25), np.linspace(-1.0, 1.0, 49))
     start_several(right, left)
-    was = [places(left), places(right)]
+    was = [scenes.world(left), scenes.world(right)]
     assert TOOLS[tool]() == {'FINISHED'}
-    sides = [(places(ob) - old)[find_rim(ob), 2] for ob, old in zip((left, right), was, strict=True)]
+    sides = [move[find_rim(ob), 2] for ob, move in zip((left, right), gaps.find_moves((left, right), was), strict=True)]
     assert np.abs(sides[1]).max() > 1e-4 and np.abs(sides[0][1::2] - sides[1]).max() < 2e-7
     between = 0.5 * (sides[1][1:] + sides[1][:-1]) - sides[0][2:-1:2]
     assert np.abs(between).max() < 0.05 * np.abs(sides[1]).max()
@@ -174,7 +175,7 @@ def test_by_default_panels_that_face_each_other_are_one(tool: str) -> None:
     shapes = []
     for border in ("automatic", "follow"):
         assert TOOLS[tool](border=border) == {'FINISHED'}
-        shapes.append([places(bpy.data.objects[name]) for name in ("Left", "Right")])
+        shapes.append([scenes.world(bpy.data.objects[name]) for name in ("Left", "Right")])
         bpy.ops.ed.undo()
     assert bpy.context.scene.reflection_lines.border == 'automatic'
     assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
@@ -187,7 +188,7 @@ def test_by_default_what_faces_nothing_is_as_with_tangent_to_the_bit(tool: str, 
     for border in ("automatic", "clamped"):
         left, right = start_apart(why)
         assert TOOLS[tool](border=border) == {'FINISHED'}
-        shapes.append([places(ob) for ob in (left, right)])
+        shapes.append([scenes.world(ob) for ob in (left, right)])
         notes.append(left.reflection_lines.report.notes)
     assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
     assert notes[0] == notes[1]
@@ -195,7 +196,6 @@ def test_by_default_what_faces_nothing_is_as_with_tangent_to_the_bit(tool: str, 
 
 def start_apart(why: str) -> tuple[bpy.types.Object, bpy.types.Object]:
     """Both panels anew, of which one is not to be joined with the other."""
-    remove_all()
     left, right = start()
     scenes.object_mode()
     if why == "apart":
@@ -210,13 +210,6 @@ def start_apart(why: str) -> tuple[bpy.types.Object, bpy.types.Object]:
     return left, right
 
 
-def remove_all() -> None:
-    if bpy.context.mode != 'OBJECT':
-        scenes.object_mode()
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
-
-
 @pytest.mark.parametrize("gap", [0.0, GAP])
 def test_three_panels_that_meet_in_a_t_move_as_one(gap: float) -> None:
     h = 0.5 * gap
@@ -224,27 +217,15 @@ def test_three_panels_that_meet_in_a_t_move_as_one(gap: float) -> None:
     lower = sheet("Lower", lambda _y: np.linspace(h, 1.0, 21), np.linspace(-1.0, -h, 16))
     left = sheet("Left", lambda _y: np.linspace(-1.0, -h, 25), np.linspace(-1.0, 1.0, 49))
     start_several(upper, lower, left)
-    was = {ob.name: places(ob) for ob in (left, lower, upper)}
+    every = left, lower, upper
+    was = [scenes.world(ob) for ob in every]
     assert turn() == {'FINISHED'}
-    corner = []
-    for ob in (left, lower, upper):
-        nearest = np.hypot(was[ob.name][:, 0], was[ob.name][:, 1]).argmin()
-        corner.append((places(ob) - was[ob.name])[nearest, 2])
+    corner = [move[np.hypot(*old[:, :2].T).argmin(), 2]
+              for move, old in zip(gaps.find_moves(every, was), was, strict=True)]
     assert min(map(abs, corner)) > 1e-4 and np.ptp(corner) < (1e-7 if gap == 0.0 else 0.2 * max(map(abs, corner)))
     for one, other in ((left, lower), (left, upper), (lower, upper)):
         found = measure_gap(one, other)
         assert found["kink"].max() < KINK and found["line_offset"].max() < OFFSET
-
-
-def test_the_order_of_the_panels_changes_no_bit() -> None:
-    shapes = []
-    for active in ("Left", "Right"):
-        remove_all()
-        pair = start()
-        bpy.context.view_layer.objects.active = bpy.data.objects[active]
-        assert straighten() == {'FINISHED'}
-        shapes.append([places(ob) for ob in pair])
-    assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
 
 
 def test_panels_elsewhere_in_the_same_run_change_no_bit() -> None:
@@ -262,7 +243,7 @@ def test_panels_elsewhere_in_the_same_run_change_no_bit() -> None:
         bpy.ops.object.mode_set(mode='EDIT')
         bpy.ops.ed.undo_push(message="Pairs")
         assert straighten(border='follow') == {'FINISHED'}
-        shapes.append([places(bpy.data.objects[name]) for name in ("Left", "Right")])
+        shapes.append([scenes.world(bpy.data.objects[name]) for name in ("Left", "Right")])
         bpy.ops.ed.undo()
         pair = [bpy.data.objects[name] for name in ("Left", "Right")]
     assert all(np.array_equal(*each) for each in zip(*shapes, strict=True))
@@ -271,11 +252,11 @@ def test_panels_elsewhere_in_the_same_run_change_no_bit() -> None:
 def test_a_pull_moves_no_face_that_is_not_selected() -> None:
     left, right = start()
     scenes.select_faces(right, lambda face: face < 18 * 17)  # the lower half, in rows of 17
-    was = places(right)
+    was = scenes.world(right)
     assert pull() == {'FINISHED'}
-    moved = np.abs(places(right) - was)[:, 2] > 0.0
+    moved = np.abs(scenes.world(right) - was)[:, 2] > 0.0
     assert moved.any() and not moved[was[:, 1] > 0.0].any()
-    assert np.abs(places(left)[find_rim(left)][:, 2]).max() > 0.0
+    assert np.abs(scenes.world(left)[find_rim(left)][:, 2]).max() > 0.0
 
 
 @pytest.mark.parametrize("border", ["follow", "clamped"])
@@ -285,23 +266,23 @@ def test_a_pull_beside_a_panel_that_is_not_edited_keeps_its_rim_and_the_slope_th
     right.select_set(False)
     bpy.context.view_layer.objects.active = left
     bpy.ops.object.mode_set(mode='EDIT')
-    was, other = places(left), places(right)
+    was, other = scenes.world(left), scenes.world(right)
     assert pull(border=border) == {'FINISHED'}
-    moved = np.abs(places(left) - was)[:, 2] > 0.0
+    moved = np.abs(scenes.world(left) - was)[:, 2] > 0.0
     column = np.arange(len(was)) % 25
-    assert moved.any() and not moved[column >= 23].any() and np.array_equal(places(right), other)
+    assert moved.any() and not moved[column >= 23].any() and np.array_equal(scenes.world(right), other)
 
 
 @pytest.mark.parametrize("side", ['OUTWARD', 'INWARD'])
 def test_rims_keep_to_the_limit_and_to_its_side(side: str) -> None:
     left, right = start()
-    was = [places(left), places(right)]
+    was = [scenes.world(left), scenes.world(right)]
     for ob in (left, right):
         ob.reflection_lines.limit_side = side
     assert turn(limit=4e-4) == {'FINISHED'}
-    for ob, old in zip((left, right), was, strict=True):
-        move = (1.0 if side == 'OUTWARD' else -1.0) * (places(ob) - old)[:, 2]
-        assert move.min() >= -1e-7 and 1e-4 < move[find_rim(ob)].max() <= 4.001e-4
+    for ob, move in zip((left, right), gaps.find_moves((left, right), was), strict=True):
+        outwards = (1.0 if side == 'OUTWARD' else -1.0) * move[:, 2]
+        assert outwards.min() >= -1e-7 and 1e-4 < outwards[find_rim(ob)].max() <= 4.001e-4
 
 
 def test_only_the_segments_that_follow_move() -> None:
@@ -314,10 +295,10 @@ def test_only_the_segments_that_follow_move() -> None:
         for v in rim:
             edit.verts[v][layer] = FOLLOW if edit.verts[v].co.y > 0.0 else 0
         bmesh.update_edit_mesh(ob.data)
-    was = [places(ob) for ob in pair]
+    was = [scenes.world(ob) for ob in pair]
     assert turn(border='clamped') == {'FINISHED'}
     for ob, old, rim in zip(pair, was, rims, strict=True):
-        move, y = np.abs(places(ob) - old)[rim, 2], old[rim, 1]
+        move, y = np.abs(scenes.world(ob) - old)[rim, 2], old[rim, 1]
         assert move[y > 0.1].max() > 1e-4 and move[y < -0.1].max() == 0.0
         assert np.abs(np.diff(move)).max() < 0.5 * move.max()  # without a tear between
 
@@ -325,21 +306,10 @@ def test_only_the_segments_that_follow_move() -> None:
 def test_what_cannot_be_joined_is_solved_by_itself_and_says_so() -> None:
     left, right = start()
     right.modifiers.new("Subdivision", 'SUBSURF').levels = 1
-    was = places(left)
+    was = scenes.world(left)
     assert turn() == {'FINISHED'}
-    assert np.array_equal(places(left)[find_rim(left)], was[find_rim(left)])
+    assert np.array_equal(scenes.world(left)[find_rim(left)], was[find_rim(left)])
     assert "here it was Tangent" in left.reflection_lines.report.notes
-
-
-@pytest.mark.parametrize("tool", ["straighten", "pull"])
-def test_re_solve_moves_both_again_and_leaves_no_step(tool: str) -> None:
-    left, right = start()
-    assert TOOLS[tool]() == {'FINISHED'}
-    was = [places(left), places(right)]
-    scenes.object_mode()
-    bpy.context.view_layer.objects.active = left
-    assert bpy.ops.reflines.resolve('EXEC_DEFAULT', True) == {'FINISHED'}
-    assert all(np.abs(places(ob) - old).max() < 1e-6 for ob, old in zip((left, right), was, strict=True))
 
 
 def test_re_solve_refuses_to_leave_the_other_behind() -> None:

@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 import pytest
 
+import gaps
 import scenes
-from test_across_gap import half, places, start_several
+from test_across_gap import half, start_several
 
 GAP = 0.008
 Pair = tuple[bpy.types.Object, bpy.types.Object]
@@ -30,12 +31,10 @@ def start() -> Pair:
 
 def direct(pair: Pair, **settings: object) -> list[np.ndarray]:
     """Runs Direction and Density; returns the moves of both panels, and takes them back by one undo."""
-    before = [places(ob) for ob in pair]
+    before = [scenes.world(ob) for ob in pair]
     assert bpy.ops.reflines.direction('EXEC_DEFAULT', True, **{"angle": 0.2, **settings}) == {'FINISHED'}
-    moves = [places(ob) - was for ob, was in zip(pair, before, strict=True)]
-    bpy.ops.ed.undo()
-    assert all(np.array_equal(places(bpy.data.objects[name]), was)
-               for name, was in zip(("Left", "Right"), before, strict=True))
+    moves = gaps.find_moves(pair, before)
+    gaps.assert_undone(pair, before)
     return moves
 
 
@@ -49,8 +48,8 @@ def test_a_fall_off_has_one_centre_for_both(kind: str) -> None:
     edit = bmesh.from_edit_mesh(left.data)
     place = min(edit.verts, key=lambda vertex: np.hypot(vertex.co.x + 0.2, vertex.co.y - 0.1))
     edit.select_history.add(place)
-    middle = 0.5 * (np.minimum(*(places(ob).min(axis=0) for ob in (left, right)))
-                    + np.maximum(*(places(ob).max(axis=0) for ob in (left, right))))
+    middle = 0.5 * (np.minimum(*(scenes.world(ob).min(axis=0) for ob in (left, right)))
+                    + np.maximum(*(scenes.world(ob).max(axis=0) for ob in (left, right))))
     bpy.context.scene.cursor.location = middle if kind == 'REGION' else left.matrix_world @ place.co
     radius = 0.0 if kind == 'REGION' else 0.5
     own, given = (direct((left, right), centre=centre, radius=radius) for centre in (kind, 'CURSOR'))
@@ -67,7 +66,7 @@ def test_panels_that_do_not_meet_have_each_their_own_centre() -> None:
 
 def test_tangent_keeps_gap_and_step_and_free_says_that_they_change() -> None:
     pair = start()
-    rims = [np.abs(places(ob)[:, 0]) < GAP for ob in pair]
+    rims = [np.abs(scenes.world(ob)[:, 0]) < GAP for ob in pair]
     for border in ('clamped', 'free'):
         moved = [np.abs(move[rim]).max() for move, rim in
                  zip(direct(pair, centre='EVERYWHERE', direction='ANGLE', border=border), rims, strict=True)]
@@ -112,12 +111,10 @@ def test_a_warp_moves_both_and_one_undo_takes_both_back() -> None:
     assert np.allclose(extent[:2], 2.0, atol=1e-3)  # over both
     lattice.data.points[12].co_deform.y += 0.5  # the middle one, over the gap
     bpy.ops.ed.undo_push(message="Lattice")
-    before = [places(ob) for ob in pair]
+    before = [scenes.world(ob) for ob in pair]
     assert bpy.ops.reflines.warp('EXEC_DEFAULT', True) == {'FINISHED'}
-    assert all(np.abs(places(ob) - was).max() > 1e-5 for ob, was in zip(pair, before, strict=True))
-    bpy.ops.ed.undo()
-    assert all(np.array_equal(places(bpy.data.objects[name]), was)
-               for name, was in zip(("Left", "Right"), before, strict=True))
+    assert all(np.abs(move).max() > 1e-5 for move in gaps.find_moves(pair, before))
+    gaps.assert_undone(pair, before)
 
 
 def test_an_image_is_one_picture_over_both() -> None:
@@ -125,11 +122,11 @@ def test_an_image_is_one_picture_over_both() -> None:
     image = bpy.data.images.new("Ramp", 32, 32, float_buffer=True)
     image.pixels.foreach_set(np.repeat(np.tile(np.linspace(0.0, 1.0, 32) ** 2, 32), 4).astype(np.float32))
     left, right = start()
-    before, moves = places(left), []
+    before, moves = scenes.world(left), []
     for chosen, settings in ((True, {}), (False, {"width": 2.0, "offset": (0.5 + 0.25 * GAP, 0.0)})):
         scenes.select_faces(right, lambda _face, chosen=chosen: chosen)
         assert bpy.ops.reflines.pattern('EXEC_DEFAULT', True, image="Ramp", border='free', **settings) == {'FINISHED'}
-        moves.append(places(left) - before)
+        moves.append(scenes.world(left) - before)
         bpy.ops.ed.undo()
         left, right = bpy.data.objects["Left"], bpy.data.objects["Right"]
     assert np.abs(moves[0]).max() > 1e-4 and np.allclose(*moves, atol=0.01 * np.abs(moves[0]).max())

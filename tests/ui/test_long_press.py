@@ -11,7 +11,7 @@ from mathutils import Matrix
 import scenes
 import window
 from dragging import at_rest, panel, shown, taken_back, undone_and_redone
-from test_across_gap import bent, half, places, start_several
+from test_across_gap import bent, half, start_several
 from window import Steps
 
 CELLS = 80  # 6,084 selected faces
@@ -92,14 +92,14 @@ def test_a_long_press_of_several_objects_gives_the_result_of_the_operator(driver
             away = half("Away", 3.0, 4.0, bent, 6)
             away.data.flip_normals()
             start_several(left, right, away)
-            before = np.concatenate([places(ob) for ob in (left, right)])
+            before = np.concatenate([scenes.world(ob) for ob in (left, right)])
         if long:
             yield from press(driver, border='follow')
             yield from wait()
         else:
             with driver.override():
                 assert scenes.smooth(border='follow') == {'FINISHED'}
-        results.append(np.concatenate([places(ob) for ob in (left, right)]))
+        results.append(np.concatenate([scenes.world(ob) for ob in (left, right)]))
         assert np.abs(results[-1] - before).max() > 1e-3
     assert np.array_equal(*results)
 
