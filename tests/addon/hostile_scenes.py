@@ -237,7 +237,7 @@ def lost_picture() -> bpy.types.Object:
 
 def creased(value: float) -> bpy.types.Object:
     """A cage whose creases are no numbers that Blender's own fields can take."""
-    ob = caged(scenes.panel(cells=8))
+    ob = caged(scenes.panel(cells=5))
     if bpy.app.version < (4, 0, 0):
         ob.data.edges.foreach_set("crease", np.full(len(ob.data.edges), value, np.float32))
     else:

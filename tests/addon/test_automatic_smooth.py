@@ -9,7 +9,7 @@ from reflection_lines.state import press_cache, solve_history
 
 import scenes
 
-CELLS = 48
+CELLS = 36
 LINE = 0.5     # where the character lines run: x = -LINE and x = LINE
 DENT = (0.1, -0.2, 0.1, 0.004)  # x, y, radius, depth
 

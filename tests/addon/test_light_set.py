@@ -19,7 +19,7 @@ import scenes
 from keying import pull
 from scenes import settings
 
-CELLS, CAGE_CELLS = 40, 20
+CELLS, CAGE_CELLS = 32, 20
 
 
 def dented(x: float, y: float) -> float:

@@ -77,18 +77,3 @@ def test_what_is_less_even_is_clamped_and_said_and_what_is_good_is_kept(border: 
     assert is_said(press("steep dent", "jittered", border)[1])
     positions, told = press("dent", diagonals, border)
     assert not is_said(told) and not np.array_equal(positions, press("dent", diagonals, "clamped")[0])
-
-
-@pytest.mark.parametrize("slope", [0.2, 1.0, 3.0])
-@pytest.mark.parametrize("border", CONTINUED)
-def test_a_crease_ends_the_curvature_where_none_are_held_too(border: str, slope: float) -> None:
-    """Behind the border the panel bends down like a flange; a press of Smooth holds no creases."""
-    V, F = mesh("jittered", CELLS)
-    V[:, 2] -= slope * np.maximum(np.abs(V[:, :2]).max(axis=1) - HALF, 0.0)
-    panel = Panel(flawed("dent", V), F)
-    results = []
-    for each in ("clamped", border):
-        solver = panel.build(each, crease_rule="none")
-        solver.solve([reflines.smooth(solver, length=0.4, family=family) for family in (0, 1)])
-        results.append(solver.positions)
-    assert np.array_equal(*results)

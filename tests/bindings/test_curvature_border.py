@@ -137,14 +137,3 @@ def test_without_surroundings_it_is_clamped_and_said() -> None:
     for each in (solver, clamped):
         each.solve(reflines.turn(each, angle=0.1))
     assert np.array_equal(solver.positions, clamped.positions)
-
-
-def test_the_press_takes_it_too() -> None:
-    V, F = mesh("random", CELLS)
-    panel = Panel(flawed("dent", V), F)
-    options = {"view_direction": VIEW, "line_direction": LINES[0]}
-    results = {border: reflines.smooth_panel(panel.V[panel.used], panel.own, border=border, around=panel.around,
-                                             **options)[0] for border in ("clamped", "curvature")}
-    assert not np.array_equal(results["clamped"], results["curvature"])
-    held = ~panel.build("clamped").free
-    assert np.array_equal(results["curvature"][held], panel.V[panel.used][held])

@@ -31,7 +31,7 @@ def healed(results: list, meshes: tuple[Mesh, ...]) -> list[Mesh]:
     return [(V, F) for (V, _), (_, F) in zip(results, meshes, strict=True)]
 
 
-@pytest.mark.parametrize("gap", [0.0, 0.001, 0.004, 0.008])
+@pytest.mark.parametrize("gap", [0.0, 0.008])
 def test_a_flush_that_varies_by_waves_becomes_constant_and_lines_run_on(gap: float) -> None:
     meshes = wavy(gap)
     results = press(*meshes, even_flush=True)

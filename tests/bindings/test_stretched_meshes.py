@@ -8,7 +8,7 @@ pytest.importorskip("matplotlib", reason="figures are drawn where the project is
 
 from figures import sphere  # noqa: E402  (it imports it)
 
-KINDS = ("regular", "jittered", "random", "irregular")
+KINDS = ("regular", "irregular")
 LENGTH = 0.25
 
 
