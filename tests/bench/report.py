@@ -14,6 +14,7 @@ from dataclasses import asdict
 from datetime import date
 from pathlib import Path
 
+import json_lines
 from bench import continuity, design_tools, handle_steps, light_set, live, ranking, restoration
 from bench.row import Row
 
@@ -212,7 +213,7 @@ def keep(rows: list[dict]) -> None:
     describe = ["git", "describe", "--always", "--dirty", "--exclude=*"]
     commit = subprocess.run(describe, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout.strip()
     kept = {"date": date.today().isoformat(), "commit": commit, "machine": machine(), "rows": rows}
-    KEPT.write_text(json.dumps(kept, indent=1) + "\n")
+    KEPT.write_text(json_lines.dump(kept) + "\n")
 
 
 def asked() -> argparse.Namespace:
@@ -238,7 +239,7 @@ def main() -> None:
     if not quick:
         rows += [*million_rows(times), *live.rows()]
     values = [asdict(row) | {"value": row.value if math.isfinite(row.value) else None} for row in rows]  # JSON
-    (OUT / "report.json").write_text(json.dumps(values, indent=1) + "\n")
+    (OUT / "report.json").write_text(json_lines.dump(values) + "\n")
     if arguments.keep:
         keep(values)
     print_table(rows)

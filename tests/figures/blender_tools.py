@@ -1,9 +1,9 @@
 """Compares Smooth Lines with Blender's own Fair Tangency, Smooth Vertices and Relax, in numbers and in stripes."""
-import json
 import subprocess
 from datetime import date
 from pathlib import Path
 
+import json_lines
 import suites
 
 from bench.report import machine
@@ -29,7 +29,7 @@ def make(folder: Path) -> None:
     measured = {name: compare_shapes.measure_panel(work / f"{name}_shapes.npz") for name in names}
     kept = {"date": date.today().isoformat(), "machine": machine(), "blender": str(measured[names[0]][1]["blender"]),
             "panels": {name: {shape: numbers[shape] for shape in SHAPES} for name, (numbers, _) in measured.items()}}
-    (folder / "blender_tools.json").write_text(json.dumps(kept, indent=1) + "\n")
+    (folder / "blender_tools.json").write_text(json_lines.dump(kept) + "\n")
     shapes = {PANELS[name].replace(": ", "\n"): shapes for name, (_, shapes) in measured.items()}
     for suffix in ("png", "webp"):
         stripe_sheet.draw_sheet(shapes, folder / f"blender_tools.{suffix}")
