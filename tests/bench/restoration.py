@@ -31,6 +31,14 @@ def load_judge() -> ModuleType:
     return judge
 
 
+def load_panel(name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Returns V, F, view and light of a real panel."""
+    judge = load_judge()
+    panel = read_panels(cages=False)[name]
+    return (*judge.load(panel["file"], panel.get("patch")), judge.unit(panel["view_direction"]),
+            judge.unit(panel["light_across"]))
+
+
 def read_panels(*, cages: bool) -> dict[str, dict]:
     panels = json.loads((JUDGE.parent / "selections.json").read_text())
     return {name: panel for name, panel in panels.items() if panel["cage"] == cages}

@@ -8,7 +8,7 @@ import reflines
 from sample_panels import grid
 from test_sample_lengths import measure_error
 
-from bench.restoration import JUDGE, load_judge
+from bench.restoration import JUDGE, load_judge, load_panel
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
 import panel_shapes  # noqa: E402
@@ -76,10 +76,8 @@ def test_waves_on_a_plain_panel_are_told() -> None:
 def test_of_real_panels_only_wavy_ones_are_told(name: str) -> None:
     """Not clean ones, nor those with noise, ripples or dents; and twice the size makes nothing told of worse."""
     judge = load_judge()
-    panel = judge.json.loads((JUDGE.parent / "selections.json").read_text())[name]
-    V, F = judge.load(panel["file"], panel.get("patch"))
-    view = judge.unit(panel["view_direction"])
-    seen = {"view_direction": view, "line_direction": judge.unit(panel["light_across"])}
+    V, F, view, light = load_panel(name)
+    seen = {"view_direction": view, "line_direction": light}
     diagonal = np.linalg.norm(np.ptp(V, axis=0))
     flaws = [2.0 * judge.heights(kind, V, F, view, diagonal) for kind in ("dents", "ripple", "noise")]
     for height in (np.zeros(len(V)), *flaws):

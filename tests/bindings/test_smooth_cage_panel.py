@@ -3,17 +3,15 @@
 Errors are read by the paper's eq. 1 at the normals of the subdivided surface's triangles, which shares no code with the
 solver.
 """
-import json
-
 import numpy as np
 import pytest
 import reflines
 import sample_cages
-from real_meshes import MESHES, obj
+
+from bench.restoration import JUDGE, read_cage, read_panels
 
 Array = np.ndarray
 VIEW, LINES = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
-PANELS = MESHES.parent / "restoration/selections.json"
 
 
 def hemmed_hood() -> tuple[Array, Array, Array]:
@@ -27,7 +25,7 @@ def hemmed_hood() -> tuple[Array, Array, Array]:
     return V, np.arange(0, 4 * len(quads) + 1, 4), quads.ravel()
 
 
-def press(cage: tuple, view: Array = VIEW, lines: Array = LINES,
+def press(cage: tuple | list, view: Array = VIEW, lines: Array = LINES,
           **settings: object) -> tuple[Array, reflines.SmoothPanelReport]:
     return reflines.smooth_cage_panel(*cage, view_direction=view, line_direction=lines, **settings)
 
@@ -119,16 +117,13 @@ def test_bad_input_gets_a_sentence() -> None:
             press(cage, **settings)
 
 
-@pytest.mark.skipif(not PANELS.is_file(), reason="the judge's selections are not here")
+@pytest.mark.skipif(not JUDGE.is_file(), reason="the judge's selections are not here")
 @pytest.mark.parametrize("selected", ["patch", "box"])
 @pytest.mark.parametrize("name", ["subaru_hood_cage", "subaru_front_door_cage", "subaru_rear_door_cage"])
 def test_real_cages_with_thin_rims_are_left_as_they_are(name: str, selected: str) -> None:
     """By one light and a sixth of the diagonal their surfaces moved by 292 mm and 22.6 m."""
-    panel = json.loads(PANELS.read_text())[name]
-    V, faces = obj(panel["file"])
-    cage = V, np.cumsum([0] + [len(face) for face in faces]), np.concatenate(faces)
-    region = np.zeros(len(faces), bool)
-    region[panel[selected]] = True
+    panel = read_panels(cages=True)[name]
+    *cage, region = read_cage(panel, selected)
     view, lines = (np.array(panel[key]) / np.linalg.norm(panel[key]) for key in ("view_direction", "light_across"))
     positions, report = press(cage, view, lines, region=region)
     surface = Surface(cage, view, lines, region)

@@ -11,7 +11,8 @@ from sample_panels import LINE as PANEL_LINE
 from sample_panels import VIEW as PANEL_VIEW
 from sample_panels import grid, panel, rippled
 
-from bench.restoration import JUDGE, load_judge
+from bench.flawed_panels import list_panels
+from bench.restoration import JUDGE, load_judge, load_panel, read_panels
 
 VIEW, LINES = np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0])
 LIGHTS = (LINES, np.array([1.0, 0.0, 0.0]))
@@ -269,7 +270,7 @@ def test_real_panels_are_restored() -> None:
     """Four calm panels: 0.25 / 0.27 degrees harm, 0.25 of dents, 0.41 of ripple, 0.31 of noise left in the median."""
     judge = load_judge()
     names = ("subaru_hood", "drivaer_hood", "drivaer_hood_wide", "subaru_roof")
-    panels = judge.json.loads((JUDGE.parent / "selections.json").read_text())
+    panels = read_panels(cages=False)
     results = [judge.judge(panels[name], judge.present) for name in names]
     harm = np.array([result["harm"] for result in results])
     assert harm.max() < 0.6 and np.median(harm, axis=0).max() < 0.3
@@ -285,9 +286,7 @@ def test_real_panels_are_restored() -> None:
 def test_panels_full_of_features_are_not_bent(name: str) -> None:
     """Smoothed by one verdict on the whole of it, the clean boot lid was off by 5.5 degrees, the bumper by 4.3."""
     judge = load_judge()
-    panel = judge.json.loads((JUDGE.parent / "selections.json").read_text())[name]
-    V, F = judge.load(panel["file"], panel.get("patch"))
-    view, lines = judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
+    V, F, view, lines = load_panel(name)
     pressed, _ = reflines.smooth_panel(V, F, view_direction=view, line_direction=lines)
     for light in (lines, judge.unit(np.cross(view, lines))):
         off = (judge.theta(pressed, F, view, light) - judge.theta(V, F, view, light) + np.pi) % (2 * np.pi) - np.pi
@@ -301,16 +300,12 @@ def test_places_that_would_become_less_even_stay_and_the_others_are_healed() -> 
     """Evened out with its other half, a dent of a coarse bonnet lies on both: one light would become less even in all,
     0.19 to 0.23 degrees, and the whole panel was refused."""
     judge = load_judge()
-    panel = judge.json.loads((JUDGE.parent / "selections.json").read_text())["r8_bonnet"]
-    V, F = judge.load(panel["file"], panel.get("patch"))
-    V = V - V.mean(0)
-    view, lines = judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
-    flawed = V + judge.heights("dents", V, F, view, np.linalg.norm(np.ptp(V, axis=0)))[:, None] * view
-    _, report = reflines.smooth_panel(flawed, F, view_direction=view, line_direction=lines)
+    panel = list_panels()["r8_bonnet"]()
+    _, report = reflines.smooth_panel(panel.flawed, panel.F, view_direction=panel.view, line_direction=panel.light)
     assert report.applied and report.largest_move > 0.0
     assert all(after < 1.01 * before
                for before, after in zip(report.unevenness_before, report.unevenness_after, strict=True))
-    left = judge.judge(panel, judge.present)["dents"]
+    left = judge.judge(read_panels(cages=False)["r8_bonnet"], judge.present)["dents"]
     print(left)
     assert left[0] < 0.9 and left[1] < 1.03
 

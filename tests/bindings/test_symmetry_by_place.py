@@ -3,7 +3,8 @@ import numpy as np
 import pytest
 import reflines
 from dented_dome import grid
-from test_smooth_panel import JUDGE, load_judge
+
+from bench.restoration import JUDGE, load_judge, load_panel
 
 Array = np.ndarray
 VIEW, LINES = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.3, 0.0])
@@ -71,12 +72,9 @@ def test_a_panel_that_is_alike_in_part_is_counted_by_place() -> None:
 def test_slivers_of_a_mesh_that_is_not_symmetric_keep_their_normals() -> None:
     """The halves of a clean boot lid have different meshes, with slivers. What vertices differ by from the tangent
     planes of partners beside them turned these by up to 97 degrees, seen from 12 degrees aside."""
-    judge = load_judge()
-    panel = judge.json.loads((JUDGE.parent / "selections.json").read_text())["porsche_boot_lid"]
-    V, F = judge.load(panel["file"], panel.get("patch"))
-    view, lines = judge.unit(panel["view_direction"]), judge.unit(panel["light_across"])
-    view = judge.unit(np.cos(np.radians(12)) * view + np.sin(np.radians(12)) * lines)
-    lines = judge.unit(lines - (lines @ view) * view)
+    V, F, view, lines = load_panel("porsche_boot_lid")
+    view = load_judge().unit(np.cos(np.radians(12)) * view + np.sin(np.radians(12)) * lines)
+    lines = load_judge().unit(lines - (lines @ view) * view)
     P, report = reflines.smooth_panel(V, F, view_direction=view, line_direction=lines)
     normals = [np.cross(each[F[:, 1]] - each[F[:, 0]], each[F[:, 2]] - each[F[:, 0]]) for each in (V, P)]
     length = np.prod([np.linalg.norm(each, axis=1) for each in normals], axis=0)
