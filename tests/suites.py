@@ -162,8 +162,7 @@ def window_command(width: int = 1280, height: int = 900, display: int = 99) -> l
             "--enable-event-simulate", "--window-geometry", "0", "0", str(width), str(height)]
 
 
-# Window tests that take less time than a Blender takes to start, or not much more, and leave nothing to each other;
-# those that take longest begin.
+# Files of window tests that leave nothing to each other: one Blender starts for them. Those that take longest begin.
 TOGETHER = (
     ("reinstall",),
     ("hostile",),
@@ -173,6 +172,8 @@ TOGETHER = (
     ("bake_handles", "follow_selected_edges", "inspect", "redo", "sidebar"),
     ("stripes", "stripes_cages", "shut_lines"),
     ("fair_brush", "long_press", "quad_view", "drag_lost"),
+    ("several_panels", "pull_line", "sample_tabs", "help"),
+    ("live_warp", "stripes_stay", "drag_over_drag", "disabled"),
 )
 
 
