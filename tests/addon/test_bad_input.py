@@ -1,5 +1,6 @@
 """Bad input gets one clear sentence, and the mesh stays as it was, bit by bit."""
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import bmesh
@@ -35,63 +36,10 @@ def nothing(_: bmesh.types.BMesh) -> None:
     """The panel as it is."""
 
 
-def test_no_camera() -> None:
-    ob = scenes.panel()
-    bpy.ops.reflines.set_up(part='LIGHT')
-    scenes.edit_inner(ob)
-    refused(ob, "No view camera: press Set Up from This View")
-
-
-def test_no_light() -> None:
-    ob = scenes.panel()
-    bpy.ops.reflines.set_up(part='CAMERA')
-    scenes.edit_inner(ob)
-    refused(ob, "No light direction: press Add Light Direction")
-
-
-@pytest.mark.parametrize(("which", "sentence"), [("camera", "No view camera"), ("light", "No light direction")])
-def test_deleted_camera_or_light(which, sentence) -> None:
-    ob = edited(nothing)
-    bpy.context.scene.collection.objects.unlink(getattr(bpy.context.scene.reflection_lines, which))
-    refused(ob, sentence)
-
-
-def test_light_parallel_to_the_view() -> None:
-    ob = scenes.edited_panel(light_degrees=0.0)
-    refused(ob, "parallel to the view")
-
-
-def test_light_without_direction() -> None:
-    ob = edited(nothing)
-    bpy.context.scene.reflection_lines.light.scale = (0.0, 0.0, 0.0)
-    refused(ob, "Light Direction has no direction")
-
-
 def test_no_mesh() -> None:
     bpy.context.scene.reflection_lines.light = bpy.data.objects.new("Light Direction", None)
     with pytest.raises(RuntimeError, match="Make the panel's mesh the active object"):
         scenes.smooth()
-
-
-def test_nothing_selected() -> None:
-    ob = edited(nothing)
-    bpy.ops.mesh.select_all(action='DESELECT')
-    refused(ob, "No faces are selected: select the faces of the panel")
-
-
-def test_only_vertices_selected() -> None:
-    ob = edited(nothing)
-    bpy.ops.mesh.select_all(action='DESELECT')
-    mesh = bmesh.from_edit_mesh(ob.data)
-    mesh.verts.ensure_lookup_table()
-    mesh.verts[5].select_set(True)
-    refused(ob, "the 1 selected vertices span no face")
-
-
-def test_no_stored_region() -> None:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    refused(ob, "Panel has no stored region: select the faces of the panel in Edit Mode")
 
 
 def test_buttons_are_grey_where_there_are_no_faces_to_work_on() -> None:
@@ -115,21 +63,6 @@ def run_once(ob: bpy.types.Object) -> None:
     scenes.edit(ob)
     assert scenes.smooth() == {'FINISHED'}
     scenes.object_mode()
-
-
-def test_closed_body() -> None:
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
-    ob = bpy.context.object
-    scenes.look_from_above()
-    scenes.edit(ob)
-    bpy.ops.mesh.select_all(action='SELECT')
-    refused(ob, "Sphere: the 384 selected faces are all of a closed body")
-
-
-def test_all_faces_turned_away() -> None:
-    ob = edited(nothing)
-    bpy.ops.mesh.flip_normals()
-    refused(ob, "All 256 faces of the region turn away")
 
 
 def one_face_flipped(mesh: bmesh.types.BMesh) -> None:
@@ -194,14 +127,80 @@ def fin(mesh: bmesh.types.BMesh) -> None:
     mesh.faces.new((a, b, mesh.verts.new(a.co + Vector((0.05, 0.0, 0.5)))))
 
 
-@pytest.mark.parametrize(("change", "sentence"), [
-    (zero_area, "zero area"),
-    (not_a_number, "Panel has 2 vertices in the region whose coordinates are no numbers, the first is 100"),
-    (doubled, "doubled|more than two faces"),
-    (fin, "1 edge of the region has more than two faces"),
-])
-def test_broken_mesh(change, sentence) -> None:
-    refused(edited(change), sentence)
+def select_one_vertex(ob: bpy.types.Object) -> None:
+    bpy.ops.mesh.select_all(action='DESELECT')
+    mesh = bmesh.from_edit_mesh(ob.data)
+    mesh.verts.ensure_lookup_table()
+    mesh.verts[5].select_set(True)
+
+
+def unlink(which: str) -> None:
+    bpy.context.scene.collection.objects.unlink(getattr(scenes.settings(), which))
+
+
+def with_only(part: str) -> bpy.types.Object:
+    ob = scenes.panel()
+    bpy.ops.reflines.set_up(part=part)
+    scenes.edit_inner(ob)
+    return ob
+
+
+def seen_from_above(ob: bpy.types.Object, *, edit: bool = True) -> bpy.types.Object:
+    scenes.look_from_above()
+    if edit:
+        scenes.edit(ob)
+        bpy.ops.mesh.select_all(action='SELECT')
+    return ob
+
+
+def sphere() -> bpy.types.Object:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
+    return bpy.context.object
+
+
+# What is done to a panel that is edited, and the sentence.
+CHANGED: dict[str, tuple[Callable[[bpy.types.Object], object], str]] = {
+    "camera deleted": (lambda _: unlink("camera"), "No view camera"),
+    "light deleted": (lambda _: unlink("light"), "No light direction"),
+    "light without direction": (lambda _: setattr(scenes.settings().light, "scale", (0.0, 0.0, 0.0)),
+                                "Light Direction has no direction"),
+    "nothing selected": (lambda _: bpy.ops.mesh.select_all(action='DESELECT'),
+                         "No faces are selected: select the faces of the panel"),
+    "one vertex selected": (select_one_vertex, "the 1 selected vertices span no face"),
+    "turned away": (lambda _: bpy.ops.mesh.flip_normals(), "All 256 faces of the region turn away"),
+    "no free vertex": (lambda ob: scenes.select_faces(ob, lambda face: face < 16),
+                       "No vertex of the region is free to move"),
+    "scaled to nothing": (lambda ob: setattr(ob, "scale", (1.0, 0.0, 1.0)), "scaled to nothing"),
+}
+# How it is made, and the sentence.
+MADE: dict[str, tuple[Callable[[], bpy.types.Object], str]] = {
+    "no camera": (lambda: with_only('LIGHT'), "No view camera: press Set Up from This View"),
+    "no light": (lambda: with_only('CAMERA'), "No light direction: press Add Light Direction"),
+    "light along the view": (lambda: scenes.edited_panel(light_degrees=0.0), "parallel to the view"),
+    "no stored region": (lambda: seen_from_above(scenes.panel(), edit=False),
+                         "Panel has no stored region: select the faces of the panel in Edit Mode"),
+    "closed body": (lambda: seen_from_above(sphere()),
+                    "Sphere: the 384 selected faces are all of a closed body"),
+    "one triangle": (lambda: seen_from_above(scenes.linked("Panel", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])),
+                     "No vertex of the region is free to move"),
+    "zero area": (lambda: edited(zero_area), "zero area"),
+    "no number": (lambda: edited(not_a_number),
+                  "Panel has 2 vertices in the region whose coordinates are no numbers, the first is 100"),
+    "doubled face": (lambda: edited(doubled), "doubled|more than two faces"),
+    "fin": (lambda: edited(fin), "1 edge of the region has more than two faces"),
+}
+
+
+@pytest.mark.parametrize(("change", "sentence"), CHANGED.values(), ids=CHANGED)
+def test_what_was_changed_is_refused(change, sentence) -> None:
+    ob = edited(nothing)
+    change(ob)
+    refused(ob, sentence)
+
+
+@pytest.mark.parametrize(("make", "sentence"), MADE.values(), ids=MADE)
+def test_what_was_made_so_is_refused(make, sentence) -> None:
+    refused(make(), sentence)
 
 
 def test_a_broken_mesh_outside_the_region_does_not_matter() -> None:
@@ -214,26 +213,6 @@ def test_loose_vertices_are_ignored() -> None:
     ob = edited(lambda mesh: mesh.verts.new((0.0, 0.0, 3.0)))
     assert scenes.smooth() == {'FINISHED'}
     assert scenes.positions(ob)[-1].tolist() == [0.0, 0.0, 3.0]
-
-
-def test_one_triangle() -> None:
-    ob = scenes.linked("Panel", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    scenes.look_from_above()
-    scenes.edit(ob)
-    bpy.ops.mesh.select_all(action='SELECT')
-    refused(ob, "No vertex of the region is free to move")
-
-
-def test_no_free_vertex() -> None:
-    ob = edited(nothing)
-    scenes.select_faces(ob, lambda face: face < 16)
-    refused(ob, "No vertex of the region is free to move")
-
-
-def test_scaled_to_nothing() -> None:
-    ob = edited(nothing)
-    ob.scale = (1.0, 0.0, 1.0)
-    refused(ob, "scaled to nothing")
 
 
 def test_a_shared_mesh_in_object_mode() -> None:
@@ -286,33 +265,27 @@ def linked(tmp_path: Path) -> bpy.types.Object:
     return wanted.objects[0]
 
 
-def test_a_linked_object(tmp_path) -> None:
-    ob = linked(tmp_path)
-    scenes.activate(ob)
-    scenes.look_from_above()
-    refused(ob, "Panel is linked from another file")
+def overridden(ob: bpy.types.Object, *, mesh: bool) -> bpy.types.Object:
+    own = ob.override_create(remap_local_usages=True)
+    if mesh:
+        own.data.override_create(remap_local_usages=True)
+    return own
 
 
-def test_a_linked_mesh(tmp_path) -> None:
-    ob = linked(tmp_path)
+def with_own_object(ob: bpy.types.Object) -> bpy.types.Object:
     own = bpy.data.objects.new("Own", ob.data)
     bpy.context.collection.objects.link(own)
-    scenes.activate(own)
-    scenes.look_from_above()
-    refused(own, "The mesh of Own is linked from another file")
+    return own
 
 
-def test_an_overridden_mesh(tmp_path) -> None:
-    """A solve would end well, and nothing of it would be saved."""
-    ob = linked(tmp_path).override_create(remap_local_usages=True)
-    ob.data.override_create(remap_local_usages=True)
+@pytest.mark.parametrize(("take", "sentence"), [
+    (lambda ob: ob, "Panel is linked from another file"),
+    (with_own_object, "The mesh of Own is linked from another file"),
+    (partial(overridden, mesh=True), "The mesh of Panel is linked from another file and overridden here"),
+    (partial(overridden, mesh=False), "Panel is linked from another file"),
+], ids=["object", "mesh", "overridden mesh", "mesh behind an overridden object"])
+def test_what_another_file_has_is_refused(take, sentence, tmp_path) -> None:
+    """A solve of an overridden mesh would end well, and nothing of it would be saved."""
+    ob = take(linked(tmp_path))
     scenes.activate(ob)
-    scenes.look_from_above()
-    refused(ob, "The mesh of Panel is linked from another file and overridden here")
-
-
-def test_a_mesh_behind_an_overridden_object(tmp_path) -> None:
-    ob = linked(tmp_path).override_create(remap_local_usages=True)
-    scenes.activate(ob)
-    scenes.look_from_above()
-    refused(ob, "Panel is linked from another file")
+    refused(seen_from_above(ob, edit=False), sentence)

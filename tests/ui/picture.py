@@ -1,6 +1,6 @@
 """Pictures of a 3D view as arrays, and the points of a mesh behind their pixels."""
 import sys
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 
 import bpy
 import gpu
@@ -78,6 +78,19 @@ def drawn_at_rest(driver: window.Window, pictures: list) -> Steps:
         driver.redraw()
         while len(pictures) == seen:
             yield 0.03
+
+
+def look(driver: window.Window, moment: str,
+         read: Callable[[], object] | None = None) -> Generator[float, None, object]:
+    """Draws the 3D view; returns what `read`, its pixels, gave at this moment of the last draw within half a second."""
+    found: list[object] = []
+    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: found.append((read or pixels)()), (), 'WINDOW', moment)
+    driver.redraw()
+    yield 0.5
+    while not found:
+        yield 0.1
+    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+    return found[-1]
 
 
 def pixels() -> np.ndarray:

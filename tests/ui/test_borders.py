@@ -8,7 +8,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 import scenes
 import window
-from picture import CELLS, Steps, pixels, striped_panel
+from picture import CELLS, Steps, look, striped_panel
 
 ROW = CELLS + 1
 SEGMENTS = {"free": 4, "curvature": 12, "fixed": 20, "flow": 28, "clamped": 36}  # condition and column of vertices
@@ -38,12 +38,7 @@ def set_columns(driver: window.Window, ob: bpy.types.Object) -> None:
 
 def colored(driver: window.Window) -> Generator[float, None, np.ndarray]:
     """The 3D view as RGB (height x width x 3, bottom row first), after everything was drawn in it."""
-    pictures = []
-    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_VIEW')
-    driver.redraw()
-    yield 0.5
-    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
-    return pictures[-1][:, :, :3] / 255.0
+    return (yield from look(driver, 'POST_VIEW'))[:, :, :3] / 255.0
 
 
 def hue(driver: window.Window, picture: np.ndarray, ob: bpy.types.Object, column: int) -> np.ndarray:

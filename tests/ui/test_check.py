@@ -10,19 +10,14 @@ from mathutils import Vector
 
 import scenes
 import window
-from picture import CELLS, Steps, pixels, striped_panel
+from picture import CELLS, Steps, look, striped_panel
 
 INNER = 10  # rings of faces outside the region
 
 
 def count_colors(driver: window.Window, ob: bpy.types.Object) -> Steps:
     """Returns the shares of the border's edges that are green and red."""
-    pictures = []
-    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_VIEW')
-    driver.redraw()
-    yield 0.5
-    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
-    picture, found = pictures[-1][:, :, :3].astype(float), []
+    picture, found = (yield from look(driver, 'POST_VIEW'))[:, :, :3].astype(float), []
     V = scenes.world(ob).reshape(CELLS + 1, CELLS + 1, 3)[INNER:-INNER, INNER]
     for point in 0.5 * (V[1:-2] + V[2:-1]):
         at = location_3d_to_region_2d(driver.region(), driver.region_3d(), point)
@@ -64,17 +59,13 @@ def test_the_worst_place_has_a_red_dot_with_a_white_rim(driver: window.Window) -
     with driver.override():
         scenes.edit_inner(ob, CELLS, INNER)
         check(driver, 0.0)
-    pictures = []
-    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_PIXEL')
-    driver.redraw()
-    yield 0.5
-    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+    seen = yield from look(driver, 'POST_PIXEL')
     worst = sys.modules["reflection_lines"].state.last_checks.find_check(ob.name).worst[0].tolist()
     at = location_3d_to_region_2d(driver.region(), driver.region_3d(), ob.matrix_world @ Vector(worst))
     ways = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]]) / np.sqrt(2.0)  # the seams run across and upwards
     for radius, color in ((4.0, (255, 38, 26)), (7.3, (255, 255, 255))):
         x, y = (np.array(at) + radius * ways).astype(int).T
-        assert np.abs(pictures[-1][y, x, :3].astype(int) - color).max() < 40, (radius, pictures[-1][y, x, :3])
+        assert np.abs(seen[y, x, :3].astype(int) - color).max() < 40, (radius, seen[y, x, :3])
 
 
 def test_after_a_run_the_color_is_the_change(driver: window.Window) -> Steps:

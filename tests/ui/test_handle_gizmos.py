@@ -36,15 +36,12 @@ def place_of(driver: window.Window, dot: tuple[float, float, float]) -> np.ndarr
 
 def count_pixels(driver: window.Window, place: np.ndarray, color: tuple) -> Generator[float, None, int]:
     """The pixels of a color within 10 pixels of a place; stripes and other overlays are off meanwhile."""
-    seen, space = [], driver.area().spaces.active
+    space = driver.area().spaces.active
     bpy.context.scene.reflection_lines.stripes.show = space.overlay.show_overlays = False
-    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: seen.append(pixels.pixels()), (), 'WINDOW', 'POST_PIXEL')
-    driver.redraw()
-    yield 0.5
-    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+    seen = yield from pixels.look(driver, 'POST_PIXEL')
     bpy.context.scene.reflection_lines.stripes.show = space.overlay.show_overlays = True
     x, y = place.astype(int)
-    near = seen[-1].astype(int)[y - 10:y + 11, x - 10:x + 11, :3]
+    near = seen.astype(int)[y - 10:y + 11, x - 10:x + 11, :3]
     return int((np.abs(near - 255.0 * np.array(color[:3])) < 45.0).all(axis=2).sum())
 
 

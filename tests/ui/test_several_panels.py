@@ -9,6 +9,7 @@ import numpy as np
 import pulling
 import scenes
 import window
+from picture import look
 
 Steps = Generator[float, None, None]
 CELLS, GAP = 24, 0.016
@@ -308,16 +309,9 @@ def test_check_measures_and_draws_both(driver: window.Window) -> Steps:
         if not addon.interactive.running_operators._running:
             break
         yield 0.05
-    drawn = []
-    handle = bpy.types.SpaceView3D.draw_handler_add(
-        lambda: drawn.append([ob.name for ob, _ in addon.overlay.draw_check.find_drawn(bpy.context)]), (), 'WINDOW',
-        'POST_VIEW')
-    driver.redraw()
-    while not drawn:
-        yield 0.1
-    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
+    drawn = yield from look(driver, 'POST_VIEW', lambda: addon.overlay.draw_check.find_drawn(bpy.context))
     yield from window.take_picture(driver, "check_gap")
-    assert sorted(drawn[-1]) == ["Door", "Wing"]
+    assert sorted(ob.name for ob, _ in drawn) == ["Door", "Wing"]
     for name, other in (("Door", "Wing"), ("Wing", "Door")):
         shown, = bpy.data.objects[name].reflection_lines.check.list_shut_lines()
         assert shown.describe().startswith(f"Shut line 1, {other}: gap 1.6 cm to 1.6 cm"), shown.describe()

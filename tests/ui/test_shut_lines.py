@@ -10,7 +10,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 import scenes
 import window
-from picture import Steps, pixels, prepare
+from picture import Steps, look, prepare
 
 GAP, CELLS = 0.02, 24
 PATIENCE = 60.0  # seconds
@@ -26,13 +26,7 @@ def half(name: str, low: float, high: float, step: float) -> bpy.types.Object:
 
 def read_colors(driver: window.Window, ob: bpy.types.Object) -> Steps:
     """Returns how much redder than green each edge of the shut line is drawn: #E, ascending y."""
-    pictures = []
-    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(pixels()), (), 'WINDOW', 'POST_VIEW')
-    driver.redraw()
-    while not pictures:
-        yield 0.1
-    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
-    picture, found = pictures[-1][:, :, :3].astype(float), []
+    picture, found = (yield from look(driver, 'POST_VIEW'))[:, :, :3].astype(float), []
     segments = sys.modules["reflection_lines"].state.last_checks.find_check(ob.name).segments
     for middle in sorted(segments.mean(axis=1).tolist(), key=lambda place: place[1])[2:-2]:
         at = location_3d_to_region_2d(driver.region(), driver.region_3d(), middle)

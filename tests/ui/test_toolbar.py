@@ -26,13 +26,7 @@ def take_tool(driver: window.Window) -> Steps:
 
 def drawn(driver: window.Window) -> Generator[float, None, np.ndarray]:
     """The 3D view with its gizmos, bottom row first."""
-    pictures = []
-    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: pictures.append(picture.pixels()), (), 'WINDOW',
-                                                    'POST_PIXEL')
-    driver.redraw()
-    yield 0.5
-    bpy.types.SpaceView3D.draw_handler_remove(handle, 'WINDOW')
-    return pictures[-1].astype(int)
+    return (yield from picture.look(driver, 'POST_PIXEL')).astype(int)
 
 
 def found(driver: window.Window, color: tuple[float, float, float]) -> Generator[float, None, np.ndarray]:
