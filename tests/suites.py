@@ -173,7 +173,7 @@ TOGETHER = (
     ("stripes", "stripes_cages", "shut_lines"),
     ("fair_brush", "long_press", "quad_view", "drag_lost"),
     ("several_panels", "pull_line", "sample_tabs", "help"),
-    ("live_warp", "stripes_stay", "drag_over_drag", "disabled"),
+    ("stripes_stay", "live_warp", "drag_over_drag", "disabled"),
 )
 
 

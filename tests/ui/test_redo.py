@@ -6,7 +6,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import adjust, comes_to, panel, shown, undone_and_redone
+from dragging import adjust, applied, comes_to, panel, settled, shown, undone_and_redone
 from window import Steps
 
 
@@ -24,9 +24,9 @@ def press_smooth(driver: window.Window) -> Steps:
     driver.move(300, 300)
     yield 0.2
     driver.key('Y', ctrl=True, alt=True)
-    yield 1.0
-    driver.key('RET')
-    yield 3.0
+    yield 0.2
+    yield from settled(driver)
+    yield from applied(driver)
     keymap.keymap_items.remove(item)
 
 
