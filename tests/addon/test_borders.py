@@ -315,10 +315,7 @@ def test_flow_by_segment_is_said_to_fall_back_where_noise_hides_the_rate() -> No
 
 @pytest.mark.parametrize("border", ["curvature", "flow"])
 def test_without_faces_beside_it_is_said(border: str) -> None:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit(ob)
-    bpy.ops.mesh.select_all(action='SELECT')
+    ob = scenes.edited_panel(margin=0)
     assert scenes.smooth(length=0.6, border=border) == {'FINISHED'}
     assert "No faces beside the region tell the curvature" in ob.reflection_lines.report.kept
 

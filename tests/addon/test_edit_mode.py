@@ -160,39 +160,25 @@ def hide_a_block(ob: bpy.types.Object) -> np.ndarray:
     return np.array(hidden)
 
 
-def test_hidden_faces_are_no_part_of_the_region() -> None:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit(ob)
+@pytest.mark.parametrize("stored", [False, True], ids=["before the press", "after the region was stored"])
+def test_hidden_faces_are_no_part_of_the_region(stored: bool) -> None:
+    ob = scenes.edited_panel(margin=0)
+    if stored:
+        scenes.smooth(strength=0.0)
     hidden = hide_a_block(ob)
-    bpy.ops.mesh.select_all(action='SELECT')
+    if stored:
+        scenes.object_mode()
+    else:
+        bpy.ops.mesh.select_all(action='SELECT')
     before = scenes.positions(ob)
     scenes.smooth()
     moved = (scenes.positions(ob) != before).any(axis=1)
-    assert moved.any()
-    assert not moved[hidden].any()
-
-
-def test_faces_hidden_after_the_region_was_stored_stay() -> None:
-    ob = scenes.panel()
-    scenes.look_from_above()
-    scenes.edit(ob)
-    bpy.ops.mesh.select_all(action='SELECT')
-    scenes.smooth(strength=0.0)
-    hidden = hide_a_block(ob)
-    scenes.object_mode()
-    before = scenes.positions(ob)
-    scenes.smooth()
-    moved = (scenes.positions(ob) != before).any(axis=1)
-    assert moved.any()
-    assert not moved[hidden].any()
+    assert moved.any() and not moved[hidden].any()
 
 
 def undo_a_press_in_edit_mode() -> tuple[bpy.types.Object, np.ndarray]:
     """Returns the panel and the positions that the press gave."""
-    ob = scenes.panel(cells=16)
-    scenes.look_from_above()
-    scenes.edit_inner(ob)
+    ob = scenes.edited_panel(cells=16)
     bpy.ops.ed.undo_push(message="Edit Mode")
     scenes.smooth(length=0.5)
     pressed = scenes.positions(ob)

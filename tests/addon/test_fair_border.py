@@ -209,10 +209,7 @@ def test_a_fault_beside_the_region_is_no_reason_to_refuse_it(kind: str) -> None:
 
 
 def test_a_limit_and_a_held_border_are_both_told() -> None:
-    ob = scenes.panel(height=noisy, cells=CELLS)
-    scenes.look_from_above()
-    scenes.edit(ob)
-    bpy.ops.mesh.select_all(action='SELECT')
+    ob = scenes.edited_panel(height=noisy, cells=CELLS, margin=0)
     assert scenes.smooth(fair_border=True, limit=1e-5) == {'FINISHED'}
     report = ob.reflection_lines.report
     assert report.limited > 0 and "There are no faces beside the region" in report.notes
