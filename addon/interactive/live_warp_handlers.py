@@ -6,6 +6,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..blender.app_handlers import add_app_handlers, remove_app_handlers
+from ..view import view_region
 from .live_warp import LiveWarp
 
 TICK_INTERVAL = 0.01  # seconds between two checks for results
@@ -77,16 +78,8 @@ def advance_live_warp(scene: bpy.types.Scene, live: LiveWarp) -> bool:
     more = live.advance(scene)
     if live.shown_text != live.describe_state():
         live.shown_text = live.describe_state()
-        redraw_sidebars()
+        view_region.redraw_views(bpy.context)  # whose sidebars show the state
     return more
-
-
-def redraw_sidebars() -> None:
-    """Redraws the 3D views, whose sidebars show the state of the live warp."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == 'VIEW_3D':
-                area.tag_redraw()
 
 
 @persistent

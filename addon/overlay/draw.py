@@ -7,12 +7,12 @@ import gpu
 import numpy as np
 
 from .. import native
-from ..blender.app_handlers import add_app_handlers, remove_app_handlers
+from ..blender.app_handlers import draw_in_views
 from ..model.solution import LastSolve
 from ..model.surface import Surface, Topology
 from ..read import image_pixels, read_mesh, shape_keys, viewport_cage, viewport_surface
 from ..state import compared, last_panels, solve_history
-from ..view import places_beside
+from ..view import places_beside, view_region
 from . import draw_cage, legend, shader, shown_objects, solve_maps, stripe_scene, stripes
 from .fitted_normals import FIT_RINGS, FittedNormals
 from .limit_surface import LimitSurfaces
@@ -65,25 +65,9 @@ class DrawCache:
     uniforms: dict = field(default_factory=dict)  # one an object: the GPU reads it while the next is filled
     textures: dict = field(default_factory=dict)
     builds: int = 0               # batches made so far
-    handles: list = field(default_factory=list)
 
 
 _cache = DrawCache()
-
-
-def count_batch_builds() -> int:
-    return _cache.builds
-
-
-def list_kept_names() -> set[str]:
-    """Returns the full names of the objects of which anything is kept."""
-    fits, limits = _cache.fits, _cache.limits
-    every = (*_cache.shown, *_cache.uniforms, *fits.done, *fits.wanted, *fits.started, *limits.kept)
-    return {name.removeprefix(BEFORE).removeprefix(AFTER) for name in every}
-
-
-def count_textures() -> int:
-    return len(_cache.textures)
 
 
 def is_waiting() -> bool:
@@ -99,7 +83,7 @@ def draw_stripes() -> None:
     if settings.show and context.space_data.overlay.show_overlays:
         draw_objects(context, settings)
     if not stripe_scene.is_split(settings):
-        compared.set_fraction(compared.MIDDLE)
+        compared.NOW.fraction = compared.MIDDLE
     drop_unseen_objects()
     if is_waiting() and not bpy.app.timers.is_registered(poll_fits):
         bpy.app.timers.register(poll_fits, first_interval=POLL_INTERVAL)
@@ -328,10 +312,7 @@ def poll_fits() -> float | None:
     name = _cache.fits.take_finished()
     if name is not None and name.removeprefix(BEFORE) in _cache.shown:
         _cache.shown[name.removeprefix(BEFORE)].stale = True
-        for window in bpy.context.window_manager.windows:
-            for area in window.screen.areas:
-                if area.type == 'VIEW_3D':
-                    area.tag_redraw()
+        view_region.redraw_views(bpy.context)
     _cache.fits.advance()
     return POLL_INTERVAL if is_waiting() else None
 
@@ -379,18 +360,10 @@ HANDLERS = (("depsgraph_update_post", note_changes), ("frame_change_post", note_
             ("undo_post", note_all_changed), ("redo_post", note_all_changed), ("load_post", clear_cache))
 
 
-def register() -> None:
-    if bpy.app.background:
-        return
-    add_app_handlers(HANDLERS)
-    for draw, kind in ((draw_stripes, 'POST_VIEW'), (legend.draw_legend, 'POST_PIXEL')):
-        _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), 'WINDOW', kind))
-
-
-def unregister() -> None:
-    remove_app_handlers(HANDLERS)
-    while _cache.handles:
-        bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
+def stop() -> None:
     if bpy.app.timers.is_registered(poll_fits):
         bpy.app.timers.unregister(poll_fits)
     clear_cache()
+
+
+register, unregister = draw_in_views(((draw_stripes, 'POST_VIEW'), (legend.draw_legend, 'POST_PIXEL')), HANDLERS, stop)

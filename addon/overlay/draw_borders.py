@@ -1,10 +1,8 @@
 """Draws the borders that were set by segment: along the mesh's edges, in one colour for each condition."""
-from dataclasses import dataclass, field
-
 import bpy
 import numpy as np
 
-from ..blender.app_handlers import add_app_handlers, remove_app_handlers
+from ..blender.app_handlers import draw_in_views
 from ..model import border
 from ..read import border_segments
 from ..read.border_segments import BorderEdges
@@ -15,14 +13,7 @@ COLORS = {"free": (0.25, 0.85, 0.3), "fixed": (1.0, 0.55, 0.05), "clamped": (0.2
           "curvature": (0.75, 0.3, 1.0), "flow": (1.0, 0.15, 0.45), "follow": (0.1, 0.9, 0.9)}  # sRGB
 
 
-@dataclass
-class BorderCache:
-    """The borders drawn last, by the name and mode of the object; empty where a mesh may have changed since."""
-    shown: dict[tuple[str, str], SurfaceLines] = field(default_factory=dict)
-    handles: list = field(default_factory=list)
-
-
-_cache = BorderCache()
+_shown: dict[tuple[str, str], SurfaceLines] = {}  # by name and mode of the object; none where a mesh may have changed
 
 
 def split_edges(edges: BorderEdges) -> dict[str, np.ndarray]:
@@ -56,9 +47,9 @@ def draw_borders() -> None:
         return
     for ob in find_objects(context):
         key = ob.name_full, ob.mode
-        if key not in _cache.shown:
-            _cache.shown[key] = build_borders(ob)
-        surface_lines.draw_lines(context, ob, _cache.shown[key])
+        if key not in _shown:
+            _shown[key] = build_borders(ob)
+        surface_lines.draw_lines(context, ob, _shown[key])
 
 
 @bpy.app.handlers.persistent
@@ -66,27 +57,16 @@ def note_changes(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Non
     """Forgets the borders where a mesh changed."""
     if any(isinstance(update.id, (bpy.types.Mesh, bpy.types.Object)) and update.is_updated_geometry
            for update in depsgraph.updates):
-        _cache.shown.clear()
+        _shown.clear()
 
 
 @bpy.app.handlers.persistent
 def clear_cache(*_: object) -> None:
-    _cache.shown.clear()
+    _shown.clear()
 
 
 HANDLERS = (("depsgraph_update_post", note_changes), ("frame_change_post", note_changes), ("undo_post", clear_cache),
             ("redo_post", clear_cache), ("load_post", clear_cache))
 
 
-def register() -> None:
-    if bpy.app.background:
-        return
-    add_app_handlers(HANDLERS)
-    _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw_borders, (), 'WINDOW', 'POST_VIEW'))
-
-
-def unregister() -> None:
-    remove_app_handlers(HANDLERS)
-    while _cache.handles:
-        bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
-    clear_cache()
+register, unregister = draw_in_views([(draw_borders, 'POST_VIEW')], HANDLERS, clear_cache)

@@ -1,12 +1,11 @@
 """Draws the last checks of the active object and of all in Edit Mode: seams that are better than before green, worse
 ones red, others grey, and a dot at each worst place, red or, where it is beyond the mark as before, orange.
 """
-from dataclasses import dataclass, field
-
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 
+from ..blender.app_handlers import draw_in_views
 from ..state import last_checks
 from ..state.last_checks import DrawnCheck
 from . import handle_marks, surface_lines
@@ -18,14 +17,7 @@ DOT_RADIUS, DOT_RIM = 6.0, 2.0  # pixels, times the interface's scale
 DOT_RIM_COLOR = (1.0, 1.0, 1.0, 1.0)
 
 
-@dataclass
-class CheckCache:
-    """The lines of the checks drawn last, by the full name of the object."""
-    shown: dict[str, tuple[DrawnCheck, SurfaceLines]] = field(default_factory=dict)
-    handles: list = field(default_factory=list)
-
-
-_cache = CheckCache()
+_shown: dict[str, tuple[DrawnCheck, SurfaceLines]] = {}  # the checks drawn last, by the full name of the object
 
 
 def find_drawn(context: bpy.types.Context) -> list[tuple[bpy.types.Object, DrawnCheck]]:
@@ -45,12 +37,12 @@ def build_seams(check: DrawnCheck) -> SurfaceLines:
 
 def draw_seams() -> None:
     """Draws the seams in a viewport (POST_VIEW), after the stripes. Lines go with their check."""
-    for name in [name for name, (check, _) in _cache.shown.items() if last_checks.find_check(name) is not check]:
-        del _cache.shown[name]
+    for name in [name for name, (check, _) in _shown.items() if last_checks.find_check(name) is not check]:
+        del _shown[name]
     for ob, check in find_drawn(bpy.context):
-        if ob.name_full not in _cache.shown:
-            _cache.shown[ob.name_full] = check, build_seams(check)
-        surface_lines.draw_lines(bpy.context, ob, _cache.shown[ob.name_full][1])
+        if ob.name_full not in _shown:
+            _shown[ob.name_full] = check, build_seams(check)
+        surface_lines.draw_lines(bpy.context, ob, _shown[ob.name_full][1])
 
 
 def draw_worst() -> None:
@@ -67,14 +59,4 @@ def draw_worst() -> None:
                 handle_marks.draw_ring(place, 0.0, scale * DOT_RADIUS, (*color, 1.0))
 
 
-def register() -> None:
-    if bpy.app.background:
-        return
-    for draw, kind in ((draw_seams, 'POST_VIEW'), (draw_worst, 'POST_PIXEL')):
-        _cache.handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), 'WINDOW', kind))
-
-
-def unregister() -> None:
-    while _cache.handles:
-        bpy.types.SpaceView3D.draw_handler_remove(_cache.handles.pop(), 'WINDOW')
-    _cache.shown.clear()
+register, unregister = draw_in_views(((draw_seams, 'POST_VIEW'), (draw_worst, 'POST_PIXEL')), (), _shown.clear)

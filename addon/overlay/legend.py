@@ -70,7 +70,7 @@ def draw_sides(context: bpy.types.Context, x: float) -> None:
     """Draws the line between the shapes before and after the last solve, their names, and what drags the line."""
     scale, height = context.preferences.system.ui_scale, float(context.region.height)
     low = LOW * scale
-    color = TAKEN_COLOR if compared.is_taken() else LINE_COLOR
+    color = TAKEN_COLOR if compared.NOW.taken else LINE_COLOR
     handle_marks.draw_shape('LINES', np.array([(x, 0.0, 0.0), (x, height, 0.0)]), color)
     if context.space_data.show_gizmo:
         draw_knob(x, low, scale, color)

@@ -20,49 +20,27 @@ class Comparison:
     spans: dict[int, Span] = field(default_factory=dict)  # of the regions that show both shapes, by their addresses
 
 
-_now = Comparison()
+NOW = Comparison()
 
 
 def note_span(region: bpy.types.Region, span: Span | None) -> None:
     """Records from where to where a region shows both shapes, None where it does not."""
-    _now.spans.pop(region.as_pointer(), None)
+    NOW.spans.pop(region.as_pointer(), None)
     if span is not None:
-        _now.spans[region.as_pointer()] = span
+        NOW.spans[region.as_pointer()] = span
 
 
 def find_divider(region: bpy.types.Region) -> float | None:
     """Returns where the divider stands in a region, in its pixels; None where the region does not show both shapes."""
-    span = _now.spans.get(region.as_pointer())
-    return None if span is None else span[0] + _now.fraction * (span[1] - span[0])
+    span = NOW.spans.get(region.as_pointer())
+    return None if span is None else span[0] + NOW.fraction * (span[1] - span[0])
 
 
 def move_divider(region: bpy.types.Region, x: float) -> None:
     """Moves the divider to a place in a region, or to the end of the span that is nearer."""
-    low, high = _now.spans.get(region.as_pointer(), (0.0, 0.0))
+    low, high = NOW.spans.get(region.as_pointer(), (0.0, 0.0))
     if high > low:
-        _now.fraction = min(max((x - low) / (high - low), 0.0), 1.0)
+        NOW.fraction = min(max((x - low) / (high - low), 0.0), 1.0)
 
 
-def read_fraction() -> float:
-    return _now.fraction
-
-
-def set_fraction(fraction: float) -> None:
-    _now.fraction = fraction
-
-
-def is_taken() -> bool:
-    """Returns whether the mouse is over the divider or drags it."""
-    return _now.taken
-
-
-def note_taken(*, taken: bool) -> None:
-    _now.taken = taken
-
-
-@bpy.app.handlers.persistent
-def forget_spans(*_: object) -> None:
-    _now.spans.clear()
-
-
-register, unregister = forget_at_load(forget_spans)
+register, unregister = forget_at_load(NOW.spans.clear)

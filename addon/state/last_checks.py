@@ -4,7 +4,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..blender.app_handlers import add_app_handlers, remove_app_handlers
+from ..blender.app_handlers import listen
 from ..read import read_mesh
 
 
@@ -55,14 +55,6 @@ def forget_all(*_: object) -> None:
     _checks.clear()
 
 
-HANDLERS = (("depsgraph_update_post", forget_changed), ("undo_post", forget_all), ("redo_post", forget_all),
-            ("load_pre", forget_all))
-
-
-def register() -> None:
-    add_app_handlers(HANDLERS)
-
-
-def unregister() -> None:
-    remove_app_handlers(HANDLERS)
-    forget_all()
+register, unregister = listen(
+    (("depsgraph_update_post", forget_changed), ("undo_post", forget_all), ("redo_post", forget_all),
+     ("load_pre", forget_all)), forget_all)

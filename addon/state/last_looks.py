@@ -32,9 +32,4 @@ def take_look(space: bpy.types.SpaceView3D) -> Look:
     return _looks.pop(space.as_pointer(), Look(through=False, local=""))
 
 
-@bpy.app.handlers.persistent
-def forget_looks(*_: object) -> None:
-    _looks.clear()
-
-
-register, unregister = forget_at_load(forget_looks)
+register, unregister = forget_at_load(_looks.clear)

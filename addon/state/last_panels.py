@@ -31,9 +31,4 @@ def find_panel(context: bpy.types.Context) -> bpy.types.Object | None:
     return next(iter(find_last_panels(context.scene, context.view_layer.objects)), None)
 
 
-@bpy.app.handlers.persistent
-def forget_panels(*_: object) -> None:
-    _names.clear()
-
-
-register, unregister = forget_at_load(forget_panels)
+register, unregister = forget_at_load(_names.clear)

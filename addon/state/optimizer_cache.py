@@ -49,11 +49,6 @@ def drop_surplus(names: Collection[str]) -> None:
         del _optimizers[name]
 
 
-def list_kept() -> tuple[str, ...]:
-    """Returns the names of the objects whose optimizers are cached, the one used last at the end."""
-    return tuple(_optimizers)
-
-
 def solve_with_cache(patch: Patch, seen: View, settings: SolveSettings, build_target: BuildTarget) -> Solution:
     """Solves with the cached optimizer; builds one only where patch, view, light or border changed."""
     return run_now(await_solve_with_cache(patch, seen, settings, build_target))
@@ -71,9 +66,4 @@ async def await_solve_with_cache(patch: Patch, seen: View, settings: SolveSettin
             return_optimizer(live)
 
 
-@bpy.app.handlers.persistent
-def clear_cache(*_: object) -> None:
-    _optimizers.clear()
-
-
-register, unregister = forget_at_load(clear_cache)
+register, unregister = forget_at_load(_optimizers.clear)

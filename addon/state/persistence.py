@@ -4,6 +4,7 @@ undo.
 import bpy
 from bpy.app.handlers import persistent
 
+from ..blender.app_handlers import listen
 from ..model.solution import LastSolve
 from ..read import read_mesh, shape_keys
 from ..write import solve_record
@@ -49,15 +50,5 @@ def note_undo(*_: object) -> None:
         solve_history.mark_undone(ob, undone=read_mesh.is_undone(ob, last.patch, last.positions))
 
 
-def register() -> None:
-    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.append(note_undo)
-    bpy.app.handlers.save_pre.append(save_solves)
-    bpy.app.handlers.load_post.append(load_solves)
-
-
-def unregister() -> None:
-    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.remove(note_undo)
-    bpy.app.handlers.load_post.remove(load_solves)
-    bpy.app.handlers.save_pre.remove(save_solves)
+register, unregister = listen((("undo_post", note_undo), ("redo_post", note_undo), ("save_pre", save_solves),
+                               ("load_post", load_solves)))

@@ -5,8 +5,6 @@ from collections.abc import Awaitable, Callable, Collection, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-import bpy
-
 from .. import native
 from ..blender.app_handlers import forget_at_load
 from ..model.patch import Patch
@@ -103,15 +101,4 @@ def keep_only(names: Collection[str]) -> None:
         _joint.clear()
 
 
-def list_kept() -> tuple[KeptPress, ...]:
-    """Returns the presses that are kept."""
-    return tuple(_presses.values())
-
-
-@bpy.app.handlers.persistent
-def clear_cache(*_: object) -> None:
-    _presses.clear()
-    _joint.clear()
-
-
-register, unregister = forget_at_load(clear_cache)
+register, unregister = forget_at_load(_presses.clear, _joint.clear)

@@ -49,11 +49,4 @@ def is_undone(ob: bpy.types.Object) -> bool:
     return _undone.get(ob.name_full) == ob.reflection_lines.report.seconds
 
 
-@bpy.app.handlers.persistent
-def clear_history(*_: object) -> None:
-    _solves.clear()
-    _undone.clear()
-    _changed.clear()
-
-
-register, unregister = forget_at_load(clear_history)
+register, unregister = forget_at_load(_solves.clear, _undone.clear, _changed.clear)

@@ -7,6 +7,7 @@ from mathutils import Vector
 
 from ..overlay import legend
 from ..state import compared
+from ..view import view_region
 
 GRIP = 6.0  # pixels beside the line that still take it, times the interface's scale
 # Tools and modes in which a press on the panel does something, so that there the knob alone takes the line.
@@ -23,7 +24,7 @@ class REFLINES_GT_divider(bpy.types.Gizmo):
         self.began = compared.MIDDLE
 
     def draw(self, _context: bpy.types.Context) -> None:
-        compared.note_taken(taken=self.is_highlight or self.is_modal)
+        compared.NOW.taken = self.is_highlight or self.is_modal
 
     def test_select(self, context: bpy.types.Context, location: tuple[float, float]) -> int:
         """Returns 0 for a place (pixels of the region) near the line or, where the tool presses too, its knob; else -1.
@@ -36,20 +37,20 @@ class REFLINES_GT_divider(bpy.types.Gizmo):
         return 0 if near or (Vector(location) - knob).length <= (legend.KNOB + GRIP) * scale else -1
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        self.began = compared.read_fraction()
+        self.began = compared.NOW.fraction
         context.window.cursor_modal_set('MOVE_X')
         return {'RUNNING_MODAL'}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event, _tweak: set[str]) -> set[str]:
         compared.move_divider(context.region, event.mouse_region_x)
-        redraw_views(context.window_manager)
+        view_region.redraw_views(context)
         return {'RUNNING_MODAL'}
 
     def exit(self, context: bpy.types.Context, cancel: bool) -> None:
         context.window.cursor_modal_restore()
         if cancel:
-            compared.set_fraction(self.began)
-        redraw_views(context.window_manager)
+            compared.NOW.fraction = self.began
+        view_region.redraw_views(context)
 
 
 class VIEW3D_GGT_reflines_divider(bpy.types.GizmoGroup):
@@ -73,13 +74,6 @@ def is_line_free(context: bpy.types.Context) -> bool:
     """Returns whether a press on the line is not one that the tool is waiting for."""
     tool = context.workspace.tools.from_space_view3d_mode(context.mode, create=False)
     return context.mode in MODES and (tool is None or tool.idname not in PRESSING)
-
-
-def redraw_views(manager: bpy.types.WindowManager) -> None:
-    for window in manager.windows:
-        for area in window.screen.areas:
-            if area.type == 'VIEW_3D':
-                area.tag_redraw()
 
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_GT_divider, VIEW3D_GGT_reflines_divider])

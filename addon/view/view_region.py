@@ -1,4 +1,4 @@
-"""Tests whether the mouse is over a 3D view itself, or over the sidebar, a header or a toolbar that covers it."""
+"""The 3D views: whether the mouse is over one itself, or over the sidebar, a header or a toolbar that covers it."""
 import bpy
 
 View = tuple[bpy.types.Region, bpy.types.RegionView3D]
@@ -52,3 +52,11 @@ def find_view_middle(area: bpy.types.Area) -> tuple[int, int]:
     """Returns the middle of the view between toolbar and sidebar, in pixels of the window."""
     view = find_view_region(area)
     return sum(find_free_width(area)) // 2, view.y + view.height // 2
+
+
+def redraw_views(context: bpy.types.Context) -> None:
+    """Redraws the 3D views of all windows, with their sidebars."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == 'VIEW_3D':
+                area.tag_redraw()

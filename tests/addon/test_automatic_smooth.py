@@ -65,23 +65,23 @@ def test_another_strength_takes_what_the_first_press_found() -> None:
     ob = ready()
     before = scenes.positions(ob)
     scenes.smooth()
-    kept, = press_cache.list_kept()
+    kept = press_cache._presses[ob.name]
     for settings in ({"strength": 0.5}, {"strength": 0.5, "limit": 2.0**-10}):
         scenes.object_mode()
         ob.data.vertices.foreach_set("co", before.ravel())
         scenes.edit_inner(ob, CELLS)
         assert scenes.smooth(**settings) == {'FINISHED'}
-        assert press_cache.list_kept()[0].smoother is kept.smoother
+        assert press_cache._presses[ob.name].smoother is kept.smoother
         assert np.array_equal(solve_history.find_last_solve(ob.name).positions, expected(ob, **settings))
     scenes.smooth()  # of the mesh as it is now
-    assert press_cache.list_kept()[0].smoother is not kept.smoother
+    assert press_cache._presses[ob.name].smoother is not kept.smoother
     scenes.smooth(symmetric=False)
     scenes.object_mode()
     ob.select_set(False)
     other = scenes.panel(height=dented, cells=CELLS, name="Other")
     scenes.edit_inner(other, CELLS)
     scenes.smooth(length=0.5)
-    assert press_cache.list_kept() == ()
+    assert not press_cache._presses
 
 
 def test_the_scenes_settings_are_taken() -> None:

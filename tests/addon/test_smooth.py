@@ -188,7 +188,7 @@ def test_few_optimizers_are_kept(panel) -> None:
     scenes.smooth(length=0.5)
     for number in range(4):
         smooth_another(f"Panel {number}")
-        assert len(optimizer_cache.list_kept()) == 2 and optimizer_cache.list_kept()[-1] == f"Panel {number}"
+        assert len(optimizer_cache._optimizers) == 2 and list(optimizer_cache._optimizers)[-1] == f"Panel {number}"
 
 
 def test_the_optimizer_of_a_deleted_panel_goes(panel) -> None:
@@ -197,7 +197,7 @@ def test_the_optimizer_of_a_deleted_panel_goes(panel) -> None:
     bpy.data.objects.remove(panel)
     scenes.edit_inner(scenes.panel("Other", cells=CELLS), CELLS)
     scenes.smooth(length=0.5)
-    assert optimizer_cache.list_kept() == ("Other",)
+    assert list(optimizer_cache._optimizers) == ["Other"]
 
 
 def test_an_operation_over_several_panels_keeps_theirs(panel) -> None:
@@ -205,4 +205,4 @@ def test_an_operation_over_several_panels_keeps_theirs(panel) -> None:
     scenes.smooth(length=0.5)
     others = [smooth_another(f"Panel {number}") for number in range(3)]
     smooth_another("Last", *others)
-    assert set(optimizer_cache.list_kept()) == {"Last", *(ob.name for ob in others)}
+    assert set(optimizer_cache._optimizers) == {"Last", *(ob.name for ob in others)}

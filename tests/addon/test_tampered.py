@@ -58,7 +58,7 @@ def test_one_bad_record_does_not_stop_the_others(solved) -> None:
     arrays = hostile_files.arrays_of(solved.reflection_lines.last)
     arrays["F"].flat[0] = -5
     other.reflection_lines.last = hostile_files.text_of(arrays)
-    solve_history.clear_history()
+    solve_history._solves.clear()
     persistence.load_solves()
     assert solve_history.find_last_solve(solved.name) is not None
     assert solve_history.find_last_solve(other.name) is None

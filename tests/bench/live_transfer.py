@@ -77,7 +77,7 @@ def solves(cells: int) -> Times:
     view = addon("view.view_and_light").read_scene_view(bpy.context.scene, patch.center)
     first = request(patch, 1.0)
     solve = milliseconds(lambda: cache.solve_with_cache(patch, view, first.settings[0], first.builds[0]))
-    cache.clear_cache()
+    cache._optimizers.clear()
     job = addon("interactive.solve_job").SolveJob((patch,), (view,), 'clamped')
 
     def serve(wanted: object) -> object:

@@ -18,6 +18,14 @@ OVERLAYS = ("show_floor", "show_axis_x", "show_axis_y", "show_axis_z", "show_ort
             "show_outline_selected", "show_object_origins", "show_relationship_lines", "show_extras")
 
 
+def kept_names() -> set[str]:
+    """The full names of the objects of which anything is kept that is drawn."""
+    draw = sys.modules["reflection_lines"].overlay.draw
+    fits, limits = draw._cache.fits, draw._cache.limits
+    every = (*draw._cache.shown, *draw._cache.uniforms, *fits.done, *fits.wanted, *fits.started, *limits.kept)
+    return {name.removeprefix(draw.BEFORE).removeprefix(draw.AFTER) for name in every}
+
+
 def prepare(driver: window.Window, ob: bpy.types.Object) -> None:
     """Black and white stripes, nothing else drawn, and the viewport looking as the view camera does."""
     stripes = bpy.context.scene.reflection_lines.stripes

@@ -30,7 +30,8 @@ def test_a_drag_follows_and_escape_leaves_no_bit_changed(driver: window.Window) 
 
 
 def kept_smoother() -> object:
-    return sys.modules["reflection_lines"].state.press_cache.list_kept()[0].smoother
+    kept, = sys.modules["reflection_lines"].state.press_cache._presses.values()
+    return kept.smoother
 
 
 def running_drag() -> object:

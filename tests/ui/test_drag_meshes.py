@@ -127,7 +127,7 @@ def test_new_topology_after_a_drag_is_taken_in(driver: window.Window) -> Steps:
         bpy.ops.ed.undo_push(message="Split")
         assert scenes.smooth(length=0.9) == {'FINISHED'}
     again = shown(driver).copy()
-    sys.modules["reflection_lines"].state.optimizer_cache.clear_cache()
+    sys.modules["reflection_lines"].state.optimizer_cache._optimizers.clear()
     with driver.override():
         bpy.ops.ed.undo()
         assert scenes.smooth(length=0.9) == {'FINISHED'}

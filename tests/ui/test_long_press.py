@@ -20,7 +20,7 @@ PATIENCE = 120.0  # seconds
 
 def prepare(driver: window.Window) -> None:
     """Makes a panel whose vertices are noisy, which a press heals, and of which no earlier press is kept."""
-    sys.modules["reflection_lines"].state.press_cache.clear_cache()
+    sys.modules["reflection_lines"].state.press_cache._presses.clear()
     ob = panel(driver, CELLS)
     random = np.random.default_rng(3)
     mesh = bmesh.from_edit_mesh(ob.data)
@@ -84,7 +84,7 @@ def test_a_long_press_of_several_objects_gives_the_result_of_the_operator(driver
     results = []
     for long in (False, True):
         with driver.override():
-            sys.modules["reflection_lines"].state.press_cache.clear_cache()
+            sys.modules["reflection_lines"].state.press_cache._presses.clear()
             bpy.ops.object.mode_set(mode='OBJECT')
             bpy.data.batch_remove(list(bpy.data.objects))
             left = half("Left", -1.0, -0.002, bent, 30)

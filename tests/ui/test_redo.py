@@ -53,10 +53,10 @@ def test_another_strength_is_that_of_a_fresh_press(driver: window.Window) -> Ste
     expected = smoothed(driver, strength=0.4)
     panel(driver)
     yield from press_smooth(driver)
-    press_cache = sys.modules["reflection_lines"].state.press_cache
-    kept, = press_cache.list_kept()
+    presses = sys.modules["reflection_lines"].state.press_cache._presses
+    kept, = presses.values()
     yield from adjust(driver, strength=0.4)
-    assert press_cache.list_kept()[0].smoother is kept.smoother
+    assert [press.smoother for press in presses.values()] == [kept.smoother]
     assert np.array_equal(shown(driver), expected)
 
 

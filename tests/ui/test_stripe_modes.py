@@ -387,7 +387,7 @@ def test_a_large_panel_is_drawn_at_once_and_then_better(driver: window.Window) -
     yield from captured(driver)
     while draw.is_waiting():
         yield 0.1
-    builds = draw.count_batch_builds()
+    builds = draw._cache.builds
     sample = yield from sampled(driver, ob)
     sample.agree(expected_light(sample.theta(sample.v[None])), share=0.99)
     ob.data.vertices[LARGE * LARGE // 2].co.z += 0.01
@@ -397,4 +397,4 @@ def test_a_large_panel_is_drawn_at_once_and_then_better(driver: window.Window) -
         yield 0.1
     sample = yield from sampled(driver, ob)
     sample.agree(expected_light(sample.theta(sample.v[None])), share=0.99)
-    assert draw.count_batch_builds() == builds + 2  # at once with what normals there are, then with better ones
+    assert draw._cache.builds == builds + 2  # at once with what normals there are, then with better ones

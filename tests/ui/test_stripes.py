@@ -7,7 +7,8 @@ import numpy as np
 
 import scenes
 import window
-from picture import CELLS, Steps, captured, expected_light, fresh_panel, prepare, samples, striped_panel, triangles
+from picture import (
+    CELLS, Steps, captured, expected_light, fresh_panel, kept_names, prepare, samples, striped_panel, triangles)
 
 
 def theta_at_samples(driver: window.Window, ob: bpy.types.Object, picture: np.ndarray, corners: np.ndarray
@@ -88,7 +89,7 @@ def test_pixels_over_the_edit_cage(driver: window.Window) -> Steps:
 
 
 def builds() -> int:
-    return sys.modules["reflection_lines"].overlay.draw.count_batch_builds()
+    return sys.modules["reflection_lines"].overlay.draw._cache.builds
 
 
 def test_settings_view_and_light_rebuild_no_batch(driver: window.Window) -> Steps:
@@ -193,15 +194,15 @@ def test_what_is_gone_or_long_unseen_is_dropped(driver: window.Window) -> Steps:
     draw = sys.modules["reflection_lines"].overlay.draw
     ob = striped_panel(driver, "First")
     yield from captured(driver)
-    assert draw.list_kept_names() == {"First"}  # and none of the tests before
+    assert kept_names() == {"First"}  # and none of the tests before
     with driver.override():
         scenes.panel("Second", cells=CELLS)
     yield from captured(driver)
-    assert draw.list_kept_names() == {"First", "Second"}
+    assert kept_names() == {"First", "Second"}
     draw.UNSEEN_TIME, patience = 0.2, draw.UNSEEN_TIME
     yield 0.3  # a view is redrawn in less time than that
     picture = yield from captured(driver)
-    assert draw.list_kept_names() == {"Second"}
+    assert kept_names() == {"Second"}
     assert np.ptp(picture) > 0.5
     with driver.override():
         scenes.activate(ob)
@@ -218,5 +219,5 @@ def test_few_environment_images_are_kept(driver: window.Window) -> Steps:
         stripes.image = bpy.data.images.new(f"Surroundings {number}", 8, 4)
         driver.redraw()
         yield 0.2
-    assert draw.count_textures() == draw.KEPT_TEXTURES
+    assert len(draw._cache.textures) == draw.KEPT_TEXTURES
     stripes.mode, stripes.image = 'REFLECTION', None

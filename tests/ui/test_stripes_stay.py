@@ -10,7 +10,7 @@ from mathutils import Matrix
 
 import scenes
 import window
-from picture import CELLS, Steps, captured, striped_panel
+from picture import CELLS, Steps, captured, kept_names, striped_panel
 from scenes import settings
 
 GREY = 0.2  # of the environment without an image: a flat colour that only stripes show
@@ -59,7 +59,7 @@ def test_after_opening_a_file_stripes_are_on_what_was_solved(driver: window.Wind
         scenes.smooth()
         scenes.object_mode()
         bpy.context.view_layer.objects.active = settings().light
-    sys.modules["reflection_lines"].state.last_panels.forget_panels()
+    sys.modules["reflection_lines"].state.last_panels._names.clear()
     assert (yield from count(driver)) > 10000
 
 
@@ -141,13 +141,13 @@ def test_a_linked_object_of_the_same_name_has_its_own_stripes(driver: window.Win
         settings().stripes.scope = 'VISIBLE'
         both = yield from count(driver)
         assert 1.8 * one < both < 2.2 * one, (one, both)
-        built = draw.count_batch_builds()
+        built = draw._cache.builds
         for _ in range(3):
             yield from count(driver)
-        assert draw.count_batch_builds() == built
+        assert draw._cache.builds == built
         bpy.data.objects.remove(wanted.objects[0])
         assert (yield from count(driver)) < 1.2 * one
-        assert draw.list_kept_names() == {"Same"}
+        assert kept_names() == {"Same"}
     settings().stripes.scope = 'OBJECT'
 
 
