@@ -3,7 +3,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .mirror import number_images
 from .patch import Patch
+from .triangulation import list_edges
 
 IN_PLANE_TOLERANCE = 1e-6  # relative to a unit view direction
 
@@ -102,11 +104,7 @@ def mirror_cage(local: np.ndarray, axis: int, merge: float) -> tuple[np.ndarray,
     seam = 2.0 * np.abs(local[:, axis]) <= merge
     sign = np.where(np.arange(3) == axis, -1.0, 1.0)
     own = np.where(seam[:, None] & (sign < 0.0), 0.0, local)
-    image = np.where(seam, np.arange(len(local)), len(local) + np.cumsum(~seam) - 1)
-    both = np.concatenate([own, own[~seam] * sign])
-    partner = np.empty(len(both), dtype=np.int64)
-    partner[:len(local)], partner[image] = image, np.arange(len(local))
-    return both, image, partner
+    return np.concatenate([own, own[~seam] * sign]), *number_images(seam)
 
 
 def reverse_faces(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
@@ -114,13 +112,6 @@ def reverse_faces(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
     ends = starts + np.repeat(sizes, sizes) - 1
     return corners[starts + ends - np.arange(len(corners))]
-
-
-def list_edges(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """Returns the edges of every face: #corners x 2."""
-    following = np.arange(1, len(corners) + 1)
-    following[np.cumsum(sizes) - 1] -= sizes
-    return np.column_stack([corners, corners[following]])
 
 
 def compute_edge_keys(edges: np.ndarray) -> np.ndarray:

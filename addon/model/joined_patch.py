@@ -4,12 +4,12 @@ The rows of triangles at the gap are left out, and a strip of triangles takes th
 of vertices behind both rims: no sliver as narrow as the gap is among them. What moves the rims is a smooth function
 through the moves on both sides, the same for both: so it adds neither step nor kink.
 """
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .joined_cage import JoinedCagePatch, cut_moves
+from .creases import Creases
 from .meeting import find_middle
 from .patch import Patch
 from .solution import Solution
@@ -28,6 +28,9 @@ class RimMoves:
         if not len(self.vertex):
             return np.zeros((0, 3))
         return np.add.reduceat(self.weight[:, None] * move[self.source], self.first)
+
+
+NO_RIM = RimMoves(*(np.zeros(0, dtype=np.int64) for _ in range(3)), np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -54,14 +57,41 @@ class JoinedPatch(Patch):
         """The middle of the panels with their rims, which the view of all of them is that of."""
         return find_middle(self.panels)
 
+    def level(self, move: np.ndarray, _limit: float) -> np.ndarray:
+        """Returns the moves (#V x 3) as they are: the rims of meshes follow them."""
+        return move
+
+
+def cut_moves(move: np.ndarray, towards: np.ndarray, limit: float, ranges: np.ndarray | None) -> np.ndarray:
+    """Cuts moves (#S x 3) along the direction to the viewer to the limit, or to ranges (#S x 2) of it."""
+    if not np.isfinite(limit):
+        return move
+    along = move @ towards
+    low, high = (-limit, limit) if ranges is None else limit * ranges.T
+    return move + (np.clip(along, low, high) - along)[:, None] * towards
+
+
+def join_creases(panels: Sequence[Patch], vertex: Sequence[np.ndarray]) -> Creases:
+    """Returns the marked edges of all panels, whose vertices are these of the joined patch, but those that end at the
+    gap.
+    """
+    marked = np.concatenate([own[panel.creases.marked] for panel, own in zip(panels, vertex, strict=True)])
+    return Creases(panels[0].creases.rule, marked[(marked >= 0).all(axis=1)])
+
+
+def join_ranges(panels: Sequence[Patch], vertex: Sequence[np.ndarray]) -> np.ndarray | None:
+    """Returns likewise the ranges of the limit of all vertices; None where all of them have all of it."""
+    if all(panel.limit_range is None for panel in panels):
+        return None
+    whole = np.array([-1.0, 1.0])
+    return np.concatenate([np.tile(whole, (int((own >= 0).sum()), 1)) if panel.limit_range is None
+                           else panel.limit_range[own >= 0] for panel, own in zip(panels, vertex, strict=True)])
+
 
 def gather_values(patch: Patch, values: Mapping[str, np.ndarray], otherwise: float) -> np.ndarray:
     """Returns values of meshes' vertices, by the objects' names, for the vertices (#V) of a patch, which may be a
     joined one; another one for the panels without values.
     """
-    if isinstance(patch, JoinedCagePatch):
-        return np.concatenate([values[part.name][part.index] if part.name in values
-                               else np.full(len(part.V), otherwise) for part in patch.parts])
     if not isinstance(patch, JoinedPatch):
         return values[patch.name][patch.index]
     result = np.full(len(patch.V), otherwise)
@@ -77,11 +107,9 @@ def split_positions(patch: Patch, positions: np.ndarray, limit: float = np.inf) 
 
     No vertex at the gap moves further than the limit, or its own range of it.
     """
-    if isinstance(patch, JoinedCagePatch):
-        return patch.split_positions(positions, limit)
     if not isinstance(patch, JoinedPatch):
         return [positions]
-    move = positions - patch.V
+    move = patch.level(positions - patch.V, limit)
     return [move_panel(part, move, patch.towards, limit) for part in patch.parts]
 
 
@@ -100,13 +128,8 @@ def split_solution(solution: Solution, limit: float) -> list[Solution]:
     one.
     """
     patch = solution.patch
-    kept = limit or solution.automatic_limit or np.inf
-    if isinstance(patch, JoinedCagePatch):
-        positions = split_positions(patch, solution.positions, kept)
-        return [replace(solution, patch=part, positions=own, residual=residual) for part, own, residual
-                in zip(patch.parts, positions, patch.split_triangles(solution.residual), strict=True)]
     if not isinstance(patch, JoinedPatch):
         return [solution]
-    positions = split_positions(patch, solution.positions, kept)
+    positions = split_positions(patch, solution.positions, limit or solution.automatic_limit or np.inf)
     return [replace(solution, patch=part.panel, positions=own, residual=solution.residual[part.triangle])
             for part, own in zip(patch.parts, positions, strict=True)]

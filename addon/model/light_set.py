@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .. import native
+from .beside import join_soups
 from .gain import Worse
 from .patch import Patch
 from .refusal import Refusal
@@ -71,7 +72,7 @@ class LightSet:
     def build_families(self, patch: Patch) -> Families:
         """Builds the lights as a solve of a patch takes them."""
         eyes = np.array([light.find_eye(patch.center) for light in self.lights])
-        beside = join([each.leave_out(patch) for each in self.blockers]) if self.blockers else None
+        beside = join_soups([each.leave_out(patch) for each in self.blockers]) if self.blockers else None
         return Families(np.array([light.line for light in self.lights]), eyes,
                         np.array([light.weight for light in self.lights]), beside)
 
@@ -108,13 +109,6 @@ class LightSet:
         if not applied and after[worse] > before[worse]:
             return (f"That light of the set is {self.lights[worse].name}", *notes)
         return notes
-
-
-def join(surfaces: Sequence[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
-    """Joins surfaces, each vertices and triangles, to one."""
-    first = np.cumsum([0, *(len(V) for V, _ in surfaces)])
-    return (np.concatenate([V for V, _ in surfaces]),
-            np.concatenate([F + start for (_, F), start in zip(surfaces, first[:-1], strict=True)]))
 
 
 def find_walk(seen: View, up: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

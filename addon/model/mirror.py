@@ -87,11 +87,19 @@ def compute_theta_sign(mirror: Mirror, matrix: np.ndarray, line_direction: np.nd
 
 def join_with_image(mirror: Mirror, local: np.ndarray, F: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Joins the region and its image along the seam: positions (object space), triangles, and mirror images."""
-    away = ~mirror.seam
-    image = np.where(away, len(local) + np.cumsum(away) - 1, np.arange(len(local)))
-    partner = np.empty(len(local) + int(away.sum()), dtype=np.int64)
-    partner[:len(local)], partner[image] = image, np.arange(len(local))
-    return np.concatenate([local, local[away] * mirror.sign]), np.concatenate([F, image[F][:, ::-1]]), partner
+    image, partner = number_images(mirror.seam)
+    return (np.concatenate([local, local[~mirror.seam] * mirror.sign]), np.concatenate([F, image[F][:, ::-1]]), partner)
+
+
+def number_images(seam: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers points and after them their images, those on the seam (#points, bool) being their own: returns the image
+    of each point, and those of both in both.
+    """
+    own = np.arange(len(seam))
+    image = np.where(seam, own, len(seam) + np.cumsum(~seam) - 1)
+    partner = np.empty(len(seam) + int((~seam).sum()), dtype=np.int64)
+    partner[:len(seam)], partner[image] = image, own
+    return image, partner
 
 
 def restore_symmetry(mirror: Mirror, new: np.ndarray, old: np.ndarray) -> np.ndarray:

@@ -1,6 +1,8 @@
 """Decides whether faces are inside out, by the mesh around them."""
 import numpy as np
 
+from .triangulation import list_edges
+
 # Flux relative to area times size below which an open surface is too flat to have an inside; a bonnet has 0.03.
 FLAT = 0.01
 
@@ -11,10 +13,7 @@ def is_flipped(corners: np.ndarray, sizes: np.ndarray, region: np.ndarray) -> bo
 
     `corners` are the vertices of all faces, `sizes` (#faces) their numbers, `region` (#faces, bool) those in question.
     """
-    last = np.cumsum(sizes) - 1
-    following = np.arange(len(corners)) + 1
-    following[last] = last - sizes + 1
-    start, end = corners.astype(np.int64), corners[following].astype(np.int64)
+    start, end = list_edges(corners, sizes).T.astype(np.int64)
     count, inside = int(corners.max(initial=0)) + 1, np.repeat(region, sizes)
     own, other = start[inside] * count + end[inside], start[~inside] * count + end[~inside]
     reverse = end[~inside] * count + start[~inside]
@@ -23,10 +22,7 @@ def is_flipped(corners: np.ndarray, sizes: np.ndarray, region: np.ndarray) -> bo
 
 def is_closed(corners: np.ndarray, sizes: np.ndarray) -> bool:
     """Returns whether every edge belongs to two faces."""
-    last = np.cumsum(sizes) - 1
-    following = np.arange(len(corners)) + 1
-    following[last] = last - sizes + 1
-    low, high = np.sort([corners, corners[following]], axis=0).astype(np.int64)
+    low, high = np.sort(list_edges(corners, sizes).T, axis=0).astype(np.int64)
     _, uses = np.unique(low * (int(corners.max(initial=0)) + 1) + high, return_counts=True)
     return bool((uses == 2).all())
 

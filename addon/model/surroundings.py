@@ -4,6 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .mesh_snapshot import MeshSnapshot
+from .mirror import number_images
 
 RINGS = 4  # of faces around the region: a fit at its border takes in three rings of vertices
 
@@ -28,9 +29,7 @@ def join_images(around: Surroundings, mirrored: np.ndarray, seam: np.ndarray, ow
     `image` (#own) the vertex of the joined region at each one's image, and `joined` the number of its vertices.
     """
     first = np.where(own <= around.F, around.F - own + joined, around.F)
-    numbers = np.arange(len(around.V))
-    second = np.where(seam, numbers, len(around.V) + np.cumsum(~seam) - 1)
-    name = np.concatenate([image, joined + second])
+    name = np.concatenate([image, joined + number_images(seam)[0]])
     return Surroundings(np.concatenate([around.V, mirrored[~seam]]),
                         np.concatenate([first, name[around.F][:, ::-1]]))
 

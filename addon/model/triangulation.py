@@ -1,4 +1,4 @@
-"""Triangulation of triangles and quads as Blender cuts them, from arrays alone."""
+"""Triangulation of triangles and quads as Blender cuts them, and lists of triangles, from arrays alone."""
 from functools import partial
 
 import numpy as np
@@ -58,3 +58,20 @@ def find_face_of_triangles(sizes: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """
     own = np.flatnonzero(faces)
     return np.repeat(own, sizes[own] - 2)
+
+
+def list_border(F: np.ndarray) -> np.ndarray:
+    """Returns the edges of one triangle alone: #E x 2, the lower vertex first."""
+    ends = np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]).astype(np.int64), axis=1)
+    count = int(ends.max(initial=0)) + 1
+    keys = np.sort(ends[:, 0] * count + ends[:, 1])
+    other = keys[1:] != keys[:-1]
+    alone = keys[np.append(True, other) & np.append(other, True)] if len(keys) else keys
+    return np.stack([alone // count, alone % count], axis=1)
+
+
+def list_edges(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """Returns the edges of every face: #corners x 2."""
+    following = np.arange(1, len(corners) + 1)
+    following[np.cumsum(sizes) - 1] -= sizes
+    return np.column_stack([corners, corners[following]])

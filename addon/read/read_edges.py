@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 
 from ..model.patch import Patch
+from ..model.triangulation import list_border
 
 
 def read_selected_edges(patch: Patch) -> np.ndarray:
@@ -14,7 +15,7 @@ def read_selected_edges(patch: Patch) -> np.ndarray:
 
 def read_bounding_edges(patch: Patch) -> np.ndarray:
     """Reads the region's border and its marked creases. Ends in world space: #E x 2 x 3."""
-    return patch.V[np.concatenate([find_border(patch.F), patch.creases.marked]).astype(int)]
+    return patch.V[np.concatenate([list_border(patch.F), patch.creases.marked]).astype(int)]
 
 
 def read_lone_edges(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -26,10 +27,3 @@ def read_lone_edges(mesh: bpy.types.Mesh) -> np.ndarray:
     faces = {key for polygon in mesh.polygons if polygon.select for key in polygon.edge_keys}
     keys = [edge.key for edge in mesh.edges if edge.select and edge.key not in faces]
     return np.array([[mesh.vertices[vertex].co[:] for vertex in key] for key in keys]).reshape(-1, 2, 3)
-
-
-def find_border(F: np.ndarray) -> np.ndarray:
-    """Returns the edges of triangles (#F x 3) that bound one of them: #E x 2."""
-    edges = np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
-    unique, count = np.unique(edges, axis=0, return_counts=True)
-    return unique[count == 1]

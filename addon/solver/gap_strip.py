@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..model.line_surface import cross
+from ..model.triangulation import list_border
+
 # Takes points (#P x 2) and edges (#E x 2) of a plane, and returns Delaunay triangles (#F x 3) that keep the edges,
 # counter-clockwise; None where there are none.
 Triangulate = Callable[[np.ndarray, np.ndarray], "np.ndarray | None"]
@@ -41,16 +44,6 @@ def mark(count: int, numbers: np.ndarray) -> np.ndarray:
     result = np.zeros(count, dtype=bool)
     result[numbers] = True
     return result
-
-
-def list_border(F: np.ndarray) -> np.ndarray:
-    """Returns the edges of one triangle alone: #E x 2, the lower vertex first."""
-    ends = np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]).astype(np.int64), axis=1)
-    count = int(ends.max(initial=0)) + 1
-    keys = np.sort(ends[:, 0] * count + ends[:, 1])
-    other = keys[1:] != keys[:-1]
-    alone = keys[np.append(True, other) & np.append(other, True)] if len(keys) else keys
-    return np.stack([alone // count, alone % count], axis=1)
 
 
 def cut_rim(xy: np.ndarray, F: np.ndarray, border: np.ndarray, vertex: np.ndarray, outline: np.ndarray) -> Rim:
@@ -119,8 +112,7 @@ def choose_between(rims: list[Rim], points: np.ndarray, panel: np.ndarray, F: np
 
 def find_areas(points: np.ndarray, F: np.ndarray) -> np.ndarray:
     """Returns the areas of triangles (#F x 3) that run counter-clockwise: #F."""
-    u, v = points[F[:, 1]] - points[F[:, 0]], points[F[:, 2]] - points[F[:, 0]]
-    return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    return 0.5 * cross(points[F[:, 1]] - points[F[:, 0]], points[F[:, 2]] - points[F[:, 0]])
 
 
 def find_nearest_edges(edges: np.ndarray, points: np.ndarray,

@@ -9,11 +9,13 @@ from ..model.border import CODES, UNSET
 from ..model.cage import Cage, CagePatch
 from ..model.creases import Creases
 from ..model.joined_cage import Bridge, JoinedCagePatch, RimLevel
+from ..model.joined_patch import NO_RIM, PanelPart, join_creases, join_ranges
+from ..model.line_surface import cross
 from ..model.patch import Patch
 from ..model.surroundings import NOTHING_AROUND, Surroundings
 from ..model.view import View
 from .gap_strip import Rim, Strip, find_nearest_edges, mark
-from .joint_mirror import can_join_image, have_same_plane
+from .joint_mirror import have_same_plane
 
 FOLLOWS = 0.99  # of the cage's vertices, by their weights, that a vertex of the surface which follows depends on
 
@@ -51,13 +53,6 @@ class Surface:
         return result
 
 
-def can_join_cage(patch: Patch) -> bool:
-    """Returns whether a patch is a cage that can be a part of a joined one: one that is symmetric in itself has pairs
-    of vertices that others lack.
-    """
-    return isinstance(patch, CagePatch) and can_join_image(patch)
-
-
 def have_same_rules(one: CagePatch, other: CagePatch) -> bool:
     """Returns whether two cages are subdivided by the same rules but for the level, and mirrored alike."""
     rules, others = dict(one.cage.rules), dict(other.cage.rules)
@@ -67,16 +62,6 @@ def have_same_rules(one: CagePatch, other: CagePatch) -> bool:
 
 def choose_level(panels: Sequence[CagePatch]) -> int:
     return max(dict(panel.cage.rules)["level"] for panel in panels)
-
-
-def is_mirrored(panel: CagePatch, view: View) -> bool:
-    """Returns whether a cage is solved together with the image that a Mirror modifier adds."""
-    return panel.is_symmetric_for(view.view_direction)
-
-
-def build_surfaces(panels: Sequence[CagePatch], view: View, border: str) -> list[Surface]:
-    """Builds the surfaces of cages; raises the native module's errors."""
-    return [build_surface(panel, choose_level(panels), view, border) for panel in panels]
 
 
 def subdivide(cage: Cage, level: int) -> "native.Subdivision":
@@ -97,7 +82,8 @@ def list_quads(cage: Cage, whole: "native.Subdivision", *, symmetric: bool) -> Q
 
 def build_surface(patch: CagePatch, level: int, view: View, border: str) -> Surface:
     """Builds the surface of a cage at a level of subdivision; raises the native module's errors."""
-    cage, symmetric = patch.cage, is_mirrored(patch, view)
+    # Together with the image that a Mirror modifier adds, where it is solved so.
+    cage, symmetric = patch.cage, patch.is_symmetric_for(view.view_direction)
     whole = subdivide(cage, level)
     quads = list_quads(cage, whole, symmetric=symmetric)
     V, F = whole.positions(cage.V)[quads.refined], quads.triangles
@@ -138,7 +124,10 @@ def put_cages_together(panels: Sequence[CagePatch], surfaces: Sequence[Surface],
                       choose_level(panels))
     cage_starts = find_starts([len(panel.cage.V) for panel in panels])
     face_starts = find_starts([panel.cage.own_faces for panel in panels])
-    starts = find_starts([len(panel.V) for panel in panels])
+    starts, F_starts = find_starts([len(panel.V) for panel in panels]), find_starts([len(panel.F) for panel in panels])
+    vertex = [start + np.arange(len(panel.V)) for panel, start in zip(panels, starts, strict=True)]
+    parts = tuple(PanelPart(panel, own, start + np.arange(len(panel.F)), NO_RIM)
+                  for panel, own, start in zip(panels, vertex, F_starts, strict=True))
     index = np.concatenate([panel.index + start for panel, start in zip(panels, cage_starts, strict=True)])
     free = [find_free_rim(surface, rim) for surface, rim in zip(surfaces, rims, strict=True)]
     codes = np.concatenate([np.where(mark(len(panel.V), own), CODES["free"], panel.border)
@@ -150,8 +139,8 @@ def put_cages_together(panels: Sequence[CagePatch], surfaces: Sequence[Surface],
         first.to_local(V), V,
         np.concatenate([panel.F + start for panel, start in zip(panels, starts, strict=True)]),
         np.concatenate([panel.face_of_triangle + start for panel, start in zip(panels, face_starts, strict=True)]),
-        first.matrix, "", None, join_creases(panels, starts), codes, NOTHING_AROUND, join_ranges(panels), cage,
-        first.mirror_axis, parts=tuple(panels),
+        first.matrix, "", None, join_creases(panels, vertex), codes, NOTHING_AROUND, join_ranges(panels, vertex), cage,
+        first.mirror_axis, parts=parts,
         bridge=build_bridge([panel.cage for panel in panels], surfaces, rims, strip),
         rim=level_rims(surfaces, rims, free, starts, gap), towards=towards)
 
@@ -250,10 +239,6 @@ def read_across(surface: Surface, rim: Rim, points: np.ndarray, gap: float) -> t
             nearest >= 0)
 
 
-def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-
-
 def find_triangles_of(edges: np.ndarray, F: np.ndarray) -> np.ndarray:
     """Returns the triangle (of #F x 3) at each border edge (#E x 2, the lower vertex first)."""
     count = int(F.max()) + 1
@@ -283,16 +268,3 @@ def build_bridge(cages: Sequence[Cage], surfaces: Sequence[Surface], rims: Seque
     parent_of[:] = parent[first_of]
     ends = np.array([[starts[which] + v for which, v in row] for row in strip.corners])
     return Bridge(number[ends], parent_of[ends[:, 0]], np.concatenate(left_out).ravel())
-
-
-def join_creases(panels: Sequence[CagePatch], starts: Sequence[int]) -> Creases:
-    marked = [panel.creases.marked + start for panel, start in zip(panels, starts, strict=True)]
-    return Creases(panels[0].creases.rule, np.concatenate(marked))
-
-
-def join_ranges(panels: Sequence[CagePatch]) -> np.ndarray | None:
-    """Returns the ranges of the limit of all vertices; None where all of them have all of it."""
-    if all(panel.limit_range is None for panel in panels):
-        return None
-    return np.concatenate([np.tile([-1.0, 1.0], (len(panel.V), 1)) if panel.limit_range is None else panel.limit_range
-                           for panel in panels])

@@ -8,21 +8,19 @@ import numpy as np
 from .. import native
 from ..model.border import CODES, UNSET
 from ..model.cage import CagePatch
-from ..model.creases import Creases
-from ..model.joined_cage import JoinedCagePatch
-from ..model.joined_patch import JoinedPatch, PanelPart
+from ..model.joined_patch import JoinedPatch, PanelPart, join_creases, join_ranges
 from ..model.meeting import find_meeting, find_middle
-from ..model.mirror import join_with_image
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
+from ..model.triangulation import list_border
 from ..model.view import View
-from .join_cages import build_surfaces, can_join_cage, have_same_rules, put_cages_together
-from .joint_mirror import (
-    can_join_image, find_seam, find_seam_rows, is_solved_with_image, join_mirrors, have_same_plane)
+from .join_cages import build_surface, choose_level, have_same_rules, put_cages_together
+from .joint_mirror import can_join, find_seam, find_seam_rows, have_same_plane, join_mirrors
+from .panel_problem import PanelProblem, pose_problem
 from .rim_moves import NodePlaces, find_node_areas, weigh_moves
 from .gap_strip import (
-    Rim, Strip, Triangulate, build_strip, cut_rim, find_below, find_nearest_edges, list_border, mark)
+    Rim, Strip, Triangulate, build_strip, cut_rim, find_below, find_nearest_edges, mark)
 
 ReadView = Callable[[np.ndarray], View]  # of what has its middle at a point (3, world space)
 
@@ -60,11 +58,6 @@ class Facing:
     gap: float           # the widest between them
 
 
-def can_join(patch: Patch) -> bool:
-    """Returns whether a patch can be a part of a joined one."""
-    return can_join_cage(patch) if isinstance(patch, CagePatch) else can_join_image(patch)
-
-
 def are_alike(one: Patch, other: Patch) -> bool:
     """Returns whether two patches can be parts of the same joined one: a mesh and a cage have other unknowns."""
     if isinstance(one, CagePatch) or isinstance(other, CagePatch):
@@ -89,14 +82,15 @@ def join_panels(panels: Sequence[Patch], read_view: ReadView, border: str, trian
 
 
 def join_able(panels: list[Patch], read_view: ReadView, border: str,
-              triangulate: Triangulate) -> JoinedPatch | JoinedCagePatch | None:
+              triangulate: Triangulate) -> JoinedPatch | None:
     """Joins panels; None where none of them face each other."""
     if len(panels) < 2 or len({each.creases.rule for each in panels}) > 1:
         return None
     try:
         view = read_view(find_middle(panels))
         frame = native.reflines.image_plane(view.view_direction, view.line_direction)
-        surfaces = build_surfaces(panels, view, border) if isinstance(panels[0], CagePatch) else None
+        surfaces = [build_surface(each, choose_level(panels), view, border) for each in panels
+                    ] if isinstance(panels[0], CagePatch) else None
     except (native.InvalidInput, Refusal):  # the solve of each panel by itself tells what is wrong
         return None
     sides = [build_side(each, frame, border)
@@ -113,7 +107,7 @@ def join_able(panels: list[Patch], read_view: ReadView, border: str,
     if surfaces is not None:
         gap = max(facing.gap for facing in facings)
         return put_cages_together(panels, surfaces, rims, strip, raised, view, gap)
-    return put_together(panels, rims, strip, raised, view, border)
+    return put_together(panels, rims, strip, raised, view, frame, border)
 
 
 def build_side(patch: Patch, frame: np.ndarray, border: str) -> Side:
@@ -187,7 +181,7 @@ def find_steps(facings: list[Facing], count: int) -> np.ndarray:
 
 
 def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.ndarray, view: View,
-                 border: str) -> JoinedPatch:
+                 frame: np.ndarray, border: str) -> JoinedPatch:
     """Builds the joined patch, whose triangles are those of the panels without their rims, and those of the strip."""
     vertex, count = [], 0
     for rim in rims:
@@ -209,27 +203,23 @@ def put_together(panels: list[Patch], rims: list[Rim], strip: Strip, raised: np.
         F, face_of_triangle, matrix, "", plane, join_creases(panels, vertex), codes,
         join_around(panels, vertex, raised, count), join_ranges(panels, vertex), parts=(),
         towards=view.view_direction / np.linalg.norm(view.view_direction))
-    is_doubled = is_solved_with_image(patch, view)
-    place, below = place_nodes(patch, xy, starts[-1], strip.span, view if is_doubled else None)
+    problem = pose_problem(patch, view)
+    place, below = place_nodes(problem, xy, starts[-1], strip.span, frame)
     return replace(patch, parts=tuple(
         PanelPart(panel, own, find_triangles(rim, start),
-                  weigh_moves(place, rim.xy, find_moved(panel, rim, below, border, holds_seam=not is_doubled)))
+                  weigh_moves(place, rim.xy, find_moved(panel, rim, below, border, holds_seam=not problem.is_joined)))
         for panel, rim, own, start in zip(panels, rims, vertex, starts[:-1], strict=True)))
 
 
-def place_nodes(patch: JoinedPatch, xy: np.ndarray, first: int, span: float,
-                view: View | None) -> tuple[NodePlaces, np.ndarray]:
-    """Places the vertices of the joined patch in the image plane, with those of its image where that is solved with it,
-    seen in a view; returns the corners of the strip's triangles, which begin with `first`, too: #T x 3 x 2.
+def place_nodes(problem: PanelProblem, xy: np.ndarray, first: int, span: float,
+                frame: np.ndarray) -> tuple[NodePlaces, np.ndarray]:
+    """Places the vertices of the joined patch in the image plane, with those of its image where that is solved with it;
+    returns the corners of the strip's triangles, which begin with `first`, too: #T x 3 x 2.
     """
-    if view is None:
-        return NodePlaces(xy, find_node_areas(xy, patch.F), span, np.arange(len(xy))), xy[patch.F[first:]]
-    local, F, partner = join_with_image(patch.mirror, patch.local, patch.F)
-    source = np.append(np.arange(len(xy)), partner[len(xy):])
-    frame = native.reflines.image_plane(view.view_direction, view.line_direction)
-    both = np.concatenate([xy, patch.to_world(local[len(xy):]) @ frame[:2].T])
-    strip = np.concatenate([F[first:len(patch.F)], F[len(patch.F) + first:]])
-    return NodePlaces(both, find_node_areas(both, F), span, source), both[strip]
+    own, F = len(problem.patch.F), problem.F
+    both = np.concatenate([xy, problem.V[len(xy):] @ frame[:2].T])
+    strip = np.concatenate([F[first:own], F[own + first:]])
+    return NodePlaces(both, find_node_areas(both, F), span, problem.source), both[strip]
 
 
 def find_new_ends(F: np.ndarray, vertex: list[np.ndarray], rims: list[Rim]) -> np.ndarray:
@@ -269,12 +259,6 @@ def number_faces(panels: list[Patch], rims: list[Rim], between: int) -> tuple[np
     return np.concatenate([panel.faces for panel in panels]), np.concatenate([*numbers, first + np.arange(between)])
 
 
-def join_creases(panels: list[Patch], vertex: list[np.ndarray]) -> Creases:
-    """Returns the marked edges of all panels but those that end at the gap."""
-    marked = np.concatenate([own[panel.creases.marked] for panel, own in zip(panels, vertex, strict=True)])
-    return Creases(panels[0].creases.rule, marked[(marked >= 0).all(axis=1)])
-
-
 def join_around(panels: list[Patch], vertex: list[np.ndarray], raised: np.ndarray, count: int) -> Surroundings:
     """Returns the surroundings of all panels."""
     V, F, first = [], [], count
@@ -285,12 +269,3 @@ def join_around(panels: list[Patch], vertex: list[np.ndarray], raised: np.ndarra
         V.append(panel.around.V + rise)
         first += len(panel.around.V)
     return Surroundings(np.concatenate(V), np.concatenate(F))
-
-
-def join_ranges(panels: list[Patch], vertex: list[np.ndarray]) -> np.ndarray | None:
-    """Returns the ranges of the limit of all vertices; None where all of them have all of it."""
-    if all(panel.limit_range is None for panel in panels):
-        return None
-    whole = np.array([-1.0, 1.0])
-    return np.concatenate([np.tile(whole, (int((own >= 0).sum()), 1)) if panel.limit_range is None
-                           else panel.limit_range[own >= 0] for panel, own in zip(panels, vertex, strict=True)])

@@ -5,13 +5,11 @@ import numpy as np
 
 from ..model.mirror import Mirror
 from ..model.patch import Patch, compute_bounds
-from ..model.view import View
-from .panel_problem import pose_problem
 
 SAME_PLANE = 1e-5  # distance of two mirror images of a point, relative to the size of the panels
 
 
-def can_join_image(patch: Patch) -> bool:
+def can_join(patch: Patch) -> bool:
     """Returns whether a panel has no symmetry, or the image that a Mirror modifier adds about a known plane. One that
     is symmetric in itself would lose that beside others.
     """
@@ -66,8 +64,3 @@ def measure_scale(patch: Patch) -> float:
     if patch.mirror.axis < 0:
         return 1.0
     return 1.0 / float(np.linalg.norm(np.linalg.inv(patch.matrix[:3, :3])[patch.mirror.axis]))
-
-
-def is_solved_with_image(patch: Patch, view: View) -> bool:
-    """Returns whether a patch is solved together with the image that a Mirror modifier adds."""
-    return patch.mirror is not None and patch.mirror.image and pose_problem(patch, view).is_joined

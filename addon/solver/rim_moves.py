@@ -4,6 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..model.joined_patch import RimMoves
+from ..model.line_surface import cross
 
 # The power of the distance that weights fall with: a panel whose mesh is 16 times as dense as the other's would get a
 # fold of 1.3 degrees behind its rim with 0, of 0.1 with 2, and less with 4.
@@ -24,8 +25,7 @@ class NodePlaces:
 def find_node_areas(xy: np.ndarray, F: np.ndarray) -> np.ndarray:
     """Returns a third of the area of the triangles around each vertex: #V."""
     a, b, c = (xy[F[:, k]] for k in range(3))
-    u, v = b - a, c - a
-    area = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 6.0
+    area = np.abs(cross(b - a, c - a)) / 6.0
     return np.bincount(F.ravel(), np.repeat(area, 3), len(xy))
 
 
