@@ -15,8 +15,8 @@ bl_info = {
 # unregistered backwards.
 NAMES = (
     "library_copy", "native", "native_call",
-    "model.border", "model.beside", "model.check_table", "model.checked_surface", "model.edit_cage", "model.gain",
-    "model.inspection", "model.looks",
+    "model.same", "model.border", "model.beside", "model.check_table", "model.checked_surface", "model.edit_cage",
+    "model.gain", "model.inspection", "model.looks",
     "model.creases", "model.line_curve", "model.mirror", "model.refusal", "model.triangulation", "model.orientation",
     "model.mesh_snapshot", "model.surroundings",
     "model.line_handle", "model.kept_handles", "model.bake_frames", "model.line_run", "model.nearest_line",

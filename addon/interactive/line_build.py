@@ -8,6 +8,7 @@ from ..model import line_handle
 from ..model.joined_patch import gather_values
 from ..model.line_handle import Handles
 from ..model.patch import Patch
+from ..model.same import are_same
 from ..model.view import View
 from ..read import group_weights
 from ..solver.panel_problem import PanelProblem, pose_problem
@@ -26,7 +27,7 @@ class LineBuild:
 
     def pose(self, patch: Patch, seen: View) -> PanelProblem:
         """Poses the problem of a patch, or takes the last one where it is the same."""
-        if self.problem is None or self.problem.patch is not patch or not self.problem.view.same(seen):
+        if self.problem is None or self.problem.patch is not patch or not are_same(self.problem.view, seen):
             self.problem = pose_problem(patch, seen)
         return self.problem
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..background_work import BackgroundWork
 from ..model.refusal import Refusal
+from ..model.same import are_same
 from ..model.solution import Solution
 from ..read import read_mesh
 from ..targets.warp import Warp
@@ -52,7 +53,7 @@ class LiveWarp:
         except Refusal as refusal:
             self.problem, self.warp, self.needs_final = str(refusal), None, False
             return
-        if not self.recheck and not warp.same(self.warp):
+        if not self.recheck and not are_same(warp, self.warp):
             self.warp = warp
             self.submit_request(scene, final=False)
 
@@ -137,7 +138,7 @@ class LiveWarp:
     def is_settled(self, scene: bpy.types.Scene, ob: bpy.types.Object) -> bool:
         """Returns whether the mesh has the shape that Apply keeps."""
         return (self.solution is not None and self.is_current(scene, ob)
-                and live_baseline.read_warp(scene).same(self.warp))
+                and are_same(live_baseline.read_warp(scene), self.warp))
 
     def describe_state(self) -> str:
         """Describes why the mesh does not follow, or which long stage runs; else empty."""

@@ -27,9 +27,6 @@ class Beside:
     gap: float     # widest gap that is crossed, world units
     margin: float  # how far beyond the gap they were read, world units
 
-    def same(self, other: "Beside") -> bool:
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
-
     def add_soups(self, soups: Iterable[tuple[np.ndarray, np.ndarray]]) -> "Beside":
         """Returns these and more triangles (vertices, triangles)."""
         V, F = join_soups([(self.V, self.F), *soups])
@@ -63,10 +60,3 @@ def join_soups(soups: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, 
     V = [np.zeros((0, 3)), *(V for V, _ in soups)]
     F = [np.zeros((0, 3), dtype=np.int64), *(F + start for (_, F), start in zip(soups, starts[:-1], strict=True))]
     return np.concatenate(V), np.concatenate(F)
-
-
-def have_same_beside(one: Beside | None, other: Beside | None) -> bool:
-    """Returns whether two borders can follow the same."""
-    if one is None or other is None:
-        return one is other
-    return one.same(other)

@@ -5,6 +5,7 @@ import numpy as np
 
 from .mirror import number_images
 from .patch import Patch
+from .same import are_same
 from .triangulation import list_edges
 
 IN_PLANE_TOLERANCE = 1e-6  # relative to a unit view direction
@@ -28,9 +29,6 @@ class Cage:
     partner: np.ndarray    # #V: mirror images, -1 where there is none
     own_faces: int         # number of the mesh's own faces, which are the first
     rules: tuple[tuple[str, Option], ...]  # the modifier's options as arguments of reflines.CageOptimizer
-
-    def same(self, other: "Cage") -> bool:
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
 
     def find_vertices(self, faces: np.ndarray) -> np.ndarray:
         """Returns the vertices of faces (#faces, bool): #V, bool."""
@@ -87,7 +85,7 @@ class CagePatch(Patch):
     mirror_axis: int  # axis of the object normal to the mirror plane; -1: none
 
     def same(self, other: Patch) -> bool:
-        return isinstance(other, CagePatch) and self.cage.same(other.cage) and super().same(other)
+        return super().same(other) and are_same(self.cage, other.cage)
 
     def is_symmetric_for(self, view_direction: np.ndarray) -> bool:
         """Returns whether moves along the view keep the cage symmetric."""

@@ -10,10 +10,6 @@ class Creases:
     rule: str           # "automatic", "marked" or "none"
     marked: np.ndarray  # #M x 2, vertices of the patch
 
-    def same(self, other: "Creases") -> bool:
-        """Returns whether an optimizer built with one serves the other."""
-        return self.rule == other.rule and np.array_equal(self.marked, other.marked)
-
     def build_arguments(self, image: np.ndarray | None = None) -> dict[str, str | np.ndarray]:
         """Builds the arguments of reflines.ShapeOptimizer; `image` (#V) adds the edges of the mirror image."""
         marked = self.marked if image is None else np.concatenate([self.marked, image[self.marked]])

@@ -43,17 +43,13 @@ class SetLight:
         return bool(np.linalg.norm(np.cross(self.look_from(center), line)) < PARALLEL * np.linalg.norm(line))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Blockers:
     """The surface of an object, which may hide a region from a view, in world space."""
     name: str         # of the object
     V: np.ndarray     # #B x 3
     F: np.ndarray     # #G x 3
     face: np.ndarray  # #G: the mesh's face that each was cut from
-
-    def __eq__(self, other: "Blockers") -> bool:
-        return (self.name == other.name and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
-                and np.array_equal(self.face, other.face))
 
     def leave_out(self, patch: Patch) -> tuple[np.ndarray, np.ndarray]:
         """Returns vertices and triangles without those of a region, whose shape before its last run may be another."""

@@ -6,7 +6,7 @@ solved together with its image, one that is symmetric in itself as it is. The na
 one side is copied to the other at last, since object space rounds them differently. Where view or light are not
 symmetric, the seam of a Mirror modifier is clamped: both halves then still join smoothly.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -20,7 +20,8 @@ class Mirror:
     partner: np.ndarray  # #V: each vertex's image in the region, itself on the plane, -1 where it has none
     image: bool          # True: a modifier adds the image; False: the region contains it
     merge_distance: float = 0.0  # object space: vertices no further from the plane are joined with their images
-    reflection: np.ndarray | None = None  # 4 x 4, world space: takes what has one plane of a modifier to its image
+    # 4 x 4, world space: takes what has one plane of a modifier to its image.
+    reflection: np.ndarray | None = field(default=None, compare=False)
 
     @property
     def seam(self) -> np.ndarray:
@@ -42,14 +43,6 @@ def find_seam(mirror: Mirror, local: np.ndarray) -> np.ndarray:
     """Finds the vertices on the plane: #V, bool, from coordinates in object space (#V x 3), which may be rounded."""
     rounding = np.finfo(np.float32).eps * np.abs(local).max(initial=0.0)  # float32, and world space
     return np.abs(local[:, mirror.axis]) <= mirror.merge_distance + rounding
-
-
-def are_equal(one: Mirror | None, other: Mirror | None) -> bool:
-    """Returns whether two symmetries, or absences of one, are the same."""
-    if one is None or other is None:
-        return one is other
-    alike = (one.axis, one.image, one.merge_distance) == (other.axis, other.image, other.merge_distance)
-    return alike and np.array_equal(one.partner, other.partner)
 
 
 def find_pairs(local: np.ndarray, axis: int) -> np.ndarray:

@@ -4,11 +4,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import mirror
-from .beside import Beside, have_same_beside
+from .beside import Beside
 from .creases import Creases
 from .mirror import Mirror
 from .refusal import Refusal
+from .same import are_same
 from .surroundings import Surroundings
+
+# What of a patch an optimizer is built from; the rest is the way back to the mesh.
+SOLVED = ("V", "F", "mirror", "matrix", "creases", "border", "around", "limit_range", "beside")
 
 
 @dataclass(frozen=True)
@@ -100,18 +104,7 @@ class Patch:
 
     def same(self, other: "Patch") -> bool:
         """Returns whether an optimizer built for one patch serves the other."""
-        return (type(self) is type(other) and np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
-                and mirror.are_equal(self.mirror, other.mirror) and np.array_equal(self.matrix, other.matrix)
-                and self.creases.same(other.creases) and np.array_equal(self.border, other.border)
-                and self.around.same(other.around) and have_same_range(self, other)
-                and have_same_beside(self.beside, other.beside))
-
-
-def have_same_range(one: Patch, other: Patch) -> bool:
-    """Returns whether the vertices of two patches have the same ranges of the limit."""
-    if one.limit_range is None or other.limit_range is None:
-        return one.limit_range is other.limit_range
-    return np.array_equal(one.limit_range, other.limit_range)
+        return type(self) is type(other) and all(are_same(getattr(self, name), getattr(other, name)) for name in SOLVED)
 
 
 def compute_bounds(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -15,9 +15,6 @@ class Surroundings:
     V: np.ndarray  # #S x 3, world space
     F: np.ndarray  # #G x 3, oriented as the region's
 
-    def same(self, other: "Surroundings") -> bool:
-        return np.array_equal(self.V, other.V) and np.array_equal(self.F, other.F)
-
 
 NOTHING_AROUND = Surroundings(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64))
 

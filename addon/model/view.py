@@ -12,13 +12,6 @@ class Families:
     weight: np.ndarray  # #lights
     blockers: tuple[np.ndarray, np.ndarray] | None  # V, F of what may hide the surface
 
-    def same(self, other: "Families | None") -> bool:
-        if other is None or (self.blockers is None) != (other.blockers is None):
-            return False
-        pairs = [(getattr(self, name), getattr(other, name)) for name in ("lines", "eyes", "weight")]
-        pairs += zip(self.blockers, other.blockers, strict=True) if self.blockers is not None else []
-        return all(np.array_equal(*pair) for pair in pairs)
-
 
 @dataclass(frozen=True)
 class View:
@@ -31,10 +24,6 @@ class View:
     def both_directions(self) -> np.ndarray:
         """The directions of the line lights and of those that cross them in the image plane: 2 x 3."""
         return np.stack([self.line_direction, np.cross(self.view_direction, self.line_direction)])
-
-    def same(self, other: "View") -> bool:
-        alike = other.families is None if self.families is None else self.families.same(other.families)
-        return alike and self.has_same_light(other)
 
     def has_same_light(self, other: "View") -> bool:
         """Returns whether both directions are the same, whatever takes their place."""

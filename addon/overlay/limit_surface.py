@@ -5,6 +5,7 @@ import numpy as np
 
 from .. import native
 from ..model.cage import Cage
+from ..model.same import are_same
 from ..model.surface import Surface, Topology
 
 NOWHERE = np.zeros((0, 3))
@@ -29,7 +30,7 @@ class LimitSurfaces:
         OpenSubdiv refuses it.
         """
         still = replace(cage, V=NOWHERE)
-        if name not in self.kept or not self.kept[name].cage.same(still):
+        if name not in self.kept or not are_same(self.kept[name].cage, still):
             try:
                 self.kept[name] = build_limit_topology(still, len(cage.V))
             except native.InvalidInput:

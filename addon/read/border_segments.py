@@ -83,6 +83,6 @@ def read_object_edges(ob: bpy.types.Object) -> BorderEdges | None:
     own = codes != border.UNSET
     if not own.any():
         return None
-    ends = read_mesh.read_integers(ob.data.edges, "vertices", 2).reshape(-1, 2)
+    ends = read_mesh.read_integers(ob.data.edges, "vertices", 2)
     number = np.cumsum(own) - 1
     return BorderEdges(read_mesh.read_coordinates(ob)[own], number[ends[own[ends].all(axis=1)]], codes[own])

@@ -129,9 +129,7 @@ def cut_object(other: bpy.types.Object, mesh: bpy.types.Mesh, matrix: np.ndarray
     """Cuts what of an object's mesh is near a box, and not part of what is solved, of which the first step is done; a
     subdivided face is as selected as the one that it was cut from.
     """
-    local = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    mesh.vertices.foreach_get("co", local)
-    local = local.reshape(-1, 3)
+    local = read_mesh.read_values(mesh.vertices, "co", np.float32, 3)
     V = local.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     joint = other.mode == 'EDIT' and other.name in crossing.joint
     faces = ~region_faces.read_selected_faces(mesh) if joint else np.ones(len(mesh.polygons), dtype=bool)

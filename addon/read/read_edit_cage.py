@@ -18,15 +18,14 @@ def read_edit_cage(ob: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Edit
         return read_edit_mesh(edit)
     evaluated = ob.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
-    V = read_values(mesh.vertices, "co", np.float32, 3)
-    hidden = read_values(mesh.vertices, "hide", bool)
+    V = read_mesh.read_values(mesh.vertices, "co", np.float32, 3)
+    hidden = read_mesh.read_values(mesh.vertices, "hide", bool)
     edges = read_mesh.read_integers(mesh.edges, "vertices", 2)
-    edge_hidden = read_values(mesh.edges, "hide", bool)
+    edge_hidden = read_mesh.read_values(mesh.edges, "hide", bool)
     evaluated.to_mesh_clear()
     selected, edge_selected = (np.fromiter((each.select for each in elements), bool, len(elements))
                                for elements in (edit.verts, edit.edges))
-    edges, edge_selected = edges.reshape(-1, 2)[~edge_hidden], edge_selected[~edge_hidden]
-    return EditCage(V, np.flatnonzero(~hidden), edges, selected, edge_selected)
+    return EditCage(V, np.flatnonzero(~hidden), edges[~edge_hidden], selected, edge_selected[~edge_hidden])
 
 
 def has_edit_modifiers(ob: bpy.types.Object) -> bool:
@@ -38,12 +37,6 @@ def read_selected_faces(ob: bpy.types.Object) -> np.ndarray:
     """Reads which faces of the edit mesh are selected: #faces, bool."""
     faces = bmesh.from_edit_mesh(ob.data).faces
     return np.fromiter((face.select for face in faces), bool, len(faces))
-
-
-def read_values(elements: bpy.types.bpy_prop_collection, name: str, kind: type, each: int = 1) -> np.ndarray:
-    values = np.empty(each * len(elements), dtype=kind)
-    elements.foreach_get(name, values)
-    return values if each == 1 else values.reshape(-1, each)
 
 
 def read_edit_mesh(edit: bmesh.types.BMesh) -> EditCage:

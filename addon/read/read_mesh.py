@@ -8,25 +8,28 @@ from ..model.patch import Patch
 
 def read_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Reads the vertices of all faces, corner by corner, and the number of corners of each face."""
-    return read_integers(mesh.loops, "vertex_index", 1), read_integers(mesh.polygons, "loop_total", 1)
+    return read_integers(mesh.loops, "vertex_index"), read_integers(mesh.polygons, "loop_total")
 
 
-def read_integers(collection: bpy.types.bpy_prop_collection, name: str, each: int) -> np.ndarray:
-    """Reads `each` non-negative integers of every element.
+def read_integers(collection: bpy.types.bpy_prop_collection, name: str, each: int = 1) -> np.ndarray:
+    """Reads non-negative integers of every element: #elements, or #elements x each.
 
     Blender stores them unsigned; reading them as signed takes ten times longer.
     """
-    values = np.empty(each * len(collection), dtype=np.uint32)
-    collection.foreach_get(name, values)
-    return values.view(np.int32)
+    return read_values(collection, name, np.uint32, each).view(np.int32)
+
+
+def read_values(elements: bpy.types.bpy_prop_collection, name: str, kind: type, each: int = 1) -> np.ndarray:
+    """Reads numbers of a type of every element: #elements, or #elements x each."""
+    values = np.empty(each * len(elements), dtype=kind)
+    elements.foreach_get(name, values)
+    return values if each == 1 else values.reshape(-1, each)
 
 
 def read_coordinates(ob: bpy.types.Object, key: str = "") -> np.ndarray:
     """Reads the coordinates of the shape found by `find_shape_points`: #vertices x 3, object space."""
-    shape = find_shape_points(ob, key)
-    values = np.empty(3 * len(shape), dtype=np.float32)  # the stored type: reading as double takes ten times longer
-    shape.foreach_get("co", values)
-    return values.reshape(-1, 3).astype(np.float64)
+    # The stored type: reading as double takes ten times longer.
+    return read_values(find_shape_points(ob, key), "co", np.float32, 3).astype(np.float64)
 
 
 def read_shown_coordinates(ob: bpy.types.Object) -> np.ndarray:
@@ -54,7 +57,7 @@ def read_triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Reads Blender's own triangulation: vertices (#triangles x 3), and the face of each triangle."""
     mesh.calc_loop_triangles()
     cut = mesh.loop_triangles
-    return read_integers(cut, "vertices", 3).reshape(-1, 3), read_integers(cut, "polygon_index", 1)
+    return read_integers(cut, "vertices", 3), read_integers(cut, "polygon_index")
 
 
 def read_region_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:

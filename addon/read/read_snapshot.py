@@ -48,7 +48,7 @@ def choose_faces(ob: bpy.types.Object, *, or_all: bool) -> np.ndarray:
 
 def read_connectivity(mesh: bpy.types.Mesh) -> Connectivity:
     """Reads the faces and edges. In Edit Mode the mesh must have been updated from it."""
-    edges = read_mesh.read_integers(mesh.edges, "vertices", 2).reshape(-1, 2)
+    edges = read_mesh.read_integers(mesh.edges, "vertices", 2)
     return Connectivity(*read_mesh.read_corners(mesh), edges, compat.read_edge_creases(mesh))
 
 
@@ -66,9 +66,7 @@ def read_cut_triangles(mesh: bpy.types.Mesh, faces: Connectivity, region: np.nda
 
 def read_marked_edges(mesh: bpy.types.Mesh, faces: Connectivity) -> np.ndarray:
     """Reads which edges are sharp or have a crease: #edges, bool."""
-    sharp = np.empty(len(mesh.edges), dtype=bool)
-    mesh.edges.foreach_get("use_edge_sharp", sharp)
-    return sharp | (faces.creases > 0.0)
+    return read_mesh.read_values(mesh.edges, "use_edge_sharp", bool) | (faces.creases > 0.0)
 
 
 def read_limit_range(ob: bpy.types.Object) -> np.ndarray:

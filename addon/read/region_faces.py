@@ -5,6 +5,8 @@ The attribute is an integer, because Blender 3.4 has no boolean layers in Edit M
 import bpy
 import numpy as np
 
+from . import read_mesh
+
 ATTRIBUTE = "reflines_region"
 
 
@@ -23,7 +25,7 @@ def describe_missing_region(ob: bpy.types.Object) -> str:
 
 def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     """Reads the selected visible faces: #faces, bool. In Edit Mode the mesh must have been updated from it."""
-    return read_visible_faces(mesh) & read_face_flags(mesh, "select")
+    return read_visible_faces(mesh) & read_mesh.read_values(mesh.polygons, "select", bool)
 
 
 def read_stored_region(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -35,17 +37,9 @@ def read_region_values(mesh: bpy.types.Mesh) -> np.ndarray:
     """Reads in Object Mode which faces are stored as the region, also hidden ones: #faces, bool."""
     if not has_stored_region(mesh):
         return np.zeros(len(mesh.polygons), dtype=bool)
-    values = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.attributes[ATTRIBUTE].data.foreach_get("value", values)
-    return values != 0
+    return read_mesh.read_values(mesh.attributes[ATTRIBUTE].data, "value", np.int32) != 0
 
 
 def read_visible_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     """Reads which faces are not hidden: #faces, bool."""
-    return ~read_face_flags(mesh, "hide")
-
-
-def read_face_flags(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
-    values = np.empty(len(mesh.polygons), dtype=bool)
-    mesh.polygons.foreach_get(name, values)
-    return values
+    return ~read_mesh.read_values(mesh.polygons, "hide", bool)

@@ -2,6 +2,8 @@
 import bpy
 import numpy as np
 
+from . import read_mesh
+
 NAME = "Reflection Lines Text"
 
 
@@ -14,10 +16,7 @@ def read_outlines(text: str) -> tuple[np.ndarray, np.ndarray]:
     try:
         curve.fill_mode, curve.body = 'FRONT', text
         mesh = ob.to_mesh()
-        mesh.calc_loop_triangles()
-        V, F = np.zeros((len(mesh.vertices), 3), dtype=np.float32), np.zeros((len(mesh.loop_triangles), 3), np.int32)
-        mesh.vertices.foreach_get("co", V.ravel())
-        mesh.loop_triangles.foreach_get("vertices", F.ravel())
+        V, F = read_mesh.read_values(mesh.vertices, "co", np.float32, 3), read_mesh.read_triangles(mesh)[0]
         ob.to_mesh_clear()
     finally:
         bpy.data.objects.remove(ob)

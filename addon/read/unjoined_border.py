@@ -82,14 +82,13 @@ def find_unjoined(scene: bpy.types.Scene, ob: bpy.types.Object, patch: Patch, *,
 
 def read_open_edges(mesh: bpy.types.Mesh, V: np.ndarray) -> OpenEdges:
     """Reads the open edges of a mesh with its vertices at V (#V x 3)."""
-    edge_of_corner = read_mesh.read_integers(mesh.loops, "edge_index", 1)
+    edge_of_corner = read_mesh.read_integers(mesh.loops, "edge_index")
     sizes = read_mesh.read_corners(mesh)[1]
     once = np.bincount(edge_of_corner, minlength=len(mesh.edges))[edge_of_corner] == 1
     edges, faces = edge_of_corner[once], np.repeat(np.arange(len(sizes)), sizes)[once]
-    vertices = read_mesh.read_integers(mesh.edges, "vertices", 2).reshape(-1, 2)[edges]
-    centers = np.empty(3 * len(mesh.polygons), dtype=np.float32)
-    mesh.polygons.foreach_get("center", centers)
-    return OpenEdges(V[vertices], centers.reshape(-1, 3)[faces].astype(np.float64), faces)
+    vertices = read_mesh.read_integers(mesh.edges, "vertices", 2)[edges]
+    centers = read_mesh.read_values(mesh.polygons, "center", np.float32, 3)
+    return OpenEdges(V[vertices], centers[faces].astype(np.float64), faces)
 
 
 def read_others(scene: bpy.types.Scene, ob: bpy.types.Object,

@@ -51,7 +51,8 @@ def read_stored_state(ob: bpy.types.Object) -> tuple[np.ndarray, np.ndarray, np.
     local = shape_keys.read_mixed_shape(ob) if len(ob.data.polygons) else None
     if local is None:
         return None
-    return local, region_faces.read_visible_faces(ob.data), region_faces.read_face_flags(ob.data, "select")
+    selected = read_mesh.read_values(ob.data.polygons, "select", bool)
+    return local, region_faces.read_visible_faces(ob.data), selected
 
 
 def read_edited_state(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:

@@ -13,13 +13,13 @@ def read_viewport_surface(ob: bpy.types.Object, depsgraph: bpy.types.Depsgraph, 
     """
     evaluated = ob.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
-    V = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    (ob.data if is_sculpted_directly(ob) else mesh).vertices.foreach_get("co", V)
+    V = read_mesh.read_values((ob.data if is_sculpted_directly(ob) else mesh).vertices, "co", np.float32, 3)
     topology = read_topology(mesh, last)
     edited = ob.mode == 'EDIT' and not read_edit_cage.has_edit_modifiers(ob)
-    selected = read_edit_cage.read_selected_faces(ob) if edited else region_faces.read_face_flags(mesh, "select")
+    selected = read_edit_cage.read_selected_faces(ob) if edited else read_mesh.read_values(
+        mesh.polygons, "select", bool)
     evaluated.to_mesh_clear()
-    return Surface(V.reshape(-1, 3).astype(np.float64), topology, selected[topology.faces])
+    return Surface(V.astype(np.float64), topology, selected[topology.faces])
 
 
 def is_sculpted_directly(ob: bpy.types.Object) -> bool:

@@ -8,6 +8,7 @@ from .. import native
 from ..model.gain import Healed, Worse
 from ..model.light_set import LightSet
 from ..model.patch import Patch
+from ..model.same import are_same
 from ..model.solution import SolveReport, Solution
 from ..model.view import View
 from ..native_call import call
@@ -49,6 +50,10 @@ class AutomaticSmooth:
         """Returns the lights that judge a patch: those that show lines."""
         return None if self.judges is None else self.judges.leave_parallel(patch.center)
 
+    def find_same(self, other: "AutomaticSmooth") -> bool:
+        """Returns whether a press finds the same with other settings: all but strength and limit are the same."""
+        return are_same(self, replace(other, strength=self.strength, limit=self.limit))
+
     def choose_margin(self) -> float:
         """Returns how far beside the region faces are needed, in diagonals of the region."""
         within = native.reflines.FAIR_MARGIN * native.reflines.AUTOMATIC_LENGTH * self.flaw_size
@@ -65,8 +70,7 @@ class KeptPress:
 
     def suits(self, patch: Patch, view: View, border: str, settings: AutomaticSmooth) -> bool:
         """Returns whether the smoother serves this patch, view, border and settings."""
-        amount = {"strength": self.settings.strength, "limit": self.settings.limit}
-        return (self.border == border and self.settings == replace(settings, **amount)
+        return (self.border == border and self.settings.find_same(settings)
                 and self.problem.view.has_same_light(view) and self.problem.patch.same(patch))
 
 

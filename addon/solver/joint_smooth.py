@@ -37,9 +37,7 @@ class KeptJoint:
 
     def suits(self, patches: Sequence[Patch], views: Sequence[View], border: str, settings: AutomaticSmooth) -> bool:
         """Returns whether the smoother serves these patches, views, border and settings."""
-        amount = {"strength": self.settings.strength, "limit": self.settings.limit}
-        return (self.border == border and self.settings == replace(settings, **amount)
-                and len(self.problems) == len(patches)
+        return (self.border == border and self.settings.find_same(settings) and len(self.problems) == len(patches)
                 and all(own.patch.same(patch) and own.patch.name == patch.name and own.view.has_same_light(view)
                         for own, patch, view in zip(self.problems, patches, views, strict=True)))
 

@@ -9,6 +9,7 @@ import numpy as np
 from .. import native
 from ..model.patch import Patch
 from ..model.refusal import Refusal
+from ..model.same import are_same
 from ..model.solution import JointTargets, SolveSettings
 from ..model.view import View
 from ..native_call import call
@@ -32,7 +33,7 @@ class LiveOptimizer:
 
     def suits(self, patch: Patch, view: View, border: str) -> bool:
         """Returns whether the optimizer serves this patch, view and border."""
-        return self.border == border and self.problem.view.same(view) and self.patch.same(patch)
+        return self.border == border and are_same(self.problem.view, view) and self.patch.same(patch)
 
 
 async def build_optimizer(patch: Patch, seen: View, border: str, progress: "native.Progress | None" = None, *,

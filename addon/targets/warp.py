@@ -24,9 +24,6 @@ class Lattice:
     kinds: tuple[str, str, str]  # interpolation along u, v, w
     matrix: np.ndarray   # 4 x 4, to world space
 
-    def same(self, other: "Lattice") -> bool:
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
-
     def scaled(self, factor: float) -> "Lattice":
         """Returns the lattice with its control points' moves scaled; a factor of 1 changes no bit."""
         return replace(self, moves=factor * self.moves)
@@ -37,10 +34,6 @@ class Warp:
     """The lattice, and what is fitted to its map."""
     lattice: Lattice
     by_value: bool = False
-
-    def same(self, other: "Warp | None") -> bool:
-        return (other is not None and self.lattice.same(other.lattice)
-                and self.by_value == other.by_value)
 
 
 async def build_warp_target(optimizer: "native.ShapeOptimizer", settings: Warp) -> "native.Target":

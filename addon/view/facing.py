@@ -50,15 +50,8 @@ def is_inside_out(mesh: bpy.types.Mesh, region: np.ndarray) -> bool:
     """Returns whether the faces of the region (#faces, bool) are inside out, judged by all of the mesh."""
     corners, sizes = read_mesh.read_corners(mesh)
     flipped = orientation.is_flipped(corners, sizes, region)
-    areas, normals, centers = (read_floats(mesh, name, each) for name, each in
+    areas, normals, centers = (read_mesh.read_values(mesh.polygons, name, float, each) for name, each in
                                (("area", 1), ("normal", 3), ("center", 3)))
     alike = np.where(region & flipped, -1.0, 1.0)[:, None]
-    flux = orientation.compute_flux(areas[:, 0], alike * normals, centers)
+    flux = orientation.compute_flux(areas, alike * normals, centers)
     return orientation.is_inside_out(flux, closed=orientation.is_closed(corners, sizes), flipped=flipped)
-
-
-def read_floats(mesh: bpy.types.Mesh, name: str, each: int) -> np.ndarray:
-    """Reads numbers of all faces: #faces x each."""
-    values = np.empty(each * len(mesh.polygons))
-    mesh.polygons.foreach_get(name, values)
-    return values.reshape(-1, each)

@@ -4,7 +4,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ..model.refusal import Refusal
-from ..read import region_faces
+from ..read import read_mesh, region_faces
 from . import view_and_light
 
 MARGIN = 1.1    # size of the picture relative to the framed points
@@ -30,11 +30,10 @@ def compute_mean_normal(ob: bpy.types.Object) -> np.ndarray:
         ob.update_from_editmode()
     mesh = ob.data
     faces = region_faces.read_selected_faces(mesh) if ob.mode == 'EDIT' else region_faces.read_stored_region(mesh)
-    areas, directions = np.empty(len(mesh.polygons)), np.empty(3 * len(mesh.polygons))
-    mesh.polygons.foreach_get("area", areas)
-    mesh.polygons.foreach_get("normal", directions)
+    areas, directions = (read_mesh.read_values(mesh.polygons, name, float, each)
+                         for name, each in (("area", 1), ("normal", 3)))
     chosen = faces if faces.any() else np.ones(len(faces), dtype=bool)
-    total = areas[chosen] @ directions.reshape(-1, 3)[chosen]
+    total = areas[chosen] @ directions[chosen]
     matrix = np.array(ob.matrix_world, dtype=np.float64)[:3, :3]
     known = len(areas) and np.isfinite(total).all() and np.isfinite(matrix).all()
     if not known or np.linalg.norm(total) < 1e-3 * areas[chosen].sum() or np.linalg.matrix_rank(matrix) < 3:
@@ -50,11 +49,8 @@ def read_framed_points(ob: bpy.types.Object) -> np.ndarray:
     points = np.array(ob.bound_box, dtype=np.float64)
     if ob.mode == 'EDIT':
         ob.update_from_editmode()
-        count = len(ob.data.vertices)
-        local, selected = np.empty(3 * count), np.empty(count, dtype=bool)
-        ob.data.vertices.foreach_get("co", local)
-        ob.data.vertices.foreach_get("select", selected)
-        points = local.reshape(-1, 3)[selected] if selected.any() else points
+        selected = read_mesh.read_values(ob.data.vertices, "select", bool)
+        points = read_mesh.read_values(ob.data.vertices, "co", float, 3)[selected] if selected.any() else points
     matrix = np.array(ob.matrix_world, dtype=np.float64)
     with np.errstate(invalid="ignore", over="ignore"):
         points = points @ matrix[:3, :3].T + matrix[:3, 3]

@@ -54,9 +54,7 @@ def read_start(ob: bpy.types.Object) -> np.ndarray | None:
     attribute = ob.data.attributes.get(ATTRIBUTE)
     if attribute is None or attribute.data_type != 'FLOAT_VECTOR' or attribute.domain != 'POINT':
         return None
-    values = np.empty(3 * len(ob.data.vertices), dtype=np.float32)
-    attribute.data.foreach_get("vector", values)
-    return values.reshape(-1, 3)
+    return read_mesh.read_values(attribute.data, "vector", np.float32, 3)
 
 
 def read_whole_start(ob: bpy.types.Object) -> np.ndarray:

@@ -10,12 +10,10 @@ def find_faces_near(ob: bpy.types.Object, place: np.ndarray, radius: float) -> n
     """Finds the visible faces whose middle is no further than `radius` from a place in world space, and the nearest
     one: #faces, bool. In Edit Mode the mesh must have been updated from it.
     """
-    polygons = ob.data.polygons
-    centers, hidden = np.empty(3 * len(polygons)), np.empty(len(polygons), dtype=bool)
-    polygons.foreach_get("center", centers)
-    polygons.foreach_get("hide", hidden)
+    centers = read_mesh.read_values(ob.data.polygons, "center", float, 3)
+    hidden = read_mesh.read_values(ob.data.polygons, "hide", bool)
     matrix = np.array(ob.matrix_world, dtype=np.float64)
-    away = np.linalg.norm(centers.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3] - place, axis=1)
+    away = np.linalg.norm(centers @ matrix[:3, :3].T + matrix[:3, 3] - place, axis=1)
     away[hidden | ~np.isfinite(away)] = np.inf
     return away <= max(radius, away.min(initial=np.inf)) if len(away) and np.isfinite(away).any() else hidden & False
 
@@ -41,8 +39,7 @@ def select_edited_faces(mesh: bpy.types.Mesh, faces: np.ndarray) -> None:
 
 def select_stored_faces(mesh: bpy.types.Mesh, faces: np.ndarray) -> None:
     corners, sizes = read_mesh.read_corners(mesh)
-    edges = np.empty(len(corners), dtype=np.int32)
-    mesh.loops.foreach_get("edge_index", edges)
+    edges = read_mesh.read_integers(mesh.loops, "edge_index")
     chosen = np.repeat(faces, sizes)
     for elements, index in ((mesh.vertices, corners[chosen]), (mesh.edges, edges[chosen])):
         selected = np.zeros(len(elements), dtype=bool)

@@ -7,7 +7,7 @@ from mathutils import Matrix
 
 from ..model.patch import Patch
 from ..model.refusal import Refusal
-from ..read import scene_objects
+from ..read import read_mesh, scene_objects
 from ..targets.warp import Lattice
 
 LIFT = 0.1  # of the panel's diagonal, towards the viewer: the lattice is to be seen before the panel
@@ -46,8 +46,7 @@ def find_lattice(scene: bpy.types.Scene, name: str = "") -> bpy.types.Object:
 def read_lattice(ob: bpy.types.Object) -> Lattice:
     """Reads the lattice, in Edit Mode too: unlike a mesh a lattice shows there what is being edited."""
     data = ob.data
-    now = np.empty(3 * len(data.points), np.float32)
-    data.points.foreach_get("co_deform", now)
+    now = read_mesh.read_values(data.points, "co_deform", np.float32, 3)
     matrix = np.array(ob.matrix_world, dtype=np.float64)
     if not np.isfinite(matrix).all() or not np.isfinite(now).all():
         raise Refusal(f"{ob.name} has a transform or points that are not finite numbers: reset them")
@@ -57,7 +56,7 @@ def read_lattice(ob: bpy.types.Object) -> Lattice:
     rest = np.stack([axis.ravel() for axis in np.meshgrid(w, v, u, indexing='ij')][::-1], axis=1)
     shape = (data.points_w, data.points_v, data.points_u, 3)
     kinds = (data.interpolation_type_u, data.interpolation_type_v, data.interpolation_type_w)
-    return Lattice(rest[0], rest[-1], (now.reshape(-1, 3).astype(float) - rest).reshape(shape), kinds, matrix)
+    return Lattice(rest[0], rest[-1], (now.astype(float) - rest).reshape(shape), kinds, matrix)
 
 
 def read_rest_axes(data: bpy.types.Lattice) -> list[np.ndarray]:
@@ -65,10 +64,9 @@ def read_rest_axes(data: bpy.types.Lattice) -> list[np.ndarray]:
 
     In Edit Mode Blender 3.4 counts `co` from a wrong first point, so that only the steps between points can be trusted.
     """
-    values = np.empty(3 * len(data.points), np.float32)
-    data.points.foreach_get("co", values)
+    values = read_mesh.read_values(data.points, "co", np.float32, 3)
     return [space_evenly(np.unique(axis), count) for axis, count
-            in zip(values.reshape(-1, 3).astype(float).T, (data.points_u, data.points_v, data.points_w), strict=True)]
+            in zip(values.astype(float).T, (data.points_u, data.points_v, data.points_w), strict=True)]
 
 
 def space_evenly(values: np.ndarray, count: int) -> np.ndarray:

@@ -70,10 +70,9 @@ def write_positions(ob: bpy.types.Object, patch: Patch, new: np.ndarray, old: np
 def write_shape(ob: bpy.types.Object, key: str, index: np.ndarray, new: np.ndarray) -> None:
     """Writes coordinates in Object Mode, into the shape found by read_mesh.find_shape_points."""
     mesh, points = ob.data, read_mesh.find_shape_points(ob, key)
-    values = np.empty(3 * len(points), dtype=np.float32)
-    points.foreach_get("co", values)
-    values.reshape(-1, 3)[index] = new
-    points.foreach_set("co", values)
+    values = read_mesh.read_values(points, "co", np.float32, 3)
+    values[index] = new
+    points.foreach_set("co", values.ravel())
     if mesh.shape_keys is not None:
         mesh.shape_keys.update_tag()
     mesh.update()

@@ -2,6 +2,7 @@
 import bpy
 import numpy as np
 import pytest
+from reflection_lines.model.same import are_same
 from reflection_lines.write import warp_lattice
 from reflection_lines.targets import warp
 
@@ -61,7 +62,7 @@ def test_the_lattice_is_the_same_in_its_edit_mode(panel, columns, rows) -> None:
     outside = warp_lattice.read_lattice(ob)
     assert np.allclose(outside.low, ob.data.points[0].co) and np.allclose(outside.high, ob.data.points[-1].co)
     scenes.edit(ob)
-    assert warp_lattice.read_lattice(ob).same(outside)
+    assert are_same(warp_lattice.read_lattice(ob), outside)
 
 
 @pytest.mark.parametrize("kind", KINDS)
