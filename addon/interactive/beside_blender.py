@@ -33,7 +33,7 @@ class Job(Protocol[Outcome]):
         """Ends the work without an outcome."""
 
 
-class BesideBlender(Generic[Outcome]):
+class BesideBlender(running_operators.RunningOperator, Generic[Outcome]):
     """The modal part of an operator with a job."""
     job: Job[Outcome]
 
@@ -72,10 +72,6 @@ class BesideBlender(Generic[Outcome]):
         """Ends the work without a result."""
         self.job.stop()
         running_operators.end(self, context)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Ends the work when Blender exits or opens another file."""
-        self.take_back(context)
 
 
 @dataclass(frozen=True)
@@ -164,36 +160,29 @@ class PanelWork(BesideBlender[Outcome]):
         return {'FINISHED'}
 
 
-class FileWork(Protocol):
-    """The interface of work on a file."""
+class FileWork:
+    """Work on a file; its first step, which reads, is done at once."""
+    steps: Steps[None]
 
     def write(self, context: bpy.types.Context) -> Steps[None]:
         """Reads the panel as it is in the first step, and writes; raises Refusal and OSError."""
+        raise NotImplementedError
 
-    def describe_progress(self) -> str:
-        """Describes how far the work is, for the status bar."""
+    def describe(self) -> str:
+        raise NotImplementedError
 
     def describe_written(self) -> str:
         """Describes what was written, after the end or Esc."""
+        raise NotImplementedError
 
-
-class FileJob:
-    """The steps of work on a file whose first one, which reads, is done."""
-
-    def __init__(self, work: FileWork, steps: Steps[None]) -> None:
-        self.work, self.steps = work, steps
-
-    def advance(self) -> FileWork | None:
+    def advance(self) -> "FileWork | None":
         try:
             return next(self.steps)
         except StopIteration:
-            return self.work
+            return self
 
     def is_reading(self) -> bool:
         return False
-
-    def describe(self) -> str:
-        return self.work.describe_progress()
 
     def stop(self) -> None:
         """Ends the work; files that are written stay."""
@@ -205,12 +194,11 @@ class FileExport(BesideBlender[FileWork]):
 
     def write_file(self, context: bpy.types.Context, work: FileWork) -> set[str]:
         """Begins to write; raises Refusal and OSError."""
-        steps = work.write(context)
-        self.job = FileJob(work, steps)
+        self.job, work.steps = work, work.write(context)
         if bpy.app.background:
-            finish(steps)
+            finish(work.steps)
             return self.take_outcome(work)
-        next(steps)
+        next(work.steps)
         return running_operators.begin(self, context, TICK_INTERVAL)
 
     def take_outcome(self, outcome: FileWork) -> set[str]:
@@ -218,4 +206,4 @@ class FileExport(BesideBlender[FileWork]):
         return {'FINISHED'}
 
     def describe_end(self) -> str:
-        return self.job.work.describe_written()
+        return self.job.describe_written()

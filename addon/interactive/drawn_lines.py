@@ -1,30 +1,16 @@
 """Lines that are laid along curves in a session with handles: drawn, straightened, or parallel to edges."""
-from typing import Protocol
-
 import numpy as np
 
 from ..model import line_curve
 from ..model.line_handle import LineHandle
-from ..model.line_surface import LineState, LineSurface, Place
-from ..model.patch import Patch
+from ..model.line_surface import Place
 from ..read import read_edges
+from .handle_tracing import Session
 
 FEWEST = 3  # points of a stroke
 # Of a handle's radius, within which a line leaves its held ends. Of 1/8 to 1/2 lines pass within 1 % of the spacing; at
 # once, within 2 to 9 %, with a hook beside the border.
 LEAVES = 1.0 / 3.0
-
-
-class Session(Protocol):
-    """The part of a session that is used here."""
-    surface: LineSurface
-    state: LineState
-    patches: list[Patch]
-    frame: np.ndarray
-
-    def to_local(self, point: np.ndarray) -> tuple[float, float, float]: ...
-    def choose_radius(self) -> float: ...
-    def can_follow(self, points: np.ndarray) -> np.ndarray: ...
 
 
 def draw_line(session: Session, stroke: list[Place]) -> LineHandle | None:
@@ -42,20 +28,15 @@ def lay(session: Session, handle: LineHandle, points: np.ndarray) -> LineHandle:
     return handle.lay(tuple(session.to_local(point) for point in points))
 
 
-def trace_line(session: Session, place: Place) -> np.ndarray:
-    """Returns the line that is seen at a place, as it runs now: #P x 3, world space."""
-    return session.surface.trace(place, session.state, session.surface.read_theta(place, session.state))
-
-
 def straighten_line(session: Session, handle: LineHandle, place: Place) -> LineHandle | None:
     """Returns the handle with its line along the straight way between its two ends."""
-    line = trace_line(session, place)
+    line = session.surface.trace_through(place, session.state)
     return lay(session, handle, line_curve.straighten(line)) if len(line) >= FEWEST else None
 
 
 def follow_edge(session: Session, handle: LineHandle, place: Place) -> LineHandle | None:
     """Returns the handle with its line parallel to the selected edges, else to the border or crease beside it."""
-    line, plane = trace_line(session, place), session.frame[:2]
+    line, plane = session.surface.trace_through(place, session.state), session.frame[:2]
     if len(line) < FEWEST:
         return None
     at = plane @ session.surface.read_point(place, session.state)

@@ -1,4 +1,5 @@
 """A bake of keyed handles: one solve a frame, each from the same start, and nothing written before the last of them."""
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -6,7 +7,7 @@ import numpy as np
 
 from .. import native
 from ..animation import baked_keys, handle_keys
-from ..model import bake_frames, line_run
+from ..model import line_run
 from ..model.border import settle_border
 from ..model.patch import Patch
 from ..model.refusal import Refusal
@@ -21,6 +22,7 @@ from ..view import facing
 from .line_build import LineBuild
 
 MOST_NOTES = 3
+MOST_FRAMES = 1000  # each is a shape key
 PULL = "REFLINES_OT_pull_line"
 LOST_START = ("the shape before its handles is not known, since another tool ran or the mesh was changed, undone, "
               "renamed or duplicated after Pull Line: press Pull Line and Enter, and they begin with the mesh as it is")
@@ -168,7 +170,19 @@ def choose_frames(ob: bpy.types.Object, step: int) -> tuple[float, ...]:
     first, last = (min(keyed), max(keyed)) if keyed else (scene.frame_start, scene.frame_end)
     if scene.use_preview_range:
         first, last = scene.frame_preview_start, scene.frame_preview_end
-    return bake_frames.choose_frames(keyed, first, last, step)
+    return list_frames(keyed, first, last, step)
+
+
+def list_frames(keyed: Sequence[float], first: float, last: float, step: int) -> tuple[float, ...]:
+    """Returns the keyed frames of a range, its ends, and every `step` frames from its begin, in order."""
+    if (last - first) / step > MOST_FRAMES:
+        raise Refusal(f"There would be more than {MOST_FRAMES} frames to bake: take a shorter preview range")
+    inner = {float(first), float(last), *(float(each) for each in keyed if first <= each <= last)}
+    steps = {first + step * number for number in range(int((last - first) // step) + 1)}
+    frames = tuple(sorted(inner | steps))
+    if len(frames) > MOST_FRAMES:
+        raise Refusal(f"There are {len(frames)} frames to bake, more than {MOST_FRAMES}: take fewer keys")
+    return frames
 
 
 def read_run(ob: bpy.types.Object) -> line_run.LineRun:

@@ -5,14 +5,17 @@ import numpy as np
 
 from ..model.line_handle import Handles, LineHandle
 from ..model.line_surface import LineState, LineSurface, Place
+from ..model.patch import Patch
 from ..overlay import handle_marks
 from ..overlay.handle_marks import Curve, Dot, Marks
 
 
 class Session(Protocol):
-    """The part of a session that is used here."""
+    """The part of a session with handles that is used here and in drawn_lines.py."""
     surface: LineSurface
     state: LineState
+    own: Patch
+    frame: np.ndarray
     handles: Handles
     held: int | None
     near: int | None
@@ -24,6 +27,9 @@ class Session(Protocol):
     def find_place(self, point: tuple[float, float, float]) -> Place | None: ...
     def find_dot(self, dot: tuple[float, float, float]) -> np.ndarray: ...
     def list_dots(self) -> list[tuple[int, int]]: ...
+    def to_local(self, point: np.ndarray) -> tuple[float, float, float]: ...
+    def choose_radius(self) -> float: ...
+    def can_follow(self, points: np.ndarray) -> np.ndarray: ...
 
 
 def choose_color(handle: LineHandle) -> handle_marks.Color:
@@ -53,18 +59,14 @@ class HandleTracing:
             drawn = np.array([session.surface.read_point(each, session.state) for each in session.stroke])
             curves.append(Curve(drawn, handle_marks.HOVER_COLOR))
         elif session.held is None and session.near is None and session.hover is not None:
-            curves.append(Curve(self.trace_place(session.hover), handle_marks.HOVER_COLOR))
+            curves.append(Curve(session.surface.trace_through(session.hover, session.state),
+                                handle_marks.HOVER_COLOR))
         return Marks(tuple(curves), tuple(self.make_dot(index, number) for index, number in session.list_dots()))
 
     def make_dot(self, index: int, number: int) -> Dot:
         session, handle = self.session, self.session.handles[index]
         is_under_mouse = index in (session.near, session.held) and number == session.dot
         return Dot(session.find_dot(handle.dots[number]), choose_color(handle), is_under_mouse, handle.muted)
-
-    def trace_place(self, place: Place) -> np.ndarray:
-        """Returns the line that is seen at a place: #P x 3, world space."""
-        surface, state = self.session.surface, self.session.state
-        return surface.trace(place, state, surface.read_theta(place, state))
 
     def trace_handle(self, index: int) -> tuple[Curve, ...]:
         """Traces the line of a handle as it is now, and of the one that is taken its ghost at the start."""
@@ -75,7 +77,7 @@ class HandleTracing:
             return ()
         value = surface.read_theta(start, surface.start)
         if own not in self.now:
-            line = self.trace_place(surface.find_level(end, value, session.state))
+            line = surface.trace_through(surface.find_level(end, value, session.state), session.state)
             self.now[own] = Curve(line, choose_color(own))
         if index != session.find_active() or own.is_pin:
             return (self.now[own],)

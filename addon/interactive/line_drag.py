@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..blender import units
-from ..model import line_handle, line_surface, nearest_line
+from ..model import line_handle, line_surface
 from ..model.line_handle import Handles, LineHandle
 from ..model.line_surface import LineState, LineSurface, Place
 from ..model.patch import Patch
@@ -199,8 +199,7 @@ class LineDrag(Drag):
     def make_pin(self, place: Place) -> LineHandle | None:
         """Returns a pin of the line through a place, where that has moved the place's line at the start."""
         source = self.surface.find_source(place, self.surface.start)
-        value = self.surface.read_theta(source, self.surface.start)
-        line = self.surface.trace(source, self.surface.start, value)
+        line = self.surface.trace_through(source, self.surface.start)
         if len(line) < 2:
             return None
         inner = line_surface.thin_out(line[1:-1] if len(line) > 3 else line, line_handle.MOST_POINTS)
@@ -225,7 +224,7 @@ class LineDrag(Drag):
         """Returns the handle of the stroke for the line that has to change least to run along it."""
         theta = np.array([self.surface.read_theta(place, self.state) for place in self.stroke])
         points = np.array([self.surface.read_point(place, self.state) for place in self.stroke])
-        value = nearest_line.compute_mean_theta(theta, points)
+        value = line_surface.compute_mean_theta(theta, points)
         closest = self.stroke[int(np.abs(line_surface.wrap(theta - value)).argmin())]
         source = self.surface.find_level(closest, value, self.surface.start)
         return replace(drawn, start=self.to_local(self.surface.read_point(source, self.surface.start)))

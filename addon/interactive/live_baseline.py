@@ -2,8 +2,7 @@
 
 All of it is saved with the file and undone with it, and the shape of the mesh follows from it alone.
 """
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -14,8 +13,7 @@ from ..model.refusal import Refusal
 from ..model.solution import SolveSettings
 from ..model.view import View
 from ..read import gather
-from ..solver.live_optimizer import BuildTarget
-from ..targets import crossed, warp
+from ..targets import crossed
 from ..targets.warp import Warp
 from ..view import facing, read_light_set, view_and_light
 from ..write import live_warp_start, warp_lattice
@@ -98,23 +96,13 @@ def read_baseline(scene: bpy.types.Scene, ob: bpy.types.Object) -> Baseline:
     return Baseline(patch, facing.read_patch_view(scene, patch), settle_border(settings.border, joined=False), now)
 
 
-def bind_target(wanted: Warp) -> BuildTarget:
-    """Returns the target builder of a warp."""
-    return partial(warp.build_warp_target, settings=wanted)
-
-
-def read_solve_settings(scene: bpy.types.Scene) -> SolveSettings:
-    """Reads the settings of the solve from the scene."""
+def read_solve_settings(scene: bpy.types.Scene, *, final: bool) -> SolveSettings:
+    """Reads the settings of the solve from the scene, whose set of lights judges the shape at rest."""
     settings = scene.reflection_lines
     keeps_crossed = settings.lights != 'SINGLE' and settings.warp.fit != 'VALUE'
     return SolveSettings(settle_border(settings.border, joined=False), settings.length, settings.limit,
-                         build_crossed=crossed.build_kept_target if keeps_crossed else None)
-
-
-def read_final_settings(scene: bpy.types.Scene) -> SolveSettings:
-    """Reads likewise what the solve of the shape at rest needs, which the scene's set of lights judges."""
-    judges = read_light_set.read_light_set(scene.reflection_lines, [find_subject(scene)])
-    return replace(read_solve_settings(scene), judges=judges)
+                         build_crossed=crossed.build_kept_target if keeps_crossed else None,
+                         judges=read_light_set.read_light_set(settings, [find_subject(scene)]) if final else None)
 
 
 def read_operator_settings(scene: bpy.types.Scene) -> dict[str, str | float]:

@@ -4,6 +4,7 @@ While the lattice moves, the mesh follows by warm-started solves, as in a drag; 
 the start. So the shape at rest is what Apply keeps, whatever path the lattice took.
 """
 import time
+from functools import partial
 
 import bpy
 import numpy as np
@@ -13,7 +14,7 @@ from ..model.refusal import Refusal
 from ..model.same import are_same
 from ..model.solution import Solution
 from ..read import read_mesh
-from ..targets.warp import Warp
+from ..targets.warp import Warp, build_warp_target
 from ..write import live_warp_start, write_mesh
 from . import live_baseline
 from .live_baseline import Baseline
@@ -84,8 +85,8 @@ class LiveWarp:
         elif self.request.final:
             self.job.progress.cancel()  # a long solve whose result is out of date
         self.solution, self.needs_final = None, False
-        read_settings = live_baseline.read_final_settings if final else live_baseline.read_solve_settings
-        self.request = SolveRequest((live_baseline.bind_target(self.warp),), (read_settings(scene),), final)
+        settings = live_baseline.read_solve_settings(scene, final=final)
+        self.request = SolveRequest((partial(build_warp_target, settings=self.warp),), (settings,), final)
         self.work.submit(self.request)
 
     def advance(self, scene: bpy.types.Scene) -> bool:

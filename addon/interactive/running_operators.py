@@ -3,16 +3,21 @@ there: Blender drops the operators of a class that is unregistered without calli
 """
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Protocol
 
 import bpy
 
 
-class RunningOperator(Protocol):
-    """The interface of an operator that runs."""
+class RunningOperator:
+    """The base of operators that run."""
     timer: bpy.types.Timer | None
 
-    def take_back(self, context: bpy.types.Context) -> None: ...
+    def take_back(self, context: bpy.types.Context) -> None:
+        """Takes back what the operator does, and ends it."""
+        raise NotImplementedError
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Does so when Blender exits or opens another file."""
+        self.take_back(context)
 
 
 _running: list[RunningOperator] = []

@@ -1,11 +1,19 @@
 """The modal part of the operators that sweep: two angles follow the mouse until a key keeps them or takes them back."""
+from math import radians
+
 import bpy
 
+from ..view.light_angles import TILT_LIMIT
 from . import drag_input, running_operators
-from .drag_handles import DragValues
+from .drag_handles import DragValues, Handle
+
+HANDLES = (
+    Handle("turn", "Turn", per_pixel=radians(0.3), low=-1e9, high=1e9, unit='ANGLE'),
+    Handle("tilt", "Tilt", per_pixel=radians(0.1), low=-TILT_LIMIT, high=TILT_LIMIT, unit='ANGLE', wheel=True),
+)
 
 
-class Sweep:
+class Sweep(running_operators.RunningOperator):
     """The modal part of an operator with the properties `turn` and `tilt`. It has `area` and `values` from its begin,
     and gives `apply_angles` and `take_back`, which ends with `end`.
     """
@@ -15,9 +23,6 @@ class Sweep:
     release_confirm = False  # see REFLINES_OT_sweep_light
 
     def apply_angles(self, context: bpy.types.Context) -> None:
-        raise NotImplementedError
-
-    def take_back(self, context: bpy.types.Context) -> None:
         raise NotImplementedError
 
     def can_go_on(self, _context: bpy.types.Context) -> bool:
@@ -55,10 +60,6 @@ class Sweep:
         self.apply_angles(context)
         self.area.tag_redraw()  # the numbers in the sidebar too
         self.area.header_text_set(f"{drag_input.describe_values(self.values, context.scene)}   ({self.bl_label})")
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Takes the sweep back when Blender exits or opens another file."""
-        self.take_back(context)
 
     def end(self, context: bpy.types.Context) -> None:
         running_operators.end(self, context)

@@ -2,7 +2,7 @@
 import csv
 import io
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
 
 LINES_TOLERANCE = 0.05  # degrees that the mesh's own facets can add to how far lines are off their course
@@ -45,10 +45,16 @@ def compare(before: float, after: float, tolerance: float) -> str:
 
 def format_csv(rows: Sequence[TableRow]) -> str:
     """Formats the table as comma-separated values with a header; an empty mark where there is none."""
+    return write_csv([each.name for each in fields(TableRow)],
+                     ({name: "" if value is None else value for name, value in asdict(row).items()} for row in rows))
+
+
+def write_csv(names: list[str], rows: Iterable[dict[str, str | int | float]]) -> str:
+    """Writes rows with these names as comma-separated values with a header."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, [each.name for each in fields(TableRow)], lineterminator="\n")
+    writer = csv.DictWriter(text, names, lineterminator="\n")
     writer.writeheader()
-    writer.writerows({name: "" if value is None else value for name, value in asdict(row).items()} for row in rows)
+    writer.writerows(rows)
     return text.getvalue()
 
 

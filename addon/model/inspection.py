@@ -1,10 +1,10 @@
 """The result of an inspection: how even a panel's lines are from all around, and its worst spots."""
-import csv
-import io
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 
 import numpy as np
+
+from .check_table import write_csv
 
 # How the views of a walk around are named, in the order of reflines.walk_around.
 VIEWS = ("the view", "its left", "its right", "above", "below")
@@ -38,11 +38,8 @@ class Inspection:
 
 def format_csv(spots: Sequence[Spot]) -> str:
     """Formats the spots as comma-separated values with a header, the worst first; lengths in Blender units."""
-    text = io.StringIO()
     names = [each.name for each in fields(Spot) if each.name not in {"place", "line", "eye"}]
-    writer = csv.DictWriter(text, ["number", "x", "y", "z", *names], lineterminator="\n")
-    writer.writeheader()
-    for number, spot in enumerate(spots, 1):
-        row = {name: value for name, value in asdict(spot).items() if name in names}
-        writer.writerow(row | dict(zip("xyz", np.asarray(spot.place).tolist(), strict=True)) | {"number": number})
-    return text.getvalue()
+    rows = ({name: getattr(spot, name) for name in names}
+            | dict(zip("xyz", np.asarray(spot.place).tolist(), strict=True)) | {"number": number}
+            for number, spot in enumerate(spots, 1))
+    return write_csv(["number", "x", "y", "z", *names], rows)

@@ -12,7 +12,6 @@ import numpy as np
 
 from . import line_handle
 from .line_handle import Handles, LineHandle
-from .refusal import Refusal
 
 Values = tuple[Sequence[float], float, bool]  # place, radius, muted
 
@@ -26,17 +25,12 @@ def encode_fixed(handles: Handles) -> str:
 
 def place_handles(text: str, values: Sequence[Values]) -> Handles:
     """Returns the handles of a text at their values; refuses what a file may hold of another origin."""
-    try:
-        stored = json.loads(text)
-        if not isinstance(stored, list) or len(stored) != len(values) or len(stored) > line_handle.MOST_HANDLES:
-            raise ValueError("not as many handles as values")
-        return tuple(place_handle(fixed, *own) for fixed, own in zip(stored, values, strict=True))
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError) as error:
-        raise Refusal(line_handle.UNREADABLE) from error
+    return line_handle.decode_each(text, place_handle, values)
 
 
-def place_handle(fixed: dict, place: Sequence[float], radius: float, muted: bool) -> LineHandle:
+def place_handle(fixed: dict, values: Values) -> LineHandle:
     """Returns a handle at its values. A pin has no place of its own, and a curve is moved with it as a whole."""
+    place, radius, muted = values
     start, end = line_handle.decode_point(fixed["start"]), line_handle.decode_point(list(place))
     pinned, curve = line_handle.decode_points(fixed["pinned"]), bend_curve(fixed["bends"], end)
     return LineHandle(start, start if pinned else end, line_handle.decode_number(radius), pinned, bool(muted), curve,

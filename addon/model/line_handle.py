@@ -1,5 +1,6 @@
 """Handles on lines, as the artist places them on one object, and as text that is kept with it."""
 import json
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -57,11 +58,16 @@ def encode_handles(handles: Handles) -> str:
 
 def decode_handles(text: str) -> Handles:
     """Decodes handles; refuses a text of another origin, which a file may hold."""
+    return decode_each(text, decode_handle) if text else ()
+
+
+def decode_each(text: str, decode: Callable[..., LineHandle], *values: Sequence[tuple]) -> Handles:
+    """Decodes each handle of a list as JSON, with the values at its place in the order; refuses likewise."""
     try:
-        stored = json.loads(text) if text else []
+        stored = json.loads(text)
         if not isinstance(stored, list) or len(stored) > MOST_HANDLES:
             raise ValueError("no list of handles")
-        return tuple(decode_handle(each) for each in stored)
+        return tuple(decode(*each) for each in zip(stored, *values, strict=True))
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError) as error:
         raise Refusal(UNREADABLE) from error
 

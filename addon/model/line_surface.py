@@ -137,6 +137,10 @@ class LineSurface:
         first, last = (self.F[triangle, (edge + k) % 3] for k in (1, 2))
         return (1.0 - fraction) * state.V[first] + fraction * state.V[last]
 
+    def trace_through(self, place: Place, state: LineState) -> np.ndarray:
+        """Returns the line that is seen at a place likewise."""
+        return self.trace(place, state, self.read_theta(place, state))
+
     def follow(self, triangle: int, edge: int, crossed: np.ndarray) -> list[tuple[int, int]]:
         """Returns the edges, each by a triangle and its opposite corner, that a line crosses from a triangle on;
         `crossed` (#F x 3) says which edges it does at all.
@@ -173,6 +177,15 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def wrap(angle: np.ndarray) -> np.ndarray:
     """Wraps differences of theta to [-pi, pi]; those within keep their bits."""
     return angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))
+
+
+def compute_mean_theta(theta: np.ndarray, points: np.ndarray) -> float:
+    """Computes the mean of theta (#S, radians, in any turn) over the length of a stroke (#S x 3). Of all lines that of
+    this value differs least from the stroke, by the mean of squares.
+    """
+    passed = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    turned = np.unwrap(theta)
+    return float(passed @ (turned[1:] + turned[:-1]) / (2.0 * passed.sum()))
 
 
 def thin_out(points: np.ndarray, most: int) -> np.ndarray:

@@ -8,7 +8,7 @@ from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..interactive import read_picture, running_operators
-from ..interactive.beside_blender import FileExport
+from ..interactive.beside_blender import FileExport, FileWork
 from ..model.film import Film
 from ..model.refusal import report_refusals
 from ..model.steps import Steps
@@ -57,7 +57,7 @@ def read_render_size(render: bpy.types.RenderSettings) -> tuple[int, int]:
     return tuple(side * render.resolution_percentage // 100 for side in (render.resolution_x, render.resolution_y))
 
 
-class FilmWork:
+class FilmWork(FileWork):
     """The work on one film."""
 
     def __init__(self, path: Path, settings: tuple[str, float, int, int, int]) -> None:
@@ -80,7 +80,7 @@ class FilmWork:
         """Returns the file of a frame, numbered from 1 as Blender does."""
         return self.path.with_name(f"{self.path.stem}{frame + 1:04d}.png")
 
-    def describe_progress(self) -> str:
+    def describe(self) -> str:
         return f"Film: {self.written} of {self.settings[2]} frames   Esc: end it here"
 
     def describe_written(self) -> str:

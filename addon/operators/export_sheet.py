@@ -9,7 +9,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..blender import units
 from ..interactive import read_picture, running_operators
-from ..interactive.beside_blender import FileExport
+from ..interactive.beside_blender import FileExport, FileWork
 from ..model.canvas import Canvas
 from ..model.panel_picture import Looked, Pictured
 from ..model.sheet import HEIGHT, PICTURE, WIDTH, Sheet, count_steps, draw_sheet
@@ -45,7 +45,7 @@ worst spots from near, each in the light that shows it. Esc cancels"""
         return self.write_file(context, SheetWork(Path(bpy.path.abspath(self.filepath))))
 
 
-class SheetWork:
+class SheetWork(FileWork):
     """The work on one sheet."""
 
     def __init__(self, path: Path) -> None:
@@ -62,7 +62,7 @@ class SheetWork:
         self.path.write_bytes(encode_png(canvas.to_bytes()))
         self.written = sheet.title
 
-    def describe_progress(self) -> str:
+    def describe(self) -> str:
         return f"Sheet: {self.share:.0%}   Esc: cancel"
 
     def describe_written(self) -> str:

@@ -16,7 +16,7 @@ LOWER = 0.25  # factor of the strength while Shift is held
 CANCEL_KEYS = {'ESC', 'RIGHTMOUSE'}
 
 
-class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
+class REFLINES_OT_fair_brush(running_operators.RunningOperator, SolveTool, BrushSettings, bpy.types.Operator):
     """Paint over flaws with the mouse: the lines under the brush become smoother in both lights, the rest stays"""
     bl_idname = "reflines.fair_brush"
     bl_label = "Fair Brush"
@@ -123,10 +123,6 @@ class REFLINES_OT_fair_brush(SolveTool, BrushSettings, bpy.types.Operator):
         if why:
             self.report({'WARNING'}, why)
         return {'CANCELLED'}
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Restores the meshes when Blender exits or opens another file."""
-        self.take_back(context)
 
     def take_back(self, context: bpy.types.Context) -> None:
         """Restores the meshes, where nobody else has changed them, and ends the stroke."""

@@ -1,4 +1,6 @@
 """The operator Live Warp, which starts, applies and discards it."""
+from functools import partial
+
 import bpy
 from bpy.props import EnumProperty
 
@@ -59,9 +61,9 @@ class LiveWarpEnd:
             return live.solution
         wanted, baseline = live_baseline.read_warp(scene), live_baseline.read_baseline(scene, ob)
         live_warp_handlers.end_live_warp(scene)
-        settings = live_baseline.read_final_settings(scene)
+        settings = live_baseline.read_solve_settings(scene, final=True)
         solution = optimizer_cache.solve_with_cache(baseline.patch, baseline.view, settings,
-                                                    live_baseline.bind_target(wanted))
+                                                    partial(warp.build_warp_target, settings=wanted))
         optimizer_cache.drop_surplus({ob.name})
         return solution
 

@@ -1,20 +1,13 @@
 """The operator Sweep Light."""
-from math import radians, remainder, tau
+from math import remainder, tau
 
 import bpy
 from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
 from mathutils import Vector
 
 from ..interactive import drag_input, running_operators
-from ..interactive.drag_handles import Handle
-from ..interactive.sweep import Sweep
+from ..interactive.sweep import HANDLES, Sweep
 from ..view import light_angles
-
-HANDLES = (
-    Handle("turn", "Turn", per_pixel=radians(0.3), low=-1e9, high=1e9, unit='ANGLE'),
-    Handle("tilt", "Tilt", per_pixel=radians(0.1), low=-light_angles.TILT_LIMIT, high=light_angles.TILT_LIMIT,
-           unit='ANGLE', wheel=True),
-)
 
 
 class REFLINES_OT_sweep_light(Sweep, bpy.types.Operator):

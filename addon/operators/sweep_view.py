@@ -1,22 +1,16 @@
 """The operator Sweep View: a turntable."""
 from copy import copy
-from math import radians
 
 import bpy
 from bpy.props import FloatProperty
 from mathutils import Quaternion, Vector
 
 from ..interactive import drag_input, running_operators
-from ..interactive.drag_handles import Handle
-from ..interactive.sweep import Sweep
+from ..interactive.sweep import HANDLES, Sweep
 from ..read import scene_objects
 from ..view import view_and_light
+from ..view.light_angles import TILT_LIMIT
 
-TILT_LIMIT = radians(85.0)
-HANDLES = (
-    Handle("turn", "Turn", per_pixel=radians(0.3), low=-1e9, high=1e9, unit='ANGLE'),
-    Handle("tilt", "Tilt", per_pixel=radians(0.1), low=-TILT_LIMIT, high=TILT_LIMIT, unit='ANGLE', wheel=True),
-)
 KEPT = ("view_rotation", "view_location", "view_distance", "view_perspective")  # of the 3D view
 
 

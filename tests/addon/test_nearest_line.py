@@ -7,8 +7,8 @@ import pytest
 
 def compute(theta: list[float], along: list[float]) -> float:
     """The value for a stroke along a straight way."""
-    nearest_line = sys.modules["reflection_lines.model.nearest_line"]
-    return nearest_line.compute_mean_theta(np.array(theta), np.outer(along, [0.6, 0.0, 0.8]))
+    line_surface = sys.modules["reflection_lines.model.line_surface"]
+    return line_surface.compute_mean_theta(np.array(theta), np.outer(along, [0.6, 0.0, 0.8]))
 
 
 def test_it_has_the_mean_over_the_length_however_the_points_lie() -> None:
