@@ -217,10 +217,8 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
 
 def build_map(settings: bpy.types.PropertyGroup, solution: LastSolve) -> tuple[np.ndarray, ...]:
     """Builds the arrays of a map of the last solve."""
-    if settings.mode == 'VERDICT':
-        return solve_maps.build_verdict_map(solution)
-    make = solve_maps.build_residual_map if settings.mode == 'RESIDUAL' else solve_maps.build_deviation_map
-    return make(solution)
+    make = solve_maps.build_deviation_map if settings.mode == 'DEVIATION' else solve_maps.build_flat_map
+    return make(solution, settings.mode)
 
 
 def build_shape_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,
@@ -251,20 +249,10 @@ def build_part_arrays(name: str, read: Surface) -> tuple[np.ndarray, np.ndarray,
 
 
 def build_batch(V: np.ndarray, F: np.ndarray, normals: np.ndarray,
-               fraction: np.ndarray | None = None) -> gpu.types.GPUBatch:
+                fraction: np.ndarray | None = None) -> gpu.types.GPUBatch:
     _cache.builds += 1
-    layout = gpu.types.GPUVertFormat()
-    layout.attr_add(id="pos", comp_type='F32', len=3, fetch_mode='FLOAT')
-    layout.attr_add(id="nor", comp_type='F32', len=3, fetch_mode='FLOAT')
-    layout.attr_add(id="val", comp_type='F32', len=1, fetch_mode='FLOAT')
-    vertices = gpu.types.GPUVertBuf(len=len(V), format=layout)
-    # attr_fill accepts other types and memory orders too, and misreads them.
-    vertices.attr_fill(id="pos", data=np.ascontiguousarray(V, np.float32))
-    vertices.attr_fill(id="nor", data=np.ascontiguousarray(normals, np.float32))
     values = np.zeros((len(V), 1)) if fraction is None else fraction.reshape(-1, 1)
-    vertices.attr_fill(id="val", data=np.ascontiguousarray(values, np.float32))
-    triangles = gpu.types.GPUIndexBuf(type='TRIS', seq=np.ascontiguousarray(F, np.uint32))
-    return gpu.types.GPUBatch(type='TRIS', buf=vertices, elem=triangles)
+    return draw_cage.build_batch('TRIS', V, F, nor=normals, val=values)
 
 
 def find_texture(settings: bpy.types.PropertyGroup) -> gpu.types.GPUTexture:

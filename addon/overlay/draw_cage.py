@@ -11,6 +11,7 @@ from mathutils import Matrix
 from ..model.edit_cage import EditCage
 from ..model.surface import Surface
 from ..read import read_edit_cage
+from ..read.image_pixels import decode_srgb
 from . import stripe_scene, stripes
 
 RIM = 1.0            # pixels to each side of lines and dots
@@ -83,14 +84,9 @@ def read_style(context: bpy.types.Context) -> CageStyle:
                      (1.4 * theme.vertex_size + 2.0 * RIM) * scale)
 
 
-def decode_color(values: np.ndarray) -> np.ndarray:
-    """Returns the linear values of sRGB ones (IEC 61966-2-1), which shaders take other than Blender's own."""
-    return np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
-
-
 def choose_rim(color: np.ndarray) -> np.ndarray:
     """Returns the grey that sets a colour off: light for dark ones, dark for others."""
-    return np.full(3, 0.9 if decode_color(color) @ (0.2126, 0.7152, 0.0722) < 0.15 else 0.0)
+    return np.full(3, 0.9 if decode_srgb(color) @ (0.2126, 0.7152, 0.0722) < 0.15 else 0.0)
 
 
 def read_kind(ob: bpy.types.Object) -> tuple:
@@ -120,26 +116,25 @@ def build_cage(cage: EditCage, kind: tuple, style: CageStyle) -> CageBatches:
     dots = cage.vertices if by_vertex else cage.vertices[:0]
     own = dots[dots == active]
     return CageBatches(build_batch('LINES', cage.V, cage.edges[~marked]),
-                       build_batch('LINES', cage.V, cage.edges[marked], colors),
-                       build_batch('LINES', cage.V, cage.edges[marked], rims),
+                       build_batch('LINES', cage.V, cage.edges[marked], color=colors),
+                       build_batch('LINES', cage.V, cage.edges[marked], color=rims),
                        build_batch('POINTS', cage.V, dots[~chosen[dots]]),
                        build_batch('POINTS', cage.V, dots[chosen[dots]]),
                        build_batch('POINTS', cage.V, own), cage.measure_edge())
 
 
-def build_batch(kind: str, V: np.ndarray, index: np.ndarray,
-                colors: np.ndarray | None = None) -> gpu.types.GPUBatch | None:
-    """Builds a batch of points, lines or triangles: `index` is #elements x 1, 2 or 3."""
+def build_batch(kind: str, V: np.ndarray, index: np.ndarray, **more: np.ndarray) -> gpu.types.GPUBatch | None:
+    """Builds a batch of points, lines or triangles: `index` is #elements x 1, 2 or 3; `more` are further attributes of
+    the vertices by their names, #V x 1 to 4.
+    """
     if not len(index):
         return None
-    layout = gpu.types.GPUVertFormat()
-    layout.attr_add(id="pos", comp_type='F32', len=3, fetch_mode='FLOAT')
-    if colors is not None:
-        layout.attr_add(id="color", comp_type='F32', len=4, fetch_mode='FLOAT')
+    layout, attributes = gpu.types.GPUVertFormat(), {"pos": V, **more}
+    for name, values in attributes.items():
+        layout.attr_add(id=name, comp_type='F32', len=values.shape[1], fetch_mode='FLOAT')
     vertices = gpu.types.GPUVertBuf(len=len(V), format=layout)
-    vertices.attr_fill(id="pos", data=np.ascontiguousarray(V, np.float32))
-    if colors is not None:
-        vertices.attr_fill(id="color", data=np.ascontiguousarray(colors, np.float32))
+    for name, values in attributes.items():  # attr_fill accepts other types and memory orders too, and misreads them
+        vertices.attr_fill(id=name, data=np.ascontiguousarray(values, np.float32))
     elements = gpu.types.GPUIndexBuf(type=kind, seq=np.ascontiguousarray(index, np.uint32))
     return gpu.types.GPUBatch(type=kind, buf=vertices, elem=elements)
 
@@ -249,8 +244,9 @@ class CagePainter(SurfacePainter):
         gpu.state.program_point_size_set(True)
         self.dots.bind()
         self.dots.uniform_float("mvp", near @ self.region_3d.view_matrix @ self.ob.matrix_world)
-        self.dots.uniform_float("color", (*decode_color(color), opacity))
-        self.dots.uniform_float("rim", (*decode_color(choose_rim(color)), RIM))
+        # Linear values, which shaders take other than Blender's own.
+        self.dots.uniform_float("color", (*decode_srgb(color), opacity))
+        self.dots.uniform_float("rim", (*decode_srgb(choose_rim(color)), RIM))
         self.dots.uniform_float("size", self.style.dot)
         batch.draw(self.dots)
         gpu.state.program_point_size_set(False)

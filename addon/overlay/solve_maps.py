@@ -36,27 +36,21 @@ def has_moved(solution: LastSolve) -> bool:
     return not np.array_equal(left, before)
 
 
-def build_residual_map(solution: LastSolve) -> Arrays:
-    """Builds the map of the residual, constant on each triangle, so with own vertices; empty where it is not known."""
-    F = solution.patch.F if len(solution.residual) == len(solution.patch.F) else solution.patch.F[:0]
-    residual = solution.residual[:len(F)]
-    V = compute_left_positions(solution)[F].reshape(-1, 3)
-    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(scale_values(residual), 3)
-
-
-def build_verdict_map(solution: LastSolve) -> Arrays:
-    """Builds the map of what a press healed and what it kept as design, constant on each triangle; empty where it is
-    not known.
+def build_flat_map(solution: LastSolve, mode: str) -> Arrays:
+    """Builds the map of the residual, or of what a press healed and what it kept as design: constant on each triangle,
+    so with own vertices; empty where it is not known.
     """
-    verdict = compute_values(solution, 'VERDICT')
-    V = compute_left_positions(solution)[solution.patch.F[:len(verdict)]].reshape(-1, 3)
-    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(verdict, 3)
+    values = compute_values(solution, mode)
+    F = solution.patch.F if len(values) == len(solution.patch.F) else solution.patch.F[:0]
+    V = compute_left_positions(solution)[F].reshape(-1, 3)
+    shown = values[:len(F)] if mode == 'VERDICT' else scale_values(values[:len(F)])
+    return V, np.arange(len(V)).reshape(-1, 3), np.zeros_like(V), np.repeat(shown, 3)
 
 
-def build_deviation_map(solution: LastSolve) -> Arrays:
+def build_deviation_map(solution: LastSolve, mode: str) -> Arrays:
     """Builds the map of the distances that the vertices moved, positive outwards."""
     V = compute_left_positions(solution)
-    return V, solution.patch.F, np.zeros_like(V), scale_values(compute_values(solution, 'DEVIATION'))
+    return V, solution.patch.F, np.zeros_like(V), scale_values(compute_values(solution, mode))
 
 
 def compute_values(solution: LastSolve, mode: str) -> np.ndarray:

@@ -4,7 +4,8 @@ from collections.abc import Callable
 import bpy
 import gpu
 import numpy as np
-from gpu_extras.batch import batch_for_shader
+
+from .handle_marks import Color, draw_shape
 
 COLOR, BRUSH_COLOR = (1.0, 1.0, 1.0, 0.8), (1.0, 0.75, 0.1, 0.9)
 WIDTH = 1.5  # pixels
@@ -37,13 +38,10 @@ def draw_brush(place: tuple[int, int], radius: float) -> None:
     draw_strip(sample_circle(np.array([*place, 0.0]), radius, np.eye(3)), BRUSH_COLOR)
 
 
-def draw_strip(points: np.ndarray, color: tuple[float, float, float, float]) -> None:
+def draw_strip(points: np.ndarray, color: Color) -> None:
     """Draws a line through points (#P x 3)."""
-    shader = gpu.shader.from_builtin('UNIFORM_COLOR')
     gpu.state.blend_set('ALPHA')
     gpu.state.line_width_set(WIDTH)
-    shader.bind()
-    shader.uniform_float("color", color)
-    batch_for_shader(shader, 'LINE_STRIP', {"pos": points.astype(np.float32).tolist()}).draw(shader)
+    draw_shape('LINE_STRIP', points, color)
     gpu.state.line_width_set(1.0)
     gpu.state.blend_set('NONE')

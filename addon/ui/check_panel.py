@@ -8,7 +8,6 @@ ICONS = {"better": 'CHECKMARK', "unchanged": 'DOT', "worse": 'CANCEL'}
 class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
     bl_label = "Check"
     bl_order = 4  # after the result
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, marks = self.layout, context.scene.reflection_lines.marks

@@ -20,6 +20,7 @@ class REFLINES_UL_handles(bpy.types.UIList):
 class VIEW3D_PT_reflines_handles(ReflinesPanel, bpy.types.Panel):
     bl_label = "Handles"
     bl_parent_id = "VIEW3D_PT_reflines_pull"
+    bl_options = set()
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

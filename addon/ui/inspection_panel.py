@@ -9,7 +9,6 @@ MOST_LINES = 12  # spots that are listed; Next Spot goes through all
 class VIEW3D_PT_reflines_inspection(ReflinesPanel, bpy.types.Panel):
     bl_label = "Inspect"
     bl_order = 5  # after the check
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout

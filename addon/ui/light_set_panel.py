@@ -21,6 +21,7 @@ class REFLINES_UL_light_set(bpy.types.UIList):
 class VIEW3D_PT_reflines_light_set(ReflinesPanel, bpy.types.Panel):
     bl_label = "Light Set"
     bl_parent_id = "VIEW3D_PT_reflines_smooth_settings"
+    bl_options = set()
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -33,11 +33,11 @@ class ReflinesPanel:
     bl_region_type = 'UI'
     bl_category = "Reflection"
     bl_order = 3  # this decides before the order of registration
+    bl_options = {'DEFAULT_CLOSED'}
 
 
 class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
     bl_label = "View and Light"
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.reflection_lines
@@ -81,7 +81,6 @@ class VIEW3D_PT_reflines_setup(ReflinesPanel, bpy.types.Panel):
 
 class VIEW3D_PT_reflines_region(ReflinesPanel, bpy.types.Panel):
     bl_label = "Region"
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -146,6 +145,7 @@ class ToolPanel(ReflinesPanel):
 class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
     bl_label = "Smooth Lines"
     bl_order = 0
+    bl_options = set()
 
     def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
                   settings: bpy.types.PropertyGroup) -> None:
@@ -188,7 +188,6 @@ class VIEW3D_PT_reflines_smooth(ToolPanel, bpy.types.Panel):
 class VIEW3D_PT_reflines_smooth_settings(ToolPanel, bpy.types.Panel):
     bl_label = "Settings"
     bl_parent_id = "VIEW3D_PT_reflines_smooth"
-    bl_options = {'DEFAULT_CLOSED'}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -201,7 +200,6 @@ class VIEW3D_PT_reflines_smooth_settings(ToolPanel, bpy.types.Panel):
 
 class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
     bl_label = "Pull Line"
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
                   settings: bpy.types.PropertyGroup) -> None:
@@ -214,7 +212,6 @@ class VIEW3D_PT_reflines_pull(ToolPanel, bpy.types.Panel):
 
 class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):
     bl_label = "Fair Brush"
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         own = settings.brush
@@ -226,7 +223,6 @@ class VIEW3D_PT_reflines_brush(ToolPanel, bpy.types.Panel):
 class VIEW3D_PT_reflines_design(ReflinesPanel, bpy.types.Panel):
     """The tools that give lines another course than a smoother one of their own, each in a panel within."""
     bl_label = "Design Lines"
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draws nothing beside the panels within."""
@@ -235,7 +231,6 @@ class VIEW3D_PT_reflines_design(ReflinesPanel, bpy.types.Panel):
 class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
     bl_label = "Direction and Density"
     bl_parent_id = "VIEW3D_PT_reflines_design"
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         own = settings.direction
@@ -255,7 +250,6 @@ class VIEW3D_PT_reflines_direction(ToolPanel, bpy.types.Panel):
 class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
     bl_label = "Warp Lines"
     bl_parent_id = "VIEW3D_PT_reflines_design"
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, context: bpy.types.Context,
                   settings: bpy.types.PropertyGroup) -> None:
@@ -285,7 +279,6 @@ class VIEW3D_PT_reflines_warp(ToolPanel, bpy.types.Panel):
 class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
     bl_label = "Image Pattern"
     bl_parent_id = "VIEW3D_PT_reflines_design"
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw_tool(self, layout: bpy.types.UILayout, _: bpy.types.Context, settings: bpy.types.PropertyGroup) -> None:
         own = settings.pattern
@@ -302,6 +295,7 @@ class VIEW3D_PT_reflines_pattern(ToolPanel, bpy.types.Panel):
 class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
     bl_label = "Result"
     bl_order = 1
+    bl_options = set()
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -359,7 +353,6 @@ class VIEW3D_PT_reflines_result(ReflinesPanel, bpy.types.Panel):
 class ResultPart(ReflinesPanel):
     """The base of folded panels within the result."""
     bl_parent_id = "VIEW3D_PT_reflines_result"
-    bl_options = {'DEFAULT_CLOSED'}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -17,8 +17,8 @@ from .handle_properties import ReflinesHandles
 from .inspection_properties import ReflinesInspection, ReflinesSpot
 from .light_set_properties import ReflinesLightSet
 from .stripe_properties import ReflinesStripes
-from .tool_properties import (ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull,
-                              ReflinesWarp, SmoothSettings)
+from .tool_properties import (ReflinesBrush, ReflinesDirection, ReflinesPattern, ReflinesPull, ReflinesWarp,
+                              SmoothSettings, object_property)
 
 LONGEST = 1e15  # length that is read from a file
 FLOAT_EPSILON = 2.0**-23  # of the coordinates of a mesh
@@ -149,10 +149,6 @@ class ReflinesReport(bpy.types.PropertyGroup):
         return units.format_length(self.largest_move, bpy.context.scene, precision)
 
 
-def is_mesh(_: object, ob: bpy.types.Object) -> bool:
-    return ob.type == 'MESH'
-
-
 def to_json_value(value: object) -> object:
     """Converts a property's value for JSON: vectors become lists."""
     return value if isinstance(value, str) or not hasattr(value, "__len__") else list(value)
@@ -215,8 +211,7 @@ class ReflinesObject(bpy.types.PropertyGroup):
                                  "follow handles: its weight 0 holds them, 1 lets them go as far as the radius says")
     creases: EnumProperty(name="Creases", items=CREASES, default='AUTOMATIC',
                           description="Which edges of this object are held, with the lines solved on each side")
-    panel: PointerProperty(name="Panel", type=bpy.types.Object, poll=is_mesh,
-                           description="The mesh that this lattice warps")
+    panel: object_property('MESH', name="Panel", description="The mesh that this lattice warps")
     center: FloatVectorProperty(name="Panel Centre", subtype='XYZ', description="Of the last region, in object space")
     run: PointerProperty(type=ReflinesRun)
     check: PointerProperty(type=ReflinesCheck)
@@ -247,7 +242,7 @@ class ReflinesObject(bpy.types.PropertyGroup):
 class ReflinesLive(bpy.types.PropertyGroup):
     """The scene's live warp, none where `panel` is empty; write/live_warp_start.py keeps where it began with the mesh.
     """
-    panel: PointerProperty(type=bpy.types.Object, poll=is_mesh)
+    panel: object_property('MESH')
     result: result_property()
 
     def panel_name(self) -> str:
@@ -259,18 +254,10 @@ class ReflinesLive(bpy.types.PropertyGroup):
         return f"{ob.name} follows its warp lattice: apply or discard the live warp first" if self.panel == ob else ""
 
 
-def is_camera(_: object, ob: bpy.types.Object) -> bool:
-    return ob.type == 'CAMERA'
-
-
-def is_empty(_: object, ob: bpy.types.Object) -> bool:
-    return ob.type == 'EMPTY'
-
-
 class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
-    camera: PointerProperty(name="View Camera", type=bpy.types.Object, poll=is_camera,
+    camera: object_property('CAMERA', name="View Camera",
                             description="The view that the reflection lines are judged from")
-    light: PointerProperty(name="Light Direction", type=bpy.types.Object, poll=is_empty,
+    light: object_property('EMPTY', name="Light Direction",
                            description="An empty whose local Z axis is the direction of the line lights")
     # The light's own rotation can be keyed; keys of what is read from it would be followed a frame late.
     light_turn: FloatProperty(name="Turn", subtype='ANGLE', options=set(),
@@ -342,7 +329,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
 
     def picture_camera(self) -> bpy.types.Object | None:
         """Returns the view camera, None where there is none; a changed file may point at another kind of object."""
-        return self.camera if self.present(self.camera) and is_camera(self, self.camera) else None
+        return self.camera if self.present(self.camera) and self.camera.type == 'CAMERA' else None
 
     def explain_fixed_light(self) -> str:
         """Returns why the light cannot be turned, as a sentence; empty where it can."""
@@ -375,12 +362,12 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
         return camera is not None and camera.data.type != 'ORTHO'
 
 
-CLASSES = (ReflinesReport, ReflinesRun, ReflinesObject, ReflinesLive, ReflinesScene)
+register_classes, unregister_classes = bpy.utils.register_classes_factory([
+    ReflinesReport, ReflinesRun, ReflinesObject, ReflinesLive, ReflinesScene])
 
 
 def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    register_classes()
     bpy.types.Scene.reflection_lines = PointerProperty(type=ReflinesScene)
     bpy.types.Object.reflection_lines = PointerProperty(type=ReflinesObject)
 
@@ -388,5 +375,4 @@ def register() -> None:
 def unregister() -> None:
     del bpy.types.Object.reflection_lines
     del bpy.types.Scene.reflection_lines
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    unregister_classes()

@@ -11,7 +11,6 @@ MAPS = {'RESIDUAL', 'DEVIATION', 'VERDICT'}
 class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
     bl_label = "Stripes"
     bl_order = 2
-    bl_options = {'DEFAULT_CLOSED'}
 
     def draw_header_preset(self, _context: bpy.types.Context) -> None:
         stripe_presets.VIEW3D_PT_reflines_stripe_presets.draw_panel_header(self.layout)
@@ -56,7 +55,6 @@ class VIEW3D_PT_reflines_stripes(ReflinesPanel, bpy.types.Panel):
 class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
     bl_label = "Adjust Look"
     bl_parent_id = "VIEW3D_PT_reflines_stripes"
-    bl_options = {'DEFAULT_CLOSED'}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -97,6 +97,11 @@ def limit_property() -> object:
                          "the length of what changes, for tools other than Smooth the region's diagonal")
 
 
+def object_property(kind: str, **about: str) -> object:
+    """Defines a setting that names an object of a kind."""
+    return PointerProperty(type=bpy.types.Object, poll=lambda _, ob: ob.type == kind, **about)
+
+
 def ensure_curve(settings: "FalloffSettings", context: bpy.types.Context) -> None:
     if settings.shape == 'CURVE':
         context.scene.reflection_lines.curve = falloff_curve.ensure_curve()
@@ -214,14 +219,9 @@ class ReflinesBrush(BrushSettings, bpy.types.PropertyGroup):
     """The scene's settings of Fair Brush."""
 
 
-def is_lattice(_: object, ob: bpy.types.Object) -> bool:
-    return ob.type == 'LATTICE'
-
-
 class ReflinesWarp(WarpSettings, bpy.types.PropertyGroup):
     """The scene's settings of Warp."""
-    lattice: PointerProperty(name="Lattice", type=bpy.types.Object, poll=is_lattice,
-                             description="Its control points say where the lines go")
+    lattice: object_property('LATTICE', name="Lattice", description="Its control points say where the lines go")
 
 
 class ReflinesPattern(PatternSettings, bpy.types.PropertyGroup):

@@ -325,7 +325,7 @@ def test_what_could_not_be_reached_is_known_for_the_cages_faces() -> None:
     pairs = solution.residual.reshape(-1, 2)  # of the triangles of a quad
     assert np.array_equal(pairs[:, 0], pairs[:, 1])
     assert len(np.unique(pairs)) > 10
-    V, F, _, share = solve_maps.build_residual_map(solution)
+    V, F, _, share = solve_maps.build_flat_map(solution, 'RESIDUAL')
     assert len(V) == 3 * len(F) == 3 * len(solution.patch.F)
     assert share.max() == 1.0
 

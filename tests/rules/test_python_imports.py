@@ -27,7 +27,7 @@ MAY_IMPORT = {
                     "overlay.handle_marks", "overlay.tool_circle"},
     "operators": {"native_call", "background_work", "model", "targets", *SCENE, "solver", "state", "interactive",
                   "ui.properties", "ui.automatic_values", "ui.tool_properties"},
-    "overlay.tool_circle": set(),
+    "overlay.tool_circle": {"overlay.handle_marks"},
     "overlay.handle_marks": set(),
     "overlay.stripes": set(),
     "overlay.shader": {"overlay.stripes"},
