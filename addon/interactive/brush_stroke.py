@@ -60,10 +60,6 @@ class BrushedObject:
         write_mesh.write_positions(bpy.data.objects[self.name], self.patch, new, self.shown, self.vertices)
         self.shown = new
 
-    def restore(self) -> None:
-        """Takes the stroke back, to the last bit."""
-        self.write(self.start)
-
     def summarize(self) -> Solution:
         """Returns the stroke as a result, with the lines measured where it moved most."""
         lines = self.brushed.measure_lines(self.brush) or (0.0, 0.0)
@@ -118,7 +114,7 @@ class BrushStroke:
         """Takes the stroke back where nobody else has changed the mesh."""
         for each in self.objects:
             if not each.is_changed():
-                each.restore()
+                each.write(each.start)  # to the last bit
 
     def list_moved(self) -> list[BrushedObject]:
         """Returns the objects that the stroke has smoothed."""

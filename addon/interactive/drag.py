@@ -110,7 +110,7 @@ class Drag:
 
     def move_mouse(self, x: int, y: int, *, precise: bool) -> None:
         """Moves the held value with the mouse, from the first place over the view on."""
-        if self.values.last is not None or view_region.is_over_view(self.area, x, y):
+        if self.values.last is not None or view_region.find_view_at(self.area, x, y) is not None:
             self.values.move(x, precise=precise)
 
     def keep_values(self, settings: bpy.types.PropertyGroup) -> None:

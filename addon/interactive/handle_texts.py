@@ -23,10 +23,6 @@ def describe_other(name: str, other: str) -> str:
     return f"Handles belong to one object, here {name}: press Enter, make {other} active, and pull its lines"
 
 
-def count_handles(handles: Handles) -> str:
-    return f"{len(handles)} handle{'s' if len(handles) != 1 else ''}"
-
-
 def describe_handle(scene: bpy.types.Scene, handles: Handles, index: int, reached: "list[native.HandleResidual]",
                     typed: str) -> str:
     """Says how far the line of a handle is from it, and its radius. `reached` are those of the handles that are not

@@ -44,12 +44,8 @@ class HandleTracing:
 
     def __init__(self, session: Session) -> None:
         self.session = session
-        self.now: dict[LineHandle, Curve] = {}     # lines of the handles in what is shown
+        self.now: dict[LineHandle, Curve] = {}     # lines of the handles in what is shown; emptied with it
         self.ghosts: dict[LineHandle, Curve] = {}  # and at the start, of the handles that were taken
-
-    def forget_now(self) -> None:
-        """Forgets the lines of a state that is shown no longer."""
-        self.now = {}
 
     def make_marks(self) -> Marks:
         """Returns the lines and dots of all handles, and the stroke, or the line under the mouse that none holds."""

@@ -85,7 +85,7 @@ class LineDrag(Drag):
         if not outcome.lines:
             return
         self.state = outcome.lines[0]
-        self.tracing.forget_now()
+        self.tracing.now = {}
         if self.surface is None:
             start = self.job.starts[0]
             triangles = read_triangles(start.problem, start.optimizer)
@@ -359,16 +359,14 @@ class LineDrag(Drag):
     def update_texts(self, context: bpy.types.Context) -> None:
         self.refresh_marks()
         index = self.find_active()
-        conflicts = self.tool.builder.conflicts
+        conflicts, reached, about = self.tool.builder.conflicts, self.tool.builder.reached, ""
         other = handle_texts.describe_other(self.own.name, self.beside) if self.beside else ""
         first = other or self.problem or (conflicts[0] if conflicts else self.describe_gain(context))
-        about = f"   {self.describe_handle(context, index)}" if index is not None and self.surface is not None else ""
-        count = handle_texts.count_handles(self.handles)
+        if index is not None and self.surface is not None:
+            about = f"   {handle_texts.describe_handle(context.scene, self.handles, index, reached, self.typed)}"
+        count = f"{len(self.handles)} handle{'s' if len(self.handles) != 1 else ''}"
         self.show_texts(context, f"{first}   {count}{about}   ({self.tool.bl_label})",
                         handle_texts.describe_keys(draws=self.draws, nearest=self.nearest))
-
-    def describe_handle(self, context: bpy.types.Context, index: int) -> str:
-        return handle_texts.describe_handle(context.scene, self.handles, index, self.tool.builder.reached, self.typed)
 
     def describe_gain(self, context: bpy.types.Context) -> str:
         """Says the move alone: what is reached is reported of each handle."""

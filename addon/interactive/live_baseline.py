@@ -34,10 +34,6 @@ class Baseline:
     border: str
     signs: tuple
 
-    def serves(self, other: "Baseline") -> bool:
-        """Returns whether an optimizer built for one baseline serves the other."""
-        return self.signs == other.signs and self.patch.same(other.patch)
-
 
 def find_subject(scene: bpy.types.Scene) -> bpy.types.Object:
     """Returns the warped mesh object; refuses while it is in Edit Mode."""

@@ -70,8 +70,9 @@ class LiveWarp:
         if self.is_busy():
             self.recheck = True
             return
-        baseline, self.warp = live_baseline.read_baseline(scene, ob), None
-        if self.baseline is None or not self.work.is_alive() or not baseline.serves(self.baseline):
+        baseline, old, self.warp = live_baseline.read_baseline(scene, ob), self.baseline, None
+        serves = old is not None and baseline.signs == old.signs and baseline.patch.same(old.patch)
+        if not serves or not self.work.is_alive():
             self.stop()
             self.job = SolveJob([baseline.patch], [baseline.view], baseline.border)
             self.work = BackgroundWork(self.job.run, self.job.cancel)

@@ -18,11 +18,11 @@ from ..model.joined_patch import split_positions, split_solution
 from ..model.line_surface import LineState
 from ..model.patch import Patch
 from ..model.refusal import Refusal
-from ..model.solution import JointTargets, Solution, SolveSettings
+from ..model.solution import Solution, SolveSettings
 from ..model.view import View
 from ..native_call import call
 from ..solver import live_optimizer, solve
-from ..solver.automatic_smooth import AutomaticSmooth
+from ..solver.automatic_smooth import AutomaticSmooth, preview_press
 from ..solver.limited_solve import choose_limit, clip_to_ranges
 from ..solver.live_optimizer import BuildTarget, LiveOptimizer
 from ..solver.read_solved import read_lines, read_positions
@@ -124,7 +124,8 @@ class SolveJob:
         self.stage = "Smoothing"
         if request.final or len(self.patches) > 1:  # several may be one problem, which has no preview
             return await self.press_and_measure(request)
-        previews = [await press_cache.preview_with_cache(patch, seen, self.border, request.press, self.progress)
+        previews = [await press_cache.press_with_cache(preview_press, patch, seen, self.border, request.press,
+                                                        self.progress)
                     for patch, seen in zip(self.patches, self.views, strict=True)]
         self.pressed = True
         shown = SolveOutcome(request, tuple(preview.positions for preview in previews),
@@ -164,7 +165,10 @@ class SolveJob:
                 if not await self.follow_without_solve(request, which):
                     wanted = await live_optimizer.build_targets(start, request.builds[which],
                                                                 request.settings[which])
-                    await self.follow_targets(start, follower, wanted, choose_limit(patch, request.settings[which]))
+                    await call(follower.solve, wanted.targets, gradient_tolerance=wanted.follow_tolerance,
+                               progress=self.progress)
+                    # Beyond the limit all moves are scaled at once; the final solve takes its time.
+                    follower.keep_within(choose_limit(patch, request.settings[which]))
                     if request.lines:
                         await wanted.measure(follower)  # for the numbers of each handle
                 shown = read_positions(start.problem, follower)
@@ -192,12 +196,6 @@ class SolveJob:
         if not self.start_lines:
             self.start_lines = tuple([await read_lines(start.optimizer) for start in self.starts])
         return tuple([await read_lines(follower) for follower in self.followers])
-
-    async def follow_targets(self, start: LiveOptimizer, follower: "native.ShapeOptimizer", wanted: JointTargets,
-                             limit: float) -> None:
-        """Solves warm-started. Beyond the limit all moves are scaled at once; the final solve takes its time."""
-        await call(follower.solve, wanted.targets, gradient_tolerance=wanted.follow_tolerance, progress=self.progress)
-        follower.keep_within(limit)
 
     async def measure(self, request: SolveRequest) -> Gain:
         """Measures the present heights against those of the start, by the numbers that the result is reported by."""

@@ -29,11 +29,9 @@ the scene moves the panel"""
     def poll(cls, context: bpy.types.Context) -> bool:
         ob = scene_objects.find_active_object(context)
         if ob is None or ob.type != 'MESH' or not ob.reflection_lines.handles.text:
-            cls.poll_message_set("Make a panel active that has handles")
-            return False
-        obstacle = view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
-        cls.poll_message_set(obstacle)
-        return not obstacle
+            return scene_objects.allow(cls, "Make a panel active that has handles")
+        return scene_objects.allow(
+            cls, view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob))
 
     def begin(self, context: bpy.types.Context) -> None:
         context.view_layer.update()

@@ -36,8 +36,7 @@ worst spots from near, each in the light that shows it. Esc cancels"""
     def poll(cls, context: bpy.types.Context) -> bool:
         ob = scene_objects.read_active_object(context)
         if ob is None or ob.type != 'MESH' or not ob.reflection_lines.inspection.summary:
-            cls.poll_message_set("Make a panel active that was inspected")
-            return False
+            return scene_objects.allow(cls, "Make a panel active that was inspected")
         return view_and_light.has_seen_panel(cls, context)
 
     @report_refusals

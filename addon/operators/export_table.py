@@ -53,7 +53,7 @@ class REFLINES_OT_export_table(ExportHelper, bpy.types.Operator):
 
 def format_check(ob: bpy.types.Object) -> tuple[int, dict[str, Callable[[], str]]]:
     """Returns how many lines the table of the last check has, and its text by the ending of the file."""
-    rows = ob.reflection_lines.check.to_rows()
+    rows = [row.to_row() for row in ob.reflection_lines.check.rows]
     return len(rows), {".csv": lambda: check_table.format_csv(rows),
                        ".json": lambda: check_table.format_json(ob.name, rows)}
 

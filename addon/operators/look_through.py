@@ -1,6 +1,7 @@
 """The operator Look Through."""
 import bpy
 
+from ..read import scene_objects
 from ..state import last_looks
 from ..view import view_camera, view_region
 
@@ -15,8 +16,7 @@ The scene's own camera stays as it is"""
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if getattr(context.space_data, "region_3d", None) is None:
-            cls.poll_message_set("Run this in a 3D view")
-            return False
+            return scene_objects.allow(cls, "Run this in a 3D view")
         cls.poll_message_set("No view camera: press Set Up from This View")
         return context.scene.reflection_lines.picture_camera() is not None
 

@@ -39,14 +39,11 @@ now, from the shape before that run unless the mesh was changed since"""
     def poll(cls, context: bpy.types.Context) -> bool:
         ob = scene_objects.find_active_object(context)
         if ob is None or ob.type != 'MESH' or not ob.reflection_lines.run.operator:
-            cls.poll_message_set("Make a panel active on which a tool has run")
-            return False
+            return scene_objects.allow(cls, "Make a panel active on which a tool has run")
         if ob.reflection_lines.run.operator == BRUSH:
-            cls.poll_message_set("A stroke of the brush cannot be run again: undo it, and paint again")
-            return False
-        obstacle = view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
-        cls.poll_message_set(obstacle)
-        return not obstacle
+            return scene_objects.allow(cls, "A stroke of the brush cannot be run again: undo it, and paint again")
+        return scene_objects.allow(
+            cls, view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         ob = scene_objects.find_active_object(context)

@@ -206,12 +206,5 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
             names = ", ".join(solution.patch.name for solution in solutions)
             self.report({'INFO'}, f"{joined.describe()}, moved at most {moved} ({names})")
 
-    def solve_patch(self, context: bpy.types.Context, ob: bpy.types.Object, patch: Patch) -> Solution:
-        if not self.is_automatic():
-            return super().solve_patch(context, ob, patch)
-        settings = self.choose_press()
-        seen = self.read_view(context, patch)
-        return run_now(press_cache.smooth_with_cache(patch, seen, self.settle_border(), settings))
-
 
 register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_smooth])

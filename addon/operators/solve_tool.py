@@ -41,12 +41,10 @@ def is_ready(operator: type[bpy.types.Operator], context: bpy.types.Context, *, 
     """Returns whether a tool can run on the active object; sets the message that says why not."""
     ob = scene_objects.find_active_object(context)
     if ob is None or ob.type != 'MESH' or ob.mode not in {'EDIT', 'OBJECT'}:
-        operator.poll_message_set("Make the panel's mesh the active object, in Edit Mode or Object Mode")
-        return False
-    obstacle = (view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
-                or (scene_objects.explain_missing_region(context, ob) if needs_faces else ""))
-    operator.poll_message_set(obstacle)
-    return not obstacle
+        return scene_objects.allow(operator, "Make the panel's mesh the active object, in Edit Mode or Object Mode")
+    return scene_objects.allow(
+        operator, view_and_light.find_obstacle(context.scene) or context.scene.reflection_lines.live.obstacle(ob)
+        or (scene_objects.explain_missing_region(context, ob) if needs_faces else ""))
 
 
 class SolveTool:

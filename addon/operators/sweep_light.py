@@ -7,6 +7,7 @@ from mathutils import Vector
 
 from ..interactive import drag_input, running_operators
 from ..interactive.sweep import HANDLES, Sweep
+from ..read import scene_objects
 from ..view import light_angles
 
 
@@ -29,10 +30,7 @@ picture, the wheel tilts it"""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        settings = context.scene.reflection_lines
-        obstacle = settings.explain_fixed_light()
-        cls.poll_message_set(obstacle)
-        return not obstacle
+        return scene_objects.allow(cls, context.scene.reflection_lines.explain_fixed_light())
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reflection_lines

@@ -202,7 +202,8 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
               solution: LastSolve | None) -> tuple[np.ndarray, ...]:
     """Builds the arrays to upload; empty for a map without a solve."""
     if settings.mode in stripe_scene.MAPS:
-        return build_map(settings, solution) if solution is not None else NOTHING
+        make = solve_maps.build_deviation_map if settings.mode == 'DEVIATION' else solve_maps.build_flat_map
+        return NOTHING if solution is None else make(solution, settings.mode)
     if settings.before and solution is not None:
         cage = read_limit_surface(ob, solution) if read.normals is not None else None
         if cage is not None:  # its old limit normals; a coarse cage's own would show none of its surface's dents
@@ -213,12 +214,6 @@ def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: 
         shaded = _cache.fits.update_shaded(BEFORE + ob.name_full, old, read.F)
         return read.V[shaded.vertex], shaded.F, shaded.normals
     return build_shape_arrays(ob, settings, read)
-
-
-def build_map(settings: bpy.types.PropertyGroup, solution: LastSolve) -> tuple[np.ndarray, ...]:
-    """Builds the arrays of a map of the last solve."""
-    make = solve_maps.build_deviation_map if settings.mode == 'DEVIATION' else solve_maps.build_flat_map
-    return make(solution, settings.mode)
 
 
 def build_shape_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup,

@@ -158,8 +158,11 @@ def cut_near(mesh: bpy.types.Mesh, V: np.ndarray, faces: np.ndarray, box: Box, *
         if not by_blender:
             yield
         around, sizes = corners[np.repeat(near, sizes)], sizes[near]
-        F = (read_mesh.read_region_triangles(mesh, near) if sizes.max() > 4
-             else triangulation.triangulate_short_faces(around, sizes, V))
+        if sizes.max() > 4:
+            triangles, owners = read_mesh.read_triangles(mesh)
+            F = triangles[near[owners]]
+        else:
+            F = triangulation.triangulate_short_faces(around, sizes, V)
         soup = build_soup(F, V, turned=turned)
     if by_blender:
         yield

@@ -24,11 +24,16 @@ def build_cage_patch(ob: bpy.types.Object, snapshot: MeshSnapshot, patch: Patch)
     if modifier.subdivision_type != 'CATMULL_CLARK':
         raise Refusal(f"{ob.name} is subdivided without smoothing (Simple): "
                       "choose Catmull-Clark, or solve for the mesh")
-    axis = -1 if mirror is None else next(k for k in range(3) if mirror.use_axis[k])
-    own = read_cage(ob.data, snapshot.mesh, patch.faces, patch.matrix, modifier, mirror, axis, snapshot.local)
+    own = read_cage(ob.data, snapshot.mesh, patch.faces, patch.matrix, modifier, mirror, snapshot.local)
+    axis = find_axis(mirror)
     if mirror is None and patch.mirror is not None and patch.mirror.is_whole:  # symmetric in itself
         own.partner[patch.index], axis = patch.index[patch.mirror.partner], patch.mirror.axis
     return CagePatch(**vars(patch), cage=own, mirror_axis=axis)
+
+
+def find_axis(mirror: bpy.types.MirrorModifier | None) -> int:
+    """Returns the axis that a Mirror modifier with one mirrors along; -1 without one."""
+    return -1 if mirror is None else next(k for k in range(3) if mirror.use_axis[k])
 
 
 def find_followed_mirror(name: str, below: list[bpy.types.Modifier]) -> bpy.types.MirrorModifier | None:
@@ -45,8 +50,7 @@ def find_followed_mirror(name: str, below: list[bpy.types.Modifier]) -> bpy.type
 
 
 def read_cage(mesh: bpy.types.Mesh, faces: Connectivity, region: np.ndarray, matrix: np.ndarray,
-              modifier: bpy.types.SubsurfModifier, mirror: bpy.types.MirrorModifier | None, axis: int,
-              local: np.ndarray) -> Cage:
+              modifier: bpy.types.SubsurfModifier, mirror: bpy.types.MirrorModifier | None, local: np.ndarray) -> Cage:
     """Reads the mesh as a cage. `local` is #vertices x 3 in object space, `matrix` (4 x 4) takes it to the cage's
     space.
     """
@@ -58,7 +62,7 @@ def read_cage(mesh: bpy.types.Mesh, faces: Connectivity, region: np.ndarray, mat
     partner = np.full(len(local), -1)
     if mirror is not None:
         merge = mirror.merge_threshold if mirror.use_mirror_merge else -1.0
-        local, image, partner = cage.mirror_cage(local, axis, merge)
+        local, image, partner = cage.mirror_cage(local, find_axis(mirror), merge)
         corners = np.concatenate([corners, cage.reverse_faces(image[corners], sizes)])
         sizes, region = np.tile(sizes, 2), np.tile(region, 2)
         edges = np.concatenate([edges, image[edges]])

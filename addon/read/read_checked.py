@@ -50,10 +50,8 @@ def read_mesh_surface(ob: bpy.types.Object, patch: Patch, positions: np.ndarray)
 
 def build_cage_surface(patch: CagePatch, positions: np.ndarray) -> CheckedSurface:
     """Subdivides the whole cage before and after; the image of a Mirror modifier follows the mesh's own half."""
-    cage, arguments = patch.cage, patch.cage.build_arguments(True)
-    names = ("face_offsets", "face_vertices", "creases", "crease_sharpness", "corners", "corner_sharpness", "level",
-             "limit", "boundary")
-    subdivision = native.reflines.Subdivision(**{name: arguments[name] for name in names}, vertices=len(cage.V))
+    cage = patch.cage
+    subdivision = native.reflines.Subdivision(**cage.build_topology_arguments(), vertices=len(cage.V))
     corners = [0, 1, 2, 0, 2, 3] if np.linalg.det(patch.matrix[:3, :3]) > 0.0 else [0, 2, 1, 0, 3, 2]
     F = subdivision.faces[:, corners].reshape(-1, 3)
     return CheckedSurface(subdivision.positions(cage.V), subdivision.positions(move_cage(patch, positions)), F,

@@ -60,12 +60,6 @@ def read_triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     return read_integers(cut, "vertices", 3), read_integers(cut, "polygon_index")
 
 
-def read_region_triangles(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
-    """Reads Blender's triangulation of the chosen faces: #triangles x 3."""
-    vertices, polygons = read_triangles(mesh)
-    return vertices[faces[polygons]]
-
-
 SAMPLE = 64  # positions compared to detect a changed mesh
 
 

@@ -27,7 +27,8 @@ def read_snapshot(ob: bpy.types.Object, key: str, local: np.ndarray | None, *, o
     return MeshSnapshot(
         ob.name, key, np.array(ob.matrix_world, dtype=np.float64), local, mesh,
         read_cut_triangles(ob.data, mesh, region, local), region_faces.read_visible_faces(ob.data), region,
-        read_marked_edges(ob.data, mesh), ob.reflection_lines.creases.lower(), border_segments.read_border(ob),
+        read_mesh.read_values(ob.data.edges, "use_edge_sharp", bool) | (mesh.creases > 0.0),
+        ob.reflection_lines.creases.lower(), border_segments.read_border(ob),
         read_limit_range(ob), read_mirror.read_mirror(ob, local[inside]))
 
 
@@ -62,11 +63,6 @@ def read_cut_triangles(mesh: bpy.types.Mesh, faces: Connectivity, region: np.nda
         return None
     is_broken = not np.isfinite(local[faces.corners[np.repeat(many, faces.sizes)]]).all()
     return None if is_broken and not many[region].any() else read_mesh.read_triangles(mesh)
-
-
-def read_marked_edges(mesh: bpy.types.Mesh, faces: Connectivity) -> np.ndarray:
-    """Reads which edges are sharp or have a crease: #edges, bool."""
-    return read_mesh.read_values(mesh.edges, "use_edge_sharp", bool) | (faces.creases > 0.0)
 
 
 def read_limit_range(ob: bpy.types.Object) -> np.ndarray:

@@ -28,6 +28,12 @@ def read_active_object(context: bpy.types.Context) -> bpy.types.Object | None:
     return getattr(context, "active_object", None) or context.view_layer.objects.active
 
 
+def allow(operator: type[bpy.types.Operator], obstacle: str) -> bool:
+    """Returns whether nothing keeps an operator from running; sets the message that says what does."""
+    operator.poll_message_set(obstacle)
+    return not obstacle
+
+
 def has_panel(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Returns whether the active object is a mesh to look at; sets the message that says why not."""
     ob = read_active_object(context)

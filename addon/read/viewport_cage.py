@@ -40,9 +40,8 @@ def read_viewport_cage(ob: bpy.types.Object, before: LastSolve | None = None) ->
             local[patch.index] -= fraction * (patch.to_object_space(before.positions) - patch.local)
         else:
             local[patch.index] = patch.local
-    axis = -1 if mirror is None else next(k for k in range(3) if mirror.use_axis[k])
     whole = read_cage.read_cage(ob.data, read_snapshot.read_connectivity(ob.data), visible, np.eye(4), modifier,
-                                mirror, axis, local)
+                                mirror, local)
     return whole, np.tile(selected, 1 if mirror is None else 2)
 
 

@@ -60,7 +60,10 @@ class BrushedRegion:
         """Smooths the lines around a point (3, world space), on both sides where the region stays symmetric. Returns
         False where the circle has too few vertices that can move.
         """
-        found = self.solve(self.frame[:2] @ point, brush)
+        try:
+            found = self.solve(self.frame[:2] @ point, brush)
+        except (native.InvalidInput, native.SolverFailure):  # no vertex of the circle is free, or lines are undefined
+            return False
         if found is None:
             return False
         added = np.zeros(len(self.move))
@@ -72,7 +75,9 @@ class BrushedRegion:
         return True
 
     def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
-        """Solves around a place of the image plane; returns the vertices and their further moves."""
+        """Solves around a place of the image plane; returns the vertices and their further moves. Raises the native
+        module's errors.
+        """
         raise NotImplementedError
 
     def build_around(self, place: np.ndarray, radius: float, move: np.ndarray) -> "native.ShapeOptimizer | None":
@@ -122,12 +127,7 @@ class BrushedPatch(BrushedRegion):
 
     def solve(self, place: np.ndarray, brush: Brush) -> tuple[np.ndarray, np.ndarray] | None:
         window = self.choose_window(place, brush.radius)
-        if window is None:
-            return None
-        try:
-            return window.vertices, self.solve_window(window, place, brush)
-        except (native.InvalidInput, native.SolverFailure):  # no vertex of the circle is free, or lines are undefined
-            return None
+        return None if window is None else (window.vertices, self.solve_window(window, place, brush))
 
     def choose_window(self, place: np.ndarray, radius: float) -> Window | None:
         """Returns the window around a circle; None where too few vertices of the circle can move."""

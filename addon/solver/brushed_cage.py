@@ -55,11 +55,7 @@ class BrushedCage(BrushedRegion):
         found = self.cut_window(place, brush.radius, self.move)
         if found is None:
             return None
-        cage, vertices, free = found
-        try:
-            return vertices, self.solve_window(cage, vertices, free, place, brush)
-        except (native.InvalidInput, native.SolverFailure):  # no vertex of the circle is free, or lines are undefined
-            return None
+        return found[1], self.solve_window(*found, place, brush)
 
     def build_around(self, place: np.ndarray, radius: float, move: np.ndarray) -> "native.CageOptimizer | None":
         found = self.cut_window(place, radius, move)

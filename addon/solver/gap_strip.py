@@ -96,7 +96,8 @@ def choose_between(rims: list[Rim], points: np.ndarray, panel: np.ndarray, F: np
     sides = points[F] - points[np.roll(F, 1, axis=1)]
     longest = np.linalg.norm(sides, axis=2).max(axis=1)
     short = longest <= widest
-    flat = find_areas(points, F) < FLAT * longest**2  # of points on one line, beside the strip
+    area = 0.5 * cross(points[F[:, 1]] - points[F[:, 0]], points[F[:, 2]] - points[F[:, 0]])
+    flat = area < FLAT * longest**2  # of points on one line, beside the strip
     centre = points[F].mean(axis=1)
     chosen = np.zeros(len(F), dtype=bool)
     for which, rim in enumerate(rims):
@@ -108,11 +109,6 @@ def choose_between(rims: list[Rim], points: np.ndarray, panel: np.ndarray, F: np
         inside = find_below(kept[is_near(kept, centre[between], 0.0)], centre[between])
         between[np.flatnonzero(between)[inside]] = False
     return chosen | between
-
-
-def find_areas(points: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """Returns the areas of triangles (#F x 3) that run counter-clockwise: #F."""
-    return 0.5 * cross(points[F[:, 1]] - points[F[:, 0]], points[F[:, 2]] - points[F[:, 0]])
 
 
 def find_nearest_edges(edges: np.ndarray, points: np.ndarray,

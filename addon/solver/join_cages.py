@@ -90,20 +90,16 @@ def build_surface(patch: CagePatch, level: int, view: View, border: str) -> Surf
     follows = find_following(patch, border)
     depends = whole.positions(np.repeat(follows[:, None].astype(float), 3, axis=1))[quads.refined, 0]
     codes = np.where(depends > FOLLOWS, CODES["follow"], CODES["clamped"])
+    joined = Surroundings(np.zeros((0, 3)), np.repeat(quads.beside[:, None], 3, axis=1))  # names only where
     panel = Patch(patch.name, np.ones(len(F), dtype=bool), np.arange(len(V)), V, V, F, np.arange(len(F)), np.eye(4), "",
                   None, Creases(patch.creases.rule, np.zeros((0, 2), dtype=np.int64)), codes,
-                  name_joined(quads.beside), None)
+                  joined, None)
     own = np.full(len(cage.V), -1)
     own[patch.index] = np.arange(len(patch.index))
     if symmetric:
         image = cage.partner[patch.index]
         own[image[image >= 0]] = np.flatnonzero(image >= 0)
     return Surface(panel, quads, whole.matrix(), own)
-
-
-def name_joined(vertices: np.ndarray) -> Surroundings:
-    """Returns surroundings without vertices of their own that are joined at these ones."""
-    return Surroundings(np.zeros((0, 3)), np.repeat(vertices[:, None], 3, axis=1))
 
 
 def find_following(patch: CagePatch, border: str) -> np.ndarray:

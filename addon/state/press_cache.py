@@ -12,7 +12,7 @@ from ..model.refusal import Refusal
 from ..model.solution import Solution
 from ..model.view import View
 from ..solver import automatic_smooth, joint_smooth, live_optimizer
-from ..solver.automatic_smooth import AutomaticSmooth, KeptPress, Preview
+from ..solver.automatic_smooth import AutomaticSmooth, KeptPress
 from ..solver.joint_smooth import KeptJoint
 from ..solver.panel_problem import pose_problem
 
@@ -23,20 +23,11 @@ _presses: dict[str, KeptPress] = {}  # by the name of the object
 _joint: list[KeptJoint] = []  # the last press of several objects, or none
 
 
-async def smooth_with_cache(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
-                            progress: "native.Progress | None" = None) -> Solution:
-    """Presses Smooth once, with the kept smoother where nothing but strength and limit has changed."""
-    return await press_with_cache(automatic_smooth.press_panel, patch, seen, border, settings, progress)
-
-
-async def preview_with_cache(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
-                             progress: "native.Progress | None" = None) -> Preview:
-    """Does likewise without measuring the result, as a drag shows it."""
-    return await press_with_cache(automatic_smooth.preview_press, patch, seen, border, settings, progress)
-
-
 async def press_with_cache(press: PressOnce[Pressed], patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
                            progress: "native.Progress | None") -> Pressed:
+    """Presses Smooth once, with the kept smoother where nothing but strength and limit has changed; `press` measures
+    the result, or does not.
+    """
     with live_optimizer.convert_native_errors(patch):
         kept = _presses.pop(patch.name, None)  # nobody else takes it meanwhile
         if kept is not None and kept.suits(patch, seen, border, settings):
@@ -68,7 +59,7 @@ async def smooth_all(patches: Sequence[Patch], views: Sequence[View], border: st
 async def smooth_or_refuse(patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
                            progress: "native.Progress | None") -> Solution | Refusal:
     try:
-        return await smooth_with_cache(patch, seen, border, settings, progress)
+        return await press_with_cache(automatic_smooth.press_panel, patch, seen, border, settings, progress)
     except Refusal as refusal:
         return refusal
 

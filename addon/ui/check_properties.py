@@ -134,9 +134,6 @@ class ReflinesCheck(bpy.types.PropertyGroup):
             stored.mark = NO_MARK if row.mark is None else row.mark
         self.seams, self.failed, self.compared = seams, failed, compared
 
-    def to_rows(self) -> list[TableRow]:
-        return [row.to_row() for row in self.rows]
-
     def list_shut_lines(self) -> list[ShownShutLine]:
         count = max((row.shut_line for row in self.rows), default=0)
         return [ShownShutLine([row for row in self.rows if row.shut_line == number])

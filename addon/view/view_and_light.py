@@ -90,11 +90,7 @@ def find_obstacle(scene: bpy.types.Scene) -> str:
 
 def has_seen_panel(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Returns whether there is a panel, and what its lines need; sets the message that says why not."""
-    if not scene_objects.has_panel(operator, context):
-        return False
-    obstacle = find_obstacle(context.scene)
-    operator.poll_message_set(obstacle)
-    return not obstacle
+    return scene_objects.has_panel(operator, context) and scene_objects.allow(operator, find_obstacle(context.scene))
 
 
 def refuse_obstacle(scene: bpy.types.Scene) -> None:

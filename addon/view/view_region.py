@@ -30,11 +30,6 @@ def find_view_at(area: bpy.types.Area, x: int, y: int) -> View | None:
     return next((view for view in list_views(area) if covers(view[0], x, y)), None)
 
 
-def is_over_view(area: bpy.types.Area, x: int, y: int) -> bool:
-    """Returns whether nothing but the scene is at a place (pixels of the window)."""
-    return find_view_at(area, x, y) is not None
-
-
 def find_view_left(area: bpy.types.Area) -> int:
     """Returns where the view begins beside the toolbar, in pixels of the window."""
     tools = [region for region in area.regions if region.type == 'TOOLS' and region.width > 1]

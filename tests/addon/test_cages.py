@@ -136,7 +136,7 @@ def test_a_crease_is_as_sharp_as_blender_makes_it(crease: float) -> None:
     crease_row(ob, crease)
     faces = np.ones(len(ob.data.polygons), dtype=bool)
     mesh = read_snapshot.read_connectivity(ob.data)
-    cage = read_cage.read_cage(ob.data, mesh, faces, np.eye(4), ob.modifiers[0], None, -1, scenes.positions(ob))
+    cage = read_cage.read_cage(ob.data, mesh, faces, np.eye(4), ob.modifiers[0], None, scenes.positions(ob))
     assert len(cage.creases) == CELLS
     assert np.abs(cage.V[cage.creases][:, :, 1]).max() < 1e-6
     assert cage.sharpness == pytest.approx(np.full(CELLS, 10.0 * crease**2))

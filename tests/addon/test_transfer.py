@@ -29,7 +29,8 @@ def test_triangles_are_blenders() -> None:
     scenes.look_from_above()
     scenes.edit_inner(ob, cells=20, margin=0)
     patch = gather.gather_patch(ob)
-    own = read_mesh.read_region_triangles(ob.data, patch.faces)
+    triangles, owners = read_mesh.read_triangles(ob.data)
+    own = triangles[patch.faces[owners]]
     assert {len(polygon.vertices) for polygon in ob.data.polygons} == {3, 4}
     cuts = [tuple(triangle) for triangle in own]
     firsts = {polygon.vertices[0] for polygon in ob.data.polygons if len(polygon.vertices) == 4}
