@@ -88,7 +88,7 @@ def read_shape(ob: bpy.types.Object) -> PanelShape:
 
 class PanelWork(BesideBlender[Outcome]):
     """An operator that looks at panels one after the other: what it finds is refused where the panel was changed
-    meanwhile. An outcome has a `refusal`, empty where there is a result.
+    meanwhile. An outcome may be a refusal.
     """
     verb: str  # what is done with a panel: "check"
 
@@ -145,15 +145,15 @@ class PanelWork(BesideBlender[Outcome]):
             raise Refusal(f"{panel.name} was changed while it was {self.verb}ed: {self.verb} it again")
         return ob
 
-    def take_outcome(self, outcome: Outcome) -> set[str]:
+    def take_outcome(self, outcome: Outcome | Refusal) -> set[str]:
         result = self.take_panel(bpy.context, outcome)
         following = self.begin_next(bpy.context)
         return following if following == {'RUNNING_MODAL'} else result
 
     @report_refusals
-    def take_panel(self, context: bpy.types.Context, outcome: Outcome) -> set[str]:
-        if outcome.refusal:
-            raise Refusal(outcome.refusal)
+    def take_panel(self, context: bpy.types.Context, outcome: Outcome | Refusal) -> set[str]:
+        if isinstance(outcome, Refusal):
+            raise outcome
         self.store(self.find_unchanged(), outcome)
         for area in context.window.screen.areas:
             area.tag_redraw()

@@ -34,11 +34,10 @@ CheckInput = tuple[CheckRequest, Neighbors]
 
 @dataclass(frozen=True)
 class CheckOutcome:
-    """The findings of a check of borders and of shut lines, or why there are none."""
-    found: Checked | None = None
-    shut: Checked | None = None
-    own: Sequence[TableRow] = ()  # the lines of the table that tell of the last run
-    refusal: str = ""
+    """The findings of a check of borders and of shut lines."""
+    found: Checked
+    shut: Checked
+    own: Sequence[TableRow]  # the lines of the table that tell of the last run
 
 
 class CheckJob:
@@ -55,11 +54,11 @@ class CheckJob:
         """Returns whether Blender's data is still being read, which must not change meanwhile."""
         return self._reading is not None
 
-    def advance(self) -> CheckOutcome | None:
+    def advance(self) -> CheckOutcome | Refusal | None:
         """Reads for a short time, or looks whether the native calls have ended; returns the outcome once."""
         if self._reading is None:
             outcome = self._work.take()
-            return outcome if self._work.is_alive() else CheckOutcome(refusal="The check stopped: nothing was found")
+            return outcome if self._work.is_alive() else Refusal("The check stopped: nothing was found")
         begun = time.monotonic()
         try:
             while time.monotonic() - begun < READING_TIME:
@@ -68,14 +67,14 @@ class CheckJob:
             self._reading = None
             self._work.submit(end.value)
         except Refusal as refusal:
-            return CheckOutcome(refusal=str(refusal))
+            return refusal
         return None
 
-    async def run(self, given: CheckInput) -> CheckOutcome:
+    async def run(self, given: CheckInput) -> CheckOutcome | Refusal:
         try:
             return await measure(*given, self.begin_stage)
         except (Refusal, native.Cancelled) as error:
-            return CheckOutcome(refusal=str(error))
+            return Refusal(str(error))
 
     def begin_stage(self, stage: str) -> None:
         self.stage = stage

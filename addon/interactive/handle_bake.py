@@ -60,7 +60,9 @@ class HandleBake:
             raise Refusal(f"{ob.name} has no handles: pull a line first")
         self.frames = choose_frames(ob, step)
         self.run = read_run(ob)
-        self.start = read_start(ob, self.run.result)
+        self.start = solve_history.read_original_shape(ob, self.run.result)
+        if self.start is None:
+            raise Refusal(f"{ob.name}: {LOST_START}")
         self.notes += describe_partners(ob)
         baked_keys.refuse_foreign_action(ob)
 
@@ -201,18 +203,6 @@ def describe_partners(ob: bpy.types.Object) -> list[str]:
     others = [name for name in ob.reflection_lines.run.list_joined() if name != ob.name]
     return [f"A bake moves one object: {', '.join(others)}, which followed the pull, stayed, and the border was Tangent"
             ] if others else []
-
-
-def read_start(ob: bpy.types.Object, result: str) -> np.ndarray:
-    """Reads the shape before the handles: #vertices x 3, in Object Mode."""
-    if result == 'SHAPE_KEY':
-        shape = shape_keys.read_original_shape(ob)
-    else:
-        last = solve_history.find_last_solve(ob.name)
-        shape = None if last is None else read_mesh.read_shape_before(ob, last.patch, last.positions)
-    if shape is None:
-        raise Refusal(f"{ob.name}: {LOST_START}")
-    return shape
 
 
 def find_result_key(ob: bpy.types.Object) -> bpy.types.ShapeKey:

@@ -1,52 +1,33 @@
 """An inspection in the background: native calls only, with progress, which Esc cancels."""
-from dataclasses import dataclass
-
 from .. import native
 from ..background_work import BackgroundWork
 from ..model.inspection import Inspection
-from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..solver import live_optimizer, panel_inspection
 from ..solver.panel_inspection import Inspected
 
 
-@dataclass(frozen=True)
-class InspectionRequest:
-    """A request for one inspection."""
-    patch: Patch
-    wanted: Inspected
-
-
-@dataclass(frozen=True)
-class InspectionOutcome:
-    """An inspection, or why there is none."""
-    inspection: Inspection | None = None
-    refusal: str = ""
-
-
 class InspectionJob:
-    """The work on a request, and how far it is."""
+    """The work on one inspection, and how far it is."""
 
-    def __init__(self, request: InspectionRequest) -> None:
+    def __init__(self, wanted: Inspected) -> None:
         """Begins at once."""
         self.progress = native.reflines.Progress()
         self.work = BackgroundWork(self.run, self.progress.cancel)
-        self.work.submit(request)
+        self.work.submit(wanted)
 
-    async def run(self, request: InspectionRequest) -> InspectionOutcome:
+    async def run(self, wanted: Inspected) -> Inspection | Refusal:
         try:
-            with live_optimizer.convert_native_errors(request.patch):
-                return InspectionOutcome(await panel_inspection.inspect_surface(request.wanted, self.progress))
-        except Refusal as refusal:
-            return InspectionOutcome(refusal=str(refusal))
-        except native.Cancelled as cancelled:
-            return InspectionOutcome(refusal=str(cancelled))
+            with live_optimizer.convert_native_errors(wanted.patch):
+                return await panel_inspection.inspect_surface(wanted, self.progress)
+        except (Refusal, native.Cancelled) as error:
+            return Refusal(str(error))
 
-    def advance(self) -> InspectionOutcome | None:
+    def advance(self) -> Inspection | Refusal | None:
         """Looks whether the native calls have ended; returns the outcome once."""
         outcome = self.work.take()
         if outcome is None and not self.work.is_alive():
-            return InspectionOutcome(refusal="The inspection stopped: nothing was found")
+            return Refusal("The inspection stopped: nothing was found")
         return outcome
 
     def is_reading(self) -> bool:

@@ -75,3 +75,15 @@ def list_edges(corners: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     following = np.arange(1, len(corners) + 1)
     following[np.cumsum(sizes) - 1] -= sizes
     return np.column_stack([corners, corners[following]])
+
+
+def compute_area_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
+    """Returns the sum of the adjacent triangles' area-weighted normals: #V x 3, not normalized.
+
+    Computed by columns, since numpy's cross product of 400,000 triangles alone takes as long as all of this.
+    """
+    first = V.take(F[:, 0], axis=0)
+    a, b = ((V.take(F[:, k], axis=0) - first).T for k in (1, 2))
+    where = F.T.ravel()
+    return np.column_stack([np.bincount(where, np.tile(a[i] * b[j] - a[j] * b[i], 3), len(V))
+                            for i, j in ((1, 2), (2, 0), (0, 1))])

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
+from ..blender.tooltips import tell_by
 from ..model import check_table, inspection
 from ..model.refusal import Refusal, report_refusals
 from ..read import scene_objects
@@ -26,10 +27,7 @@ class REFLINES_OT_export_table(ExportHelper, bpy.types.Operator):
     filter_glob: StringProperty(default="*.csv;*.json", options={'HIDDEN'})
     table: EnumProperty(name="Table", items=TABLES, default='CHECK', options={'HIDDEN', 'SKIP_SAVE'})
 
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip of the button that writes spots; empty for a check, which has the docstring."""
-        return "Write the spots of the last inspection to a .csv file" if properties.table == 'SPOTS' else ""
+    description = tell_by("table", {'SPOTS': "Write the spots of the last inspection to a .csv file"})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -4,7 +4,8 @@ from bpy.props import EnumProperty
 
 from ..interactive import running_operators
 from ..interactive.beside_blender import PanelWork
-from ..interactive.inspection_job import InspectionJob, InspectionOutcome, InspectionRequest
+from ..interactive.inspection_job import InspectionJob
+from ..model.inspection import Inspection
 from ..model.refusal import Refusal
 from ..native_call import run_now
 from ..read import gather, read_checked
@@ -19,7 +20,7 @@ LIGHTS = (
 )
 
 
-class REFLINES_OT_inspect(PanelWork[InspectionOutcome], bpy.types.Operator):
+class REFLINES_OT_inspect(PanelWork[Inspection], bpy.types.Operator):
     """Find the panel's worst spots: how even its lines are in eight lights from five views around it, or in the lights
 of the set. Nothing is changed; Esc cancels"""
     bl_idname = "reflines.inspect"
@@ -34,12 +35,12 @@ of the set. Nothing is changed; Esc cancels"""
     def poll(cls, context: bpy.types.Context) -> bool:
         return view_and_light.has_seen_panel(cls, context)
 
-    def look_at(self, context: bpy.types.Context, ob: bpy.types.Object) -> InspectionOutcome:
-        request = self.build_request(context, ob)
-        with live_optimizer.convert_native_errors(request.patch):
-            return InspectionOutcome(run_now(panel_inspection.inspect_surface(request.wanted)))
+    def look_at(self, context: bpy.types.Context, ob: bpy.types.Object) -> Inspection:
+        wanted = self.read(context, ob)
+        with live_optimizer.convert_native_errors(wanted.patch):
+            return run_now(panel_inspection.inspect_surface(wanted))
 
-    def build_request(self, context: bpy.types.Context, ob: bpy.types.Object) -> InspectionRequest:
+    def read(self, context: bpy.types.Context, ob: bpy.types.Object) -> Inspected:
         """Reads the region, all around it, and the view; refuses what cannot be inspected."""
         context.view_layer.update()
         settings = context.scene.reflection_lines
@@ -50,18 +51,17 @@ of the set. Nothing is changed; Esc cancels"""
         light_set = read_light_set.read_light_set(settings, [ob]) if self.lights == 'SET' else None
         if self.lights == 'SET' and light_set is None:
             raise Refusal("The set has no light that can be used: add one, or walk around")
-        wanted = Inspected(surface, facing.read_patch_view(context.scene, patch), up, patch.center, light_set)
-        return InspectionRequest(patch, wanted)
+        return Inspected(surface, facing.read_patch_view(context.scene, patch), up, patch, light_set)
 
     def build_job(self, context: bpy.types.Context, ob: bpy.types.Object) -> InspectionJob:
-        return InspectionJob(self.build_request(context, ob))
+        return InspectionJob(self.read(context, ob))
 
     def describe_end(self) -> str:
         return "Inspect was cancelled"
 
-    def store(self, ob: bpy.types.Object, outcome: InspectionOutcome) -> None:
+    def store(self, ob: bpy.types.Object, outcome: Inspection) -> None:
         stored = ob.reflection_lines.inspection
-        stored.fill(outcome.inspection, panel_inspection.NOISE_FLOOR)
+        stored.fill(outcome, panel_inspection.NOISE_FLOOR)
         self.report({'INFO'}, f"{ob.name}: {stored.summary}")
 
 

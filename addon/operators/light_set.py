@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 from bpy.props import EnumProperty
 
+from ..blender.tooltips import tell_by
 from ..model.inspection import VIEWS
 from ..model.light_set import find_walk
 from ..model.refusal import Refusal, report_refusals
@@ -28,10 +29,7 @@ class REFLINES_OT_light_set(bpy.types.Operator):
 
     action: EnumProperty(name="Action", items=ACTIONS, default='WALK', options={'HIDDEN', 'SKIP_SAVE'})
 
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip of the button with this action."""
-        return next(about for name, _, about in ACTIONS if name == properties.action)
+    description = tell_by("action", {name: about for name, _, about in ACTIONS})
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:

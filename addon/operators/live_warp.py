@@ -4,6 +4,7 @@ from functools import partial
 import bpy
 from bpy.props import EnumProperty
 
+from ..blender.tooltips import tell_by
 from ..interactive import live_baseline, live_warp_handlers
 from ..interactive.live_baseline import BaselineChanged
 from ..model.patch import Patch
@@ -101,10 +102,7 @@ shape, Discard takes it back; both can wait until the file is opened again"""
 
     action: EnumProperty(name="Action", items=ACTIONS, default='START', options={'HIDDEN', 'SKIP_SAVE'})
 
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip of the buttons that end it; empty for the start, which has the docstring."""
-        return {action: about for action, _, about in ACTIONS[1:]}.get(properties.action, "")
+    description = tell_by("action", {action: about for action, _, about in ACTIONS[1:]})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, IntProperty, IntVectorProperty, StringProperty
 
+from ..blender.tooltips import tell_by
 from ..interactive import drag_input, drawn_lines
 from ..interactive.drag_handles import Handle
 from ..interactive.line_build import LineBuild
@@ -19,6 +20,7 @@ from ..model.solution import Solution
 from ..model.view import View
 from ..read import scene_objects
 from ..solver.live_optimizer import BuildTarget
+from ..state import solve_history
 from ..targets.falloff import Falloff
 from ..view import screen_surface
 from ..view.screen_surface import ScreenSurface
@@ -46,11 +48,8 @@ where a line was pulled to; Enter applies them all"""
     taken: IntVectorProperty(size=2, default=(-1, -1), options={'HIDDEN', 'SKIP_SAVE'},
                              description="Kept handle, and number of its dot, that the press takes; -1: what is there")
 
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip of the button that draws; empty for the other, which has the docstring."""
-        return ("Draw how a reflection line is to run: the line at the start of the stroke is laid along it. Its dots "
-                "can be moved, Enter applies") if properties.draws else ""
+    description = tell_by("draws", {True: "Draw how a reflection line is to run: the line at the start of the stroke "
+                                    "is laid along it. Its dots can be moved, Enter applies"})
 
     def draw(self, _context: bpy.types.Context) -> None:
         self.layout.use_property_split = True
@@ -175,7 +174,7 @@ where a line was pulled to; Enter applies them all"""
             ob.update_from_editmode()
         handles = stored.handles.read(ob.data)
         self.anew = (bool(handles) and stored.run.operator == self.bl_idname
-                     and self.find_original_shape(ob) is not None and has_partners(ob))
+                     and solve_history.read_original_shape(ob, self.result) is not None and has_partners(ob))
         return handles if self.anew else tuple(replace(each, start=each.end) for each in handles)
 
     def handle_event(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

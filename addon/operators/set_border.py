@@ -2,6 +2,7 @@
 import bpy
 from bpy.props import EnumProperty
 
+from ..blender.tooltips import tell_by
 from ..model.refusal import report_refusals
 from ..read import scene_objects
 from ..ui.tool_properties import BORDERS
@@ -20,10 +21,7 @@ of selected faces it is set at their rim"""
     border: EnumProperty(name="Border", items=(*BORDERS, UNSET), default='clamped', options={'HIDDEN'},
                          description="What happens at the selected vertices where they are a region's border")
 
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip of the button for one border."""
-        return next(item[2] for item in (*BORDERS, UNSET) if item[0] == properties.border)
+    description = tell_by("border", {item[0]: item[2] for item in (*BORDERS, UNSET)})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

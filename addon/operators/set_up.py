@@ -4,6 +4,7 @@ import numpy as np
 from bpy.props import EnumProperty, FloatVectorProperty
 from mathutils import Matrix, Vector
 
+from ..blender.tooltips import tell_by
 from ..model.refusal import Refusal, report_refusals
 from ..read import scene_objects
 from ..state import last_panels
@@ -35,10 +36,7 @@ light direction where there are none, and show the stripes"""
         description="From the panel to the camera, or of the light; zero takes that of the 3D view, in background of "
         "the panel's mean normal")
 
-    @classmethod
-    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
-        """Returns the tooltip of the buttons that add; empty for the large one, which has the docstring."""
-        return TIPS.get(properties.part, "")
+    description = tell_by("part", TIPS)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -19,7 +19,7 @@ from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.solution import Solution, SolveSettings
 from ..model.view import View
-from ..read import gather, modifiers, read_mesh, region_faces, scene_objects, shape_keys, shown_surface, unjoined_border
+from ..read import gather, modifiers, region_faces, scene_objects, shape_keys, shown_surface, unjoined_border
 from ..read.mesh_checks import Purpose
 from ..solver.join_panels import join_panels
 from ..solver.live_optimizer import BuildTarget
@@ -235,18 +235,10 @@ class SolveTool:
 
         Records for the report whether the shape before the last run was lost, and whether the stored region was taken.
         """
-        found = self.find_original_shape(ob) if self.anew else None
+        found = solve_history.read_original_shape(ob, self.result) if self.anew else None
         self.lost_start = self.anew and found is None
         self.region_stored = ob.mode != 'EDIT' and region_faces.has_stored_region(ob.data)
         return found
-
-    def find_original_shape(self, ob: bpy.types.Object) -> np.ndarray | None:
-        """Returns the shape before the last run: #vertices x 3, in Object Mode; None where the mesh has changed since.
-        """
-        if self.result == 'SHAPE_KEY':
-            return shape_keys.read_original_shape(ob)
-        last = solve_history.find_last_solve(ob.name_full)
-        return None if last is None else read_mesh.read_shape_before(ob, last.patch, last.positions)
 
     def record_solution(self, ob: bpy.types.Object, solution: Solution) -> None:
         """Records a solution beside its positions: region, history, report, and the run for Re-solve."""

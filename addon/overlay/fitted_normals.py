@@ -9,8 +9,8 @@ import numpy as np
 
 from .. import native
 from ..background_work import BackgroundWork
+from ..model.triangulation import compute_area_normals
 from ..native_call import call, run_now
-from . import stripes
 
 REFIT_ANGLE = 0.005  # radians a normal may turn before it is fitted again: a twentieth of the default stripes' period
 FIT_AT_ONCE = 8000  # vertices that are fitted within 100 ms on one slow core
@@ -152,4 +152,4 @@ def skip_fit(V: np.ndarray, F: np.ndarray) -> FittedSurface:
 
 def estimate_normals(V: np.ndarray, F: np.ndarray) -> ShadedSurface:
     """Returns area-weighted vertex normals without creases, as Blender's own: fast and rough."""
-    return ShadedSurface(F, np.arange(len(V)), stripes.compute_area_normals(V, F))
+    return ShadedSurface(F, np.arange(len(V)), compute_area_normals(V, F))

@@ -2,7 +2,7 @@
 import numpy as np
 
 from ..model.solution import LastSolve
-from . import stripes
+from ..model.triangulation import compute_area_normals
 
 # Positions, triangles, normals, and fractions of the full colour.
 Arrays = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
@@ -62,7 +62,7 @@ def compute_values(solution: LastSolve, mode: str) -> np.ndarray:
     if mode == 'RESIDUAL':
         return solution.residual
     move = solution.positions - solution.patch.V
-    outwards = (move * stripes.compute_area_normals(solution.patch.V, solution.patch.F)).sum(axis=1)
+    outwards = (move * compute_area_normals(solution.patch.V, solution.patch.F)).sum(axis=1)
     return np.copysign(np.linalg.norm(move, axis=1), outwards)
 
 

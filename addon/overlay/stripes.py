@@ -78,18 +78,6 @@ def grow_selection(F: np.ndarray, chosen: np.ndarray, count: int, *, rings: int)
     return inside
 
 
-def compute_area_normals(V: np.ndarray, F: np.ndarray) -> np.ndarray:
-    """Returns the sum of the adjacent triangles' area-weighted normals: #V x 3, not normalized.
-
-    Computed by columns, since numpy's cross product of 400,000 triangles alone takes as long as all of this.
-    """
-    first = V.take(F[:, 0], axis=0)
-    a, b = ((V.take(F[:, k], axis=0) - first).T for k in (1, 2))
-    where = F.T.ravel()
-    return np.column_stack([np.bincount(where, np.tile(a[i] * b[j] - a[j] * b[i], 3), len(V))
-                            for i, j in ((1, 2), (2, 0), (0, 1))])
-
-
 def pack_uniforms(*, model: np.ndarray, view_matrix: np.ndarray, projection: np.ndarray, eye: Eye, lights: Lights,
              look: Look) -> np.ndarray:
     """Packs the shader's uniform block (shader.STRUCT) as float32. Matrices are 4 x 4 for column vectors. A mode that

@@ -13,7 +13,7 @@ from ..model.meeting import find_meeting, find_middle
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.surroundings import Surroundings
-from ..model.triangulation import list_border
+from ..model.triangulation import compute_area_normals, list_border
 from ..model.view import View
 from .join_cages import build_surface, choose_level, have_same_rules, put_cages_together
 from .joint_mirror import can_join, find_seam, find_seam_rows, have_same_plane, join_mirrors
@@ -162,9 +162,7 @@ def find_movable(patch: Patch, edges: np.ndarray, towards: np.ndarray, border: s
 
 def compute_normals(patch: Patch) -> np.ndarray:
     """Returns the normals at the vertices: #V x 3."""
-    a, b, c = (patch.V[patch.F[:, k]] for k in range(3))
-    corners, normal = patch.F.T.ravel(), np.cross(b - a, c - a)
-    result = np.stack([np.bincount(corners, np.tile(each, 3), len(patch.V)) for each in normal.T], axis=1)
+    result = compute_area_normals(patch.V, patch.F)
     return result / np.maximum(np.linalg.norm(result, axis=1, keepdims=True), 1e-300)
 
 

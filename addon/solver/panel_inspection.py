@@ -8,6 +8,7 @@ from .. import native
 from ..model.checked_surface import CheckedSurface
 from ..model.inspection import VIEWS, Inspection, Spot
 from ..model.light_set import LightSet
+from ..model.patch import Patch
 from ..model.view import View
 from ..native_call import call
 
@@ -21,7 +22,7 @@ class Inspected:
     surface: CheckedSurface
     seen: View
     up: np.ndarray      # 3, in the picture
-    center: np.ndarray  # 3, of the panel
+    patch: Patch        # of the panel
     light_set: LightSet | None = None  # takes the place of the walk around
 
 
@@ -32,7 +33,7 @@ class Pairs:
 
     def __init__(self, wanted: Inspected) -> None:
         self.lights = wanted.light_set.lights
-        self.eyes = [light.find_eye(wanted.center) for light in self.lights]
+        self.eyes = [light.find_eye(wanted.patch.center) for light in self.lights]
         self.views, view = find_unique(np.array([wanted.seen.view_direction, *self.eyes]))
         self.lines, line = find_unique(np.array([light.line for light in self.lights]))
         self.light: dict[tuple[int, int], int] = {}

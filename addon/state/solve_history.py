@@ -3,9 +3,11 @@
 Objects go by their full names, which tell those of this file from linked ones.
 """
 import bpy
+import numpy as np
 
 from ..blender.app_handlers import forget_at_load
 from ..model.solution import LastSolve
+from ..read import read_mesh, shape_keys
 
 _solves: dict[str, LastSolve] = {}  # by the full name of the object
 _undone: dict[str, float] = {}      # by the full name of the object: the run time in the report of the solve taken back
@@ -21,6 +23,16 @@ def remember_solve(last: LastSolve) -> None:
 def find_last_solve(name: str) -> LastSolve | None:
     """Returns the last solve of the object with this full name, None where there is none."""
     return _solves.get(name)
+
+
+def read_original_shape(ob: bpy.types.Object, result: str) -> np.ndarray | None:
+    """Reads the shape before the last run, whose result went to the mesh or a shape key: #vertices x 3, in Object Mode;
+    None where the mesh has changed since.
+    """
+    if result == 'SHAPE_KEY':
+        return shape_keys.read_original_shape(ob)
+    last = find_last_solve(ob.name_full)
+    return None if last is None else read_mesh.read_shape_before(ob, last.patch, last.positions)
 
 
 def mark_changed(name: str, *, changed: bool) -> None:
