@@ -15,13 +15,13 @@ bl_info = {
 # unregistered backwards.
 NAMES = (
     "library_copy", "native", "native_call",
-    "model.same", "model.border", "model.beside", "model.check_table", "model.checked_surface", "model.edit_cage",
-    "model.gain", "model.inspection", "model.looks",
+    "model.same", "model.border", "model.beside", "model.check_table", "model.gain",
+    "model.inspection", "model.looks", "model.surface",
     "model.creases", "model.line_curve", "model.mirror", "model.refusal", "model.triangulation", "model.orientation",
     "model.mesh_snapshot", "model.surroundings",
     "model.line_handle", "model.kept_handles", "model.line_run",
     "model.line_surface", "model.patch", "model.meeting", "model.region_patch", "model.cage",
-    "model.view", "model.light_set", "model.solution", "model.joined_patch", "model.joined_cage", "model.surface",
+    "model.view", "model.light_set", "model.solution", "model.joined_patch", "model.joined_cage",
     "model.steps", "model.canvas", "model.panel_picture", "model.film", "model.sheet",
     "targets.falloff", "targets.crossed", "targets.direction", "targets.fit", "targets.mirror_target",
     "targets.pattern", "targets.smooth", "targets.warp", "targets.line_handles",

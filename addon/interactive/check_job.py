@@ -7,10 +7,10 @@ from .. import native
 from ..background_work import BackgroundWork
 from ..model.beside import Neighbors
 from ..model.check_table import TableRow
-from ..model.checked_surface import CheckedSurface
 from ..model.patch import Patch
 from ..model.refusal import Refusal
 from ..model.steps import Steps
+from ..model.surface import CheckedSurface
 from ..solver import live_optimizer, panel_check, shut_lines
 from ..solver.panel_check import Checked, Marks
 from ..solver.shut_lines import ShutLineMarks

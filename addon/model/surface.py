@@ -1,4 +1,4 @@
-"""A triangulated surface in object space, as the stripes are drawn on it."""
+"""Triangulated surfaces: in object space as the stripes are drawn on them, in world space as they are checked."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,3 +30,13 @@ class Surface:
     @property
     def F(self) -> np.ndarray:
         return self.topology.triangles
+
+
+@dataclass(frozen=True)
+class CheckedSurface:
+    """The triangles of a whole mesh, or of the surface of a whole cage, in world space."""
+    before: np.ndarray  # #V x 3
+    after: np.ndarray   # #V x 3
+    F: np.ndarray       # #F x 3
+    region: np.ndarray  # #F, bool
+    creases: dict[str, str | np.ndarray]  # arguments of reflines.check

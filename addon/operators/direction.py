@@ -1,4 +1,5 @@
 """The operator Direction and Density."""
+from collections.abc import Awaitable, Callable
 from functools import partial
 from math import pi, radians
 
@@ -9,7 +10,7 @@ from ..interactive.drag_handles import Handle
 from ..model.patch import Patch
 from ..read import scene_objects
 from ..read.read_falloff import read_falloff
-from ..solver.common_lines import CommonLines
+from ..solver.common_lines import give_gradient
 from ..solver.live_optimizer import BuildTarget
 from ..targets import direction
 from ..targets.direction import Direction
@@ -50,11 +51,13 @@ direction, or lie closer together"""
         settings = Direction(
             self.find_line_direction(scene), self.angle, self.density, self.density_end, self.axis,
             strength=self.strength, falloff=self.read_falloff(context, ob, patch),
-            find_mean=None if (common := self.find_common(context, patch)) is None else common.find_gradient)
+            find_mean=self.choose_mean(context, patch))
         return partial(direction.build_direction_target, settings=settings)
 
-    def find_common(self, context: bpy.types.Context, patch: Patch) -> CommonLines | None:
-        """Returns the common course of panels that meet, which straight lines take; None of one panel alone."""
+    def choose_mean(self, context: bpy.types.Context, patch: Patch) -> Callable[[], Awaitable[np.ndarray]] | None:
+        """Returns what finds the mean gradient of panels that meet, whose course straight lines take; None of one panel
+        alone.
+        """
         meeting = self.find_meeting(patch)
         names = frozenset(each.name for each in meeting)
         if len(meeting) == 1 or self.direction == 'PRESENT':
@@ -63,7 +66,7 @@ direction, or lie closer together"""
             self.common_of, self.common = self.panels, {}
         if names not in self.common:
             seen = [self.read_view(context, self.joint.get(each.name, each)) for each in meeting]
-            self.common[names] = CommonLines(tuple(zip(meeting, seen, strict=True)), self.settle_border())
+            self.common[names] = give_gradient(tuple(zip(meeting, seen, strict=True)), self.settle_border())
         return self.common[names]
 
     def find_line_direction(self, scene: bpy.types.Scene) -> np.ndarray | None:

@@ -15,7 +15,7 @@ from ..state import compared, last_panels, solve_history
 from ..view import places_beside, view_region
 from . import draw_cage, legend, shader, shown_objects, solve_maps, stripe_scene, stripes
 from .fitted_normals import FIT_RINGS, FittedNormals
-from .limit_surface import LimitSurfaces
+from .limit_surface import LimitTopology, update_surface
 
 POLL_INTERVAL = 0.05  # seconds between two checks of the background fit
 UNSEEN_TIME = 60.0  # seconds until objects that no viewport draws are dropped; several viewports draw different ones
@@ -59,7 +59,7 @@ class DrawCache:
     """
     shown: dict[str, ShownObject] = field(default_factory=dict)  # by full names, as fits, limits and uniforms
     fits: FittedNormals = field(default_factory=FittedNormals)
-    limits: LimitSurfaces = field(default_factory=LimitSurfaces)
+    limits: dict[str, LimitTopology] = field(default_factory=dict)
     shader: gpu.types.GPUShader | None = None
     dots: gpu.types.GPUShader | None = None
     uniforms: dict = field(default_factory=dict)  # one an object: the GPU reads it while the next is filled
@@ -143,7 +143,7 @@ def drop_unseen_objects() -> None:
         del _cache.shown[name]
         for kept in (name, AFTER + name):
             _cache.uniforms.pop(kept, None)
-        _cache.limits.drop(name)
+        _cache.limits.pop(name, None)
         for fit in (name, BEFORE + name):
             _cache.fits.drop(fit)
 
@@ -195,7 +195,7 @@ def read_limit_surface(ob: bpy.types.Object, before: LastSolve | None = None) ->
     that of the shape before this solve.
     """
     read = viewport_cage.read_viewport_cage(ob, before) if native.STATE.usable else None
-    return None if read is None else _cache.limits.update_surface(ob.name_full, *read)
+    return None if read is None else update_surface(_cache.limits, ob.name_full, *read)
 
 
 def build_arrays(ob: bpy.types.Object, settings: bpy.types.PropertyGroup, read: Surface,

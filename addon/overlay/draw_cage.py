@@ -1,6 +1,8 @@
 """Draws the cage of a mesh in Edit Mode over its stripes: in the theme's colours, lines and dots with a rim that sets
 them off from white and from black stripes.
 """
+from collections.abc import Generator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
@@ -8,10 +10,10 @@ import gpu
 import numpy as np
 from mathutils import Matrix
 
-from ..model.edit_cage import EditCage
 from ..model.surface import Surface
 from ..read import read_edit_cage
 from ..read.image_pixels import decode_srgb
+from ..read.read_edit_cage import EditCage
 from . import stripe_scene, stripes
 
 RIM = 1.0            # pixels to each side of lines and dots
@@ -166,8 +168,17 @@ class SurfacePainter:
         """Returns by how much something of this radius in pixels is nearer than the stripes, for `move_nearer`."""
         return RADII_NEARER * stripes.measure_pixels(np.array(self.region_3d.window_matrix), radius, self.size[0])
 
-    def nearer(self, fraction: float) -> "NearerProjection":
-        return NearerProjection(self, self.offset + fraction)
+    def project_nearer(self, fraction: float) -> Matrix:
+        """Returns the projection that draws nearer to the eye than the stripes."""
+        return Matrix(stripes.move_nearer(np.array(self.region_3d.window_matrix), self.offset + fraction))
+
+    @contextmanager
+    def nearer(self, fraction: float) -> Generator[None, None, None]:
+        """Lets Blender's own shaders draw so."""
+        with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+            gpu.matrix.load_matrix(self.region_3d.view_matrix @ self.ob.matrix_world)
+            gpu.matrix.load_projection_matrix(self.project_nearer(fraction))
+            yield
 
 
 class CagePainter(SurfacePainter):
@@ -240,7 +251,7 @@ class CagePainter(SurfacePainter):
                     batch.draw(marked)
 
     def draw_dots(self, batch: gpu.types.GPUBatch, color: np.ndarray, opacity: float) -> None:
-        near = self.nearer(self.measure_pixels(0.5 * self.style.dot + RIM)).projection  # before the lines
+        near = self.project_nearer(self.measure_pixels(0.5 * self.style.dot + RIM))  # before the lines
         gpu.state.program_point_size_set(True)
         self.dots.bind()
         self.dots.uniform_float("mvp", near @ self.region_3d.view_matrix @ self.ob.matrix_world)
@@ -250,21 +261,3 @@ class CagePainter(SurfacePainter):
         self.dots.uniform_float("size", self.style.dot)
         batch.draw(self.dots)
         gpu.state.program_point_size_set(False)
-
-
-class NearerProjection:
-    """The matrices of Blender's own shaders while something is drawn nearer to the eye."""
-
-    def __init__(self, painter: SurfacePainter, fraction: float) -> None:
-        self.painter = painter
-        self.projection = Matrix(stripes.move_nearer(np.array(painter.region_3d.window_matrix), fraction))
-
-    def __enter__(self) -> None:
-        gpu.matrix.push()
-        gpu.matrix.push_projection()
-        gpu.matrix.load_matrix(self.painter.region_3d.view_matrix @ self.painter.ob.matrix_world)
-        gpu.matrix.load_projection_matrix(self.projection)
-
-    def __exit__(self, *_: object) -> None:
-        gpu.matrix.pop_projection()
-        gpu.matrix.pop()

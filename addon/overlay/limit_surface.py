@@ -19,32 +19,20 @@ class LimitTopology:
     topology: Topology
 
 
-class LimitSurfaces:
-    """The subdivisions by object name, kept while only the positions of a cage change."""
-
-    def __init__(self) -> None:
-        self.kept: dict[str, LimitTopology] = {}
-
-    def update_surface(self, name: str, cage: Cage, selected: np.ndarray) -> Surface | None:
-        """Returns the limit surface in the cage's space, subdividing anew where the topology changed; None where
-        OpenSubdiv refuses it.
-        """
-        still = replace(cage, V=NOWHERE)
-        if name not in self.kept or not are_same(self.kept[name].cage, still):
-            try:
-                self.kept[name] = build_limit_topology(still, len(cage.V))
-            except native.InvalidInput:
-                self.kept.pop(name, None)
-                return None
-        limit = self.kept[name]
-        return Surface(limit.subdivision.positions(cage.V), limit.topology, selected[limit.topology.faces],
-                       limit.subdivision.normals(cage.V))
-
-    def drop(self, name: str) -> None:
-        self.kept.pop(name, None)
-
-    def clear(self) -> None:
-        self.kept.clear()
+def update_surface(kept: dict[str, LimitTopology], name: str, cage: Cage, selected: np.ndarray) -> Surface | None:
+    """Returns the limit surface in the cage's space, subdividing anew where the topology of the object with this name
+    is not the kept one; None where OpenSubdiv refuses it.
+    """
+    still = replace(cage, V=NOWHERE)
+    if name not in kept or not are_same(kept[name].cage, still):
+        try:
+            kept[name] = build_limit_topology(still, len(cage.V))
+        except native.InvalidInput:
+            kept.pop(name, None)
+            return None
+    limit = kept[name]
+    return Surface(limit.subdivision.positions(cage.V), limit.topology, selected[limit.topology.faces],
+                   limit.subdivision.normals(cage.V))
 
 
 def build_limit_topology(cage: Cage, vertices: int) -> LimitTopology:

@@ -6,8 +6,8 @@ import numpy as np
 
 from .. import native
 from ..model.cage import CagePatch
-from ..model.checked_surface import CheckedSurface
 from ..model.patch import Patch
+from ..model.surface import CheckedSurface
 from . import read_mesh
 
 

@@ -28,11 +28,6 @@ class Quads:
     refined: np.ndarray  # #V: which of the refined vertices each is; the first of these are those of the cage
     beside: np.ndarray   # those of the vertices that are in faces outside the region, too
 
-    @property
-    def triangles(self) -> np.ndarray:
-        """The triangles that the faces are cut into: two a face, #F x 3."""
-        return self.faces[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
-
 
 @dataclass(frozen=True)
 class Surface:
@@ -64,10 +59,6 @@ def choose_level(panels: Sequence[CagePatch]) -> int:
     return max(dict(panel.cage.rules)["level"] for panel in panels)
 
 
-def subdivide(cage: Cage, level: int) -> "native.Subdivision":
-    return native.reflines.Subdivision(**{**cage.build_topology_arguments(), "level": level}, vertices=len(cage.V))
-
-
 def list_quads(cage: Cage, whole: "native.Subdivision", *, symmetric: bool) -> Quads:
     """Lists the faces of a cage's subdivided region, which has both halves of a symmetric one."""
     inside = cage.build_arguments(symmetric)["region"][whole.face_parent]
@@ -84,9 +75,9 @@ def build_surface(patch: CagePatch, level: int, view: View, border: str) -> Surf
     """Builds the surface of a cage at a level of subdivision; raises the native module's errors."""
     # Together with the image that a Mirror modifier adds, where it is solved so.
     cage, symmetric = patch.cage, patch.is_symmetric_for(view.view_direction)
-    whole = subdivide(cage, level)
+    whole = native.reflines.Subdivision(**{**cage.build_topology_arguments(), "level": level}, vertices=len(cage.V))
     quads = list_quads(cage, whole, symmetric=symmetric)
-    V, F = whole.positions(cage.V)[quads.refined], quads.triangles
+    V, F = whole.positions(cage.V)[quads.refined], quads.faces[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
     follows = find_following(patch, border)
     depends = whole.positions(np.repeat(follows[:, None].astype(float), 3, axis=1))[quads.refined, 0]
     codes = np.where(depends > FOLLOWS, CODES["follow"], CODES["clamped"])

@@ -5,7 +5,7 @@ import numpy as np
 
 from .. import native
 from ..model.check_table import TableRow
-from ..model.checked_surface import CheckedSurface
+from ..model.surface import CheckedSurface
 from ..native_call import call
 
 

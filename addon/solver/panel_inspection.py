@@ -5,10 +5,10 @@ from functools import partial
 import numpy as np
 
 from .. import native
-from ..model.checked_surface import CheckedSurface
 from ..model.inspection import VIEWS, Inspection, Spot
 from ..model.light_set import LightSet
 from ..model.patch import Patch
+from ..model.surface import CheckedSurface
 from ..model.view import View
 from ..native_call import call
 

@@ -5,7 +5,7 @@ import numpy as np
 
 from .. import native
 from ..model.beside import Neighbors
-from ..model.checked_surface import CheckedSurface
+from ..model.surface import CheckedSurface
 from ..model.view import View
 from ..native_call import call
 from .panel_check import Checked, build_checked, build_row

@@ -21,8 +21,8 @@ OVERLAYS = ("show_floor", "show_axis_x", "show_axis_y", "show_axis_z", "show_ort
 def kept_names() -> set[str]:
     """The full names of the objects of which anything is kept that is drawn."""
     draw = sys.modules["reflection_lines"].overlay.draw
-    fits, limits = draw._cache.fits, draw._cache.limits
-    every = (*draw._cache.shown, *draw._cache.uniforms, *fits.done, *fits.wanted, *fits.started, *limits.kept)
+    cache, fits = draw._cache, draw._cache.fits
+    every = (*cache.shown, *cache.uniforms, *cache.limits, *fits.done, *fits.wanted, *fits.started)
     return {name.removeprefix(draw.BEFORE).removeprefix(draw.AFTER) for name in every}
 
 
