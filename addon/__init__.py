@@ -1,5 +1,8 @@
 """Reflection Lines: shape optimization of car panels through their reflection lines (Tosun et al., SGP 2007)."""
 import importlib
+from types import ModuleType
+
+import bpy
 
 bl_info = {
     "name": "Reflection Lines",
@@ -86,10 +89,19 @@ if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its part
     for module in MODULES:
         importlib.reload(module)
 REGISTERED_BEFORE = True
+running_operators = importlib.import_module(f"{__name__}.interactive.running_operators")
+
+
+def list_classes(module: ModuleType) -> list[type]:
+    """Returns the classes of a module that Blender knows: operators, panels and the like, in their order."""
+    return [kind for kind in vars(module).values() if isinstance(kind, type) and kind.__module__ == module.__name__
+            and issubclass(kind, bpy.types.bpy_struct)]
 
 
 def register() -> None:
     for module in MODULES:
+        for kind in list_classes(module):
+            bpy.utils.register_class(kind)
         if hasattr(module, "register"):
             module.register()
 
@@ -98,3 +110,6 @@ def unregister() -> None:
     for module in reversed(MODULES):
         if hasattr(module, "unregister"):
             module.unregister()
+        for kind in reversed(list_classes(module)):
+            running_operators.take_back(kind)
+            bpy.utils.unregister_class(kind)

@@ -1,7 +1,6 @@
 """The operators that run in the window and have something to take back. Disabling the add-on ends them while they are
 there: Blender drops the operators of a class that is unregistered without calling them.
 """
-from collections.abc import Callable
 from contextlib import suppress
 
 import bpy
@@ -44,21 +43,9 @@ def note_end(operator: RunningOperator) -> None:
     _running[:] = [other for other in _running if other is not operator]
 
 
-def take_back(kind: type[RunningOperator]) -> None:
+def take_back(kind: type) -> None:
     """Takes back what operators of a class do, before that is unregistered."""
     for operator in [each for each in _running if type(each) is kind]:  # the only question to a dropped one
         note_end(operator)
         with suppress(ReferenceError):  # Blender has dropped it after an error
             operator.take_back(bpy.context)
-
-
-def make_registration(*kinds: type[bpy.types.Operator]) -> tuple[Callable[[], None], Callable[[], None]]:
-    """Makes the functions that register operators and unregister them, which first takes back what they do."""
-    register, unregister_classes = bpy.utils.register_classes_factory(kinds)
-
-    def unregister() -> None:
-        for kind in kinds:
-            take_back(kind)
-        unregister_classes()
-
-    return register, unregister

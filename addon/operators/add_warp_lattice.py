@@ -45,6 +45,3 @@ Move its control points in the lattice's Edit Mode, then press Warp: the lines g
         settings.warp.lattice = added
         added.reflection_lines.panel = ob
         return {'FINISHED'}
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_add_warp_lattice])

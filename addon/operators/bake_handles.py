@@ -133,6 +133,3 @@ the scene moves the panel"""
         self.end_modal(context)
         self.bake.leave()
         self.drop(set())
-
-
-register, unregister = running_operators.make_registration(REFLINES_OT_bake_handles)

@@ -2,7 +2,7 @@
 import bpy
 import numpy as np
 
-from ..interactive import check_job, running_operators
+from ..interactive import check_job
 from ..interactive.beside_blender import PanelWork
 from ..interactive.check_job import CheckInput, CheckJob, CheckOutcome, CheckRequest
 from ..model import check_table
@@ -114,6 +114,3 @@ def build_drawn(ob: bpy.types.Object, found: Checked, shape: np.ndarray, *, comp
     change = found.change if compared else np.where(found.passes, "better", "worse")
     worse = found.worse if compared else np.ones(len(worst), dtype=bool)
     return DrawnCheck(segments, change, worst, worse, shape)
-
-
-register, unregister = running_operators.make_registration(REFLINES_OT_check)

@@ -78,6 +78,3 @@ direction, or lie closer together"""
         if self.direction == 'ANGLE':
             return view_and_light.find_picture_direction(scene.reflection_lines.camera, self.angle)
         return np.zeros(3)
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_direction])

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..interactive import read_picture, running_operators
+from ..interactive import read_picture
 from ..interactive.beside_blender import FileExport, FileWork
 from ..model.film import Film
 from ..model.refusal import report_refusals
@@ -86,6 +86,3 @@ class FilmWork(FileWork):
     def describe_written(self) -> str:
         return (f"{self.written} frames written, the first is {self.name_frame(0).name}" if self.written else
                 "No frame was written")
-
-
-register, unregister = running_operators.make_registration(REFLINES_OT_export_film)

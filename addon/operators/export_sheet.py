@@ -8,7 +8,7 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..blender import units
-from ..interactive import read_picture, running_operators
+from ..interactive import read_picture
 from ..interactive.beside_blender import FileExport, FileWork
 from ..model.canvas import Canvas
 from ..model.panel_picture import Looked, Pictured
@@ -85,6 +85,3 @@ def frame(shown: Pictured, looked: Looked) -> Looked:
               + (looked.center @ looked.eye) * looked.eye)
     width = ROOM * max(np.ptp(x), np.ptp(y) * PICTURE[0] / PICTURE[1])
     return Looked(looked.right, looked.up, looked.eye, middle, float(width), looked.line, looked.count)
-
-
-register, unregister = running_operators.make_registration(REFLINES_OT_export_sheet)

@@ -60,6 +60,3 @@ def format_spots(ob: bpy.types.Object) -> tuple[int, dict[str, Callable[[], str]
     """Returns how many spots the last inspection has, and their text by the ending of the file."""
     spots = [spot.to_spot() for spot in ob.reflection_lines.inspection.spots]
     return len(spots), {".csv": lambda: inspection.format_csv(spots)}
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_export_table])

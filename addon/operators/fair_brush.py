@@ -128,6 +128,3 @@ class REFLINES_OT_fair_brush(running_operators.RunningOperator, SolveTool, Brush
         """Restores the meshes, where nobody else has changed them, and ends the stroke."""
         self.stroke.restore()
         self.end(context, "")
-
-
-register, unregister = running_operators.make_registration(REFLINES_OT_fair_brush)

@@ -61,6 +61,3 @@ has its lines. Select that mesh, then the cage"""
 
 def format_distance(misfit: Misfit) -> str:
     return units.format_length(misfit.largest, bpy.context.scene, 2)
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_fit])

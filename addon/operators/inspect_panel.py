@@ -2,7 +2,6 @@
 import bpy
 from bpy.props import EnumProperty
 
-from ..interactive import running_operators
 from ..interactive.beside_blender import PanelWork
 from ..interactive.inspection_job import InspectionJob
 from ..model.inspection import Inspection
@@ -63,6 +62,3 @@ of the set. Nothing is changed; Esc cancels"""
         stored = ob.reflection_lines.inspection
         stored.fill(outcome, panel_inspection.NOISE_FLOOR)
         self.report({'INFO'}, f"{ob.name}: {stored.summary}")
-
-
-register, unregister = running_operators.make_registration(REFLINES_OT_inspect)

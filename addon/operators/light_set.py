@@ -69,6 +69,3 @@ class REFLINES_OT_light_set(bpy.types.Operator):
         index = min(max(chosen.active, 0), len(chosen.entries) - 1)
         chosen.entries.remove(index)
         chosen.active = max(min(index, len(chosen.entries) - 1), 0)
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_light_set])

@@ -158,6 +158,3 @@ shape, Discard takes it back; both can wait until the file is opened again"""
         settings.warp.lattice.select_set(True)
         context.view_layer.objects.active = settings.warp.lattice
         live_warp_handlers.note_change(context.scene)
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_live_warp])

@@ -45,6 +45,3 @@ The scene's own camera stays as it is"""
         """Looks through the camera of the 3D view, or no longer."""
         with context.temp_override(region=view_region.find_view_region(context.area)):
             bpy.ops.view3d.view_camera()
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_look_through])

@@ -60,6 +60,3 @@ What no surface can show is left over: see the colour map of the residual"""
         if image is None:
             raise Refusal(f"There is no image {self.image}".rstrip() + ": choose one in the sidebar's Reflection tab")
         return image
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_pattern])

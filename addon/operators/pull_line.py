@@ -338,6 +338,3 @@ class REFLINES_OT_delete_handles(bpy.types.Operator):
             ob.update_from_editmode()
         handles = ob.reflection_lines.handles.read(ob.data)
         return tuple(each for index, each in enumerate(handles) if index != self.index)
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_pull_line, REFLINES_OT_delete_handles])

@@ -83,6 +83,3 @@ now, from the shape before that run unless the mesh was changed since"""
 def return_to_mode(ob: bpy.types.Object, mode: str) -> None:
     if ob.mode != mode:
         bpy.ops.object.mode_set(mode=mode)
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_resolve])

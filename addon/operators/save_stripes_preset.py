@@ -15,6 +15,3 @@ class REFLINES_OT_save_stripes_preset(AddPresetBase, bpy.types.Operator):
     # Whole paths and no names of its own: Blender 4.3 with Python 3.13 evaluates the values where it cannot see them.
     preset_defines = []
     preset_values = [f"bpy.context.scene.reflection_lines.stripes.{name}" for name in LOOK]
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_save_stripes_preset])

@@ -36,6 +36,3 @@ of selected faces it is set at their rim"""
         counted = (f"{ob.name}: {count} vertices" for ob, count in zip(objects, counts, strict=True) if count)
         self.report({'INFO'}, f"Border {label}, {'; '.join(counted)}")
         return {'FINISHED'}
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_set_border])

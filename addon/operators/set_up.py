@@ -98,6 +98,3 @@ def refuse_held_camera(context: bpy.types.Context, camera: bpy.types.Object, wan
     if apart[:3, :3].max() > HELD_TOLERANCE or apart[:3, 3].max() > HELD_TOLERANCE * size:
         raise Refusal(f"{camera.name} cannot be turned to this view, since a constraint, or the scale of its parent, "
                       f"holds it: take that away, {remedy}")
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_set_up])

@@ -205,6 +205,3 @@ with a length all that is finer goes. In Object Mode the faces of the last run a
             moved = units.format_length(largest, bpy.context.scene, 2)
             names = ", ".join(solution.patch.name for solution in solutions)
             self.report({'INFO'}, f"{joined.describe()}, moved at most {moved} ({names})")
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_smooth])

@@ -111,6 +111,3 @@ are selected"""
         look_at_spot(context, ob, ob.reflection_lines.report.worse_spot)
         self.report({'INFO'}, f"{ob.name}: {ob.reflection_lines.report.worse}")
         return {'FINISHED'}
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_show_spot])

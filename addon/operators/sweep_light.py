@@ -5,7 +5,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
 from mathutils import Vector
 
-from ..interactive import drag_input, running_operators
+from ..interactive import drag_input
 from ..interactive.sweep import HANDLES, Sweep
 from ..read import scene_objects
 from ..view import light_angles
@@ -83,6 +83,3 @@ picture, the wheel tilts it"""
         if light is not None:
             light_angles.restore_transform(light, self.start)
         self.end(context)
-
-
-register, unregister = running_operators.make_registration(REFLINES_OT_sweep_light)

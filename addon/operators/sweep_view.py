@@ -5,7 +5,7 @@ import bpy
 from bpy.props import FloatProperty
 from mathutils import Quaternion, Vector
 
-from ..interactive import drag_input, running_operators
+from ..interactive import drag_input
 from ..interactive.sweep import HANDLES, Sweep
 from ..read import scene_objects
 from ..view import view_and_light
@@ -67,6 +67,3 @@ it about the vertical, the wheel tilts it; the lights stay where they are"""
             setattr(self.region_3d, name, value)
         context.scene.reflection_lines.stripes.eye = self.eye
         self.end(context)
-
-
-register, unregister = running_operators.make_registration(REFLINES_OT_sweep_view)

@@ -40,6 +40,3 @@ An untouched lattice moves nothing"""
 
     def describe_solution(self, solution: Solution) -> tuple[str, ...]:
         return warp.describe_outside(solution.target)
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_OT_warp])

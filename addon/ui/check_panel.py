@@ -36,6 +36,3 @@ class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
             line.alert = change == "worse"
             draw_paragraph(line, context, shut_line.describe(), ICONS[change])
         layout.operator("reflines.export_table", icon='EXPORT')
-
-
-register, unregister = bpy.utils.register_classes_factory([VIEW3D_PT_reflines_check])

@@ -153,6 +153,3 @@ class ReflinesCheck(bpy.types.PropertyGroup):
                    ("beyond the mark, as before", [name for name in beyond if name not in worse]))
         said = "; ".join(f"{what}: {', '.join(names)}" for what, names in changes if names)
         return f"{said[:1].upper()}{said[1:]}" if said else "Nothing has changed by more than the marks"
-
-
-register, unregister = bpy.utils.register_classes_factory([ReflinesMarks, ReflinesCheckRow, ReflinesCheck])

@@ -74,6 +74,3 @@ def is_line_free(context: bpy.types.Context) -> bool:
     """Returns whether a press on the line is not one that the tool is waiting for."""
     tool = context.workspace.tools.from_space_view3d_mode(context.mode, create=False)
     return context.mode in MODES and (tool is None or tool.idname not in PRESSING)
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_GT_divider, VIEW3D_GGT_reflines_divider])

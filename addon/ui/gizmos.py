@@ -83,6 +83,3 @@ class VIEW3D_GGT_reflines(bpy.types.GizmoGroup):
         if not fixed:
             along = settings.light.matrix_world.to_3x3().col[2]
             self.needle.matrix_basis = Matrix.Translation(point) @ view_and_light.build_frame(along).to_4x4()
-
-
-register, unregister = bpy.utils.register_classes_factory([VIEW3D_GGT_reflines])

@@ -72,6 +72,3 @@ def read_handles(ob: bpy.types.Object) -> Handles:
         return ob.reflection_lines.handles.read(ob.data)
     except Refusal:
         return ()
-
-
-register, unregister = bpy.utils.register_classes_factory([VIEW3D_GGT_reflines_handles])

@@ -79,6 +79,3 @@ class ReflinesHandles(bpy.types.PropertyGroup):
         if not self.kept:
             return line_handle.decode_handles(self.text)
         return kept_handles.place_handles(self.text, self.read_values())
-
-
-register, unregister = bpy.utils.register_classes_factory([ReflinesHandle, ReflinesHandles])

@@ -55,6 +55,3 @@ class VIEW3D_PT_reflines_handles(ReflinesPanel, bpy.types.Panel):
             column.prop(kept.kept[index], "place")
             column.prop(kept.kept[index], "radius")
         column.prop(kept.kept[index], "muted")
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_UL_handles, VIEW3D_PT_reflines_handles])

@@ -36,6 +36,3 @@ class VIEW3D_PT_reflines_inspection(ReflinesPanel, bpy.types.Panel):
             column.label(text=f"and {len(inspection.spots) - MOST_LINES} more")
         layout.operator("reflines.show_spot", icon='FRAME_NEXT')
         layout.operator("reflines.export_table", icon='EXPORT').table = 'SPOTS'
-
-
-register, unregister = bpy.utils.register_classes_factory([VIEW3D_PT_reflines_inspection])

@@ -67,6 +67,3 @@ class ReflinesInspection(bpy.types.PropertyGroup):
         places = count if found.spots else f"No place deviates by {noise_floor:.2g}\u00b0"
         self.summary = f"{places}; mean {found.mean:.2g}\u00b0, most {found.worst}"
         self.unseen = f"Not seen from {', '.join(found.unseen)}: no weight there" if found.unseen else ""
-
-
-register, unregister = bpy.utils.register_classes_factory([ReflinesSpot, ReflinesInspection])

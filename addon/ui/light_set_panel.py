@@ -47,6 +47,3 @@ class VIEW3D_PT_reflines_light_set(ReflinesPanel, bpy.types.Panel):
             draw_paragraph(layout, context, f"{len(chosen.entries)} lights take {taken}, and longer each", 'INFO')
         if entry.find_problem():
             draw_paragraph(layout, context, entry.find_problem(), 'ERROR')
-
-
-register, unregister = bpy.utils.register_classes_factory([REFLINES_UL_light_set, VIEW3D_PT_reflines_light_set])

@@ -43,6 +43,3 @@ class ReflinesLightSet(bpy.types.PropertyGroup):
         """Returns a sentence for each light that cannot be used, but for muted ones."""
         return tuple(f"{entry.name}: {entry.find_problem()[0].lower()}{entry.find_problem()[1:]}"
                      for entry in self.entries if not entry.muted and entry.find_problem())
-
-
-register, unregister = bpy.utils.register_classes_factory([ReflinesSetLight, ReflinesLightSet])

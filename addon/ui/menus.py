@@ -102,13 +102,9 @@ def draw_entry(self: bpy.types.Menu, _context: bpy.types.Context) -> None:
 
 PLACES = ("VIEW3D_MT_edit_mesh", "VIEW3D_MT_edit_mesh_context_menu", "VIEW3D_MT_object",
           "VIEW3D_MT_object_context_menu")
-register_classes, unregister_classes = bpy.utils.register_classes_factory([
-    VIEW3D_MT_reflines_drag, VIEW3D_MT_reflines_drag_pie, VIEW3D_MT_reflines_export, VIEW3D_MT_reflines,
-    VIEW3D_MT_reflines_pie])
 
 
 def register() -> None:
-    register_classes()
     for place in PLACES:
         getattr(bpy.types, place).append(draw_entry)
 
@@ -116,4 +112,3 @@ def register() -> None:
 def unregister() -> None:
     for place in PLACES:
         getattr(bpy.types, place).remove(draw_entry)
-    unregister_classes()

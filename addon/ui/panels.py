@@ -392,11 +392,3 @@ class VIEW3D_PT_reflines_numbers(ResultPart, bpy.types.Panel):
         column.label(text=f"at length {report.measured_length()}")
         if report.termination not in ENDED:
             draw_paragraph(column, context, "The solver stopped before the best shape", 'INFO')
-
-
-register, unregister = bpy.utils.register_classes_factory([
-    VIEW3D_PT_reflines_setup, VIEW3D_PT_reflines_region, VIEW3D_PT_reflines_smooth,
-    VIEW3D_PT_reflines_smooth_settings, VIEW3D_PT_reflines_pull,
-    VIEW3D_PT_reflines_brush, VIEW3D_PT_reflines_design, VIEW3D_PT_reflines_direction,
-    VIEW3D_PT_reflines_warp, VIEW3D_PT_reflines_pattern, VIEW3D_PT_reflines_result,
-    VIEW3D_PT_reflines_kept, VIEW3D_PT_reflines_numbers])

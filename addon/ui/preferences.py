@@ -34,6 +34,3 @@ class ReflinesPreferences(bpy.types.AddonPreferences):
         for item in filter(keymaps.is_own, keymap.keymap_items if keymap is not None else ()):
             self.layout.context_pointer_set("keymap", keymap)
             rna_keymap_ui.draw_kmi([], config, keymap, item, self.layout, 0)
-
-
-register, unregister = bpy.utils.register_classes_factory([ReflinesPreferences])

@@ -362,12 +362,7 @@ class ReflinesScene(SmoothSettings, bpy.types.PropertyGroup):
         return camera is not None and camera.data.type != 'ORTHO'
 
 
-register_classes, unregister_classes = bpy.utils.register_classes_factory([
-    ReflinesReport, ReflinesRun, ReflinesObject, ReflinesLive, ReflinesScene])
-
-
 def register() -> None:
-    register_classes()
     bpy.types.Scene.reflection_lines = PointerProperty(type=ReflinesScene)
     bpy.types.Object.reflection_lines = PointerProperty(type=ReflinesObject)
 
@@ -375,4 +370,3 @@ def register() -> None:
 def unregister() -> None:
     del bpy.types.Object.reflection_lines
     del bpy.types.Scene.reflection_lines
-    unregister_classes()

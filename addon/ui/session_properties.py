@@ -35,10 +35,8 @@ class ReflinesSession(bpy.types.PropertyGroup):
 
 
 def register() -> None:
-    bpy.utils.register_class(ReflinesSession)
     bpy.types.WindowManager.reflection_lines = PointerProperty(type=ReflinesSession)
 
 
 def unregister() -> None:
     del bpy.types.WindowManager.reflection_lines
-    bpy.utils.unregister_class(ReflinesSession)

@@ -22,6 +22,3 @@ class VIEW3D_PT_reflines_stripe_presets(PresetPanel, bpy.types.Panel):
         row.emboss = 'NORMAL'
         row.prop(manager, "preset_name", text="")
         row.operator(self.preset_add_operator, text="", icon='ADD', emboss=False).name = manager.preset_name
-
-
-register, unregister = bpy.utils.register_classes_factory([VIEW3D_PT_reflines_stripe_presets])

@@ -93,6 +93,3 @@ class ReflinesStripes(bpy.types.PropertyGroup):
         back = region_3d.view_matrix.inverted_safe()
         perspective = region_3d.is_perspective
         self.frozen_eye = (*(back.translation if perspective else back.col[2].to_3d()), float(perspective))
-
-
-register, unregister = bpy.utils.register_classes_factory([ReflinesStripes])

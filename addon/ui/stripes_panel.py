@@ -66,7 +66,3 @@ class VIEW3D_PT_reflines_look(ReflinesPanel, bpy.types.Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         for name in ("count", "width", "color", "gap_color"):
             layout.prop(settings.stripes, name)
-
-
-register, unregister = bpy.utils.register_classes_factory([
-    VIEW3D_PT_reflines_stripes, VIEW3D_PT_reflines_look])

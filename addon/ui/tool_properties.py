@@ -228,7 +228,3 @@ class ReflinesPattern(PatternSettings, bpy.types.PropertyGroup):
     """The scene's settings of Image Pattern."""
     width_automatic: switch_property("width", "Width")
     image: PointerProperty(name="Image", type=bpy.types.Image, description="Its grey values say how the lines bend")
-
-
-register, unregister = bpy.utils.register_classes_factory([
-    ReflinesDirection, ReflinesPull, ReflinesBrush, ReflinesWarp, ReflinesPattern])
