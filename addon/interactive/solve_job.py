@@ -128,8 +128,8 @@ class SolveJob:
                                                         self.progress)
                     for patch, seen in zip(self.patches, self.views, strict=True)]
         self.pressed = True
-        shown = SolveOutcome(request, tuple(preview.positions for preview in previews),
-                             refusal=" ".join(filter(None, (preview.refusal for preview in previews))))
+        shown = SolveOutcome(request, tuple(positions for positions, _ in previews),
+                             refusal=" ".join(filter(None, (refusal for _, refusal in previews))))
         if shown.refusal or self.measure_seconds >= MEASURE_BUDGET and not request.measure:
             return shown
         begin = time.perf_counter()

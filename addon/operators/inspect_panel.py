@@ -2,16 +2,15 @@
 import bpy
 from bpy.props import EnumProperty
 
+from ..interactive import read_picture
 from ..interactive.beside_blender import PanelWork
 from ..interactive.inspection_job import InspectionJob
 from ..model.inspection import Inspection
 from ..model.refusal import Refusal
 from ..native_call import run_now
-from ..read import gather, read_checked
-from ..read.mesh_checks import Purpose
 from ..solver import live_optimizer, panel_inspection
 from ..solver.panel_inspection import Inspected
-from ..view import facing, read_light_set, view_and_light
+from ..view import read_light_set, view_and_light
 
 LIGHTS = (
     ('WALK', "Walk Around", "The light in eight turns, from five views around the panel"),
@@ -41,16 +40,13 @@ of the set. Nothing is changed; Esc cancels"""
 
     def read(self, context: bpy.types.Context, ob: bpy.types.Object) -> Inspected:
         """Reads the region, all around it, and the view; refuses what cannot be inspected."""
-        context.view_layer.update()
         settings = context.scene.reflection_lines
-        patch = gather.gather_patch(ob, or_all=True, purpose=Purpose.READ)
-        with live_optimizer.convert_native_errors(patch):
-            surface = read_checked.read_checked_surface(ob, patch, patch.V)
+        patch, surface, seen = read_picture.read_panel(context, ob)
         up = view_and_light.read_camera_axes(settings.camera)[1]
         light_set = read_light_set.read_light_set(settings, [ob]) if self.lights == 'SET' else None
         if self.lights == 'SET' and light_set is None:
             raise Refusal("The set has no light that can be used: add one, or walk around")
-        return Inspected(surface, facing.read_patch_view(context.scene, patch), up, patch, light_set)
+        return Inspected(surface, seen, up, patch, light_set)
 
     def build_job(self, context: bpy.types.Context, ob: bpy.types.Object) -> InspectionJob:
         return InspectionJob(self.read(context, ob))

@@ -59,25 +59,29 @@ class FittedNormals:
         """Returns the surface with the best normals known now, and starts a fit where they are out of date;
         `take_finished` tells of better ones.
         """
-        old = self.done.get(name)
-        alike = old is not None and len(old.V) == len(V) and np.array_equal(old.F, F)
-        if alike and np.array_equal(old.V, V):  # a fit begun on a way there and back is obsolete
+        old = self.find_alike(name, V, F)
+        if old is not None and np.array_equal(old.V, V):  # a fit begun on a way there and back is obsolete
             self.wanted.pop(name, None)
             self.obsolete |= self.is_fitting(name)
             return old.shaded
         if not native.STATE.usable:
             return estimate_normals(V, F)
         if len(V) <= FIT_AT_ONCE and not self.is_fitting(name):
-            self.done[name] = run_now(fit_normals(V, F, old if alike else None))
+            self.done[name] = run_now(fit_normals(V, F, old))
             return self.done[name].shaded
         if self.is_fitting(name) and np.array_equal(self.job.V, V):
             self.obsolete = False
         else:
             self.wanted[name] = V, F
             self.advance()
-        if not alike or old.native_fit is None:
+        if old is None or old.native_fit is None:
             return estimate_normals(V, F)
         return replace(old.shaded, normals=old.native_fit.kept_normals(V[old.shaded.vertex]))
+
+    def find_alike(self, name: str, V: np.ndarray, F: np.ndarray) -> FittedSurface | None:
+        """Returns the fit of the object where its surface had the same triangles."""
+        old = self.done.get(name)
+        return old if old is not None and len(old.V) == len(V) and np.array_equal(old.F, F) else None
 
     def is_fitting(self, name: str) -> bool:
         """Returns whether the running job is of this object."""
@@ -86,10 +90,9 @@ class FittedNormals:
     def advance(self) -> None:
         """Starts the next job, but not too often: a fit that ends in the middle of a drag costs a redraw."""
         for name, (V, F) in self.wanted.items():
-            old = self.done.get(name)
-            alike = old is not None and len(old.V) == len(V) and np.array_equal(old.F, F)
-            if self.job is None and (not alike or time.monotonic() - self.started.get(name, 0.0) > REFIT_INTERVAL):
-                self.start_job(FitJob(name, V, F, old if alike else None))
+            old = self.find_alike(name, V, F)
+            if self.job is None and (old is None or time.monotonic() - self.started.get(name, 0.0) > REFIT_INTERVAL):
+                self.start_job(FitJob(name, V, F, old))
                 return
 
     def start_job(self, job: FitJob) -> None:

@@ -1,5 +1,6 @@
 """The automatic press of Smooth: the native rules find the flaws of a patch and leave its design alone."""
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +17,7 @@ from . import live_optimizer, remarks
 from .build_native import build_smoother
 from .native_notes import word_note, word_notes
 from .panel_problem import PanelProblem, pose_problem
-from .read_solved import read_own, read_press
+from .read_solved import read_on_triangles, read_own
 
 MOST_NOTES = 2
 WIDER = 1.05  # than what the native press takes in: its diagonal is that of the faces that it can use
@@ -62,16 +63,24 @@ class AutomaticSmooth:
 
 @dataclass(frozen=True)
 class KeptPress:
-    """A native smoother with what it was built from: another strength or limit costs it a tenth of the first press."""
-    problem: PanelProblem
+    """A native smoother of a patch, or of several as one problem, with what it was built from: another strength or
+    limit costs it a tenth of the first press.
+    """
+    problems: tuple[PanelProblem, ...]
     border: str
     settings: AutomaticSmooth  # of the first press
-    smoother: "native.PanelSmoother"
+    smoother: "native.PanelSmoother | native.JointSmoother"
 
-    def suits(self, patch: Patch, view: View, border: str, settings: AutomaticSmooth) -> bool:
-        """Returns whether the smoother serves this patch, view, border and settings."""
-        return (self.border == border and self.settings.find_same(settings)
-                and self.problem.view.has_same_light(view) and self.problem.patch.same(patch))
+    def suits(self, patches: Sequence[Patch], views: Sequence[View], border: str, settings: AutomaticSmooth) -> bool:
+        """Returns whether the smoother serves these patches, views, border and settings."""
+        return (self.border == border and self.settings.find_same(settings) and len(self.problems) == len(patches)
+                and all(own.patch.same(patch) and own.patch.name == patch.name and own.view.has_same_light(view)
+                        for own, patch, view in zip(self.problems, patches, views, strict=True)))
+
+    def go_back_to(self, patches: Sequence[Patch]) -> "KeptPress":
+        """Returns the same for patches whose way back to the mesh may differ, such as the shape key."""
+        return replace(self, problems=tuple(pose_problem(patch, own.view)
+                                            for patch, own in zip(patches, self.problems, strict=True)))
 
 
 async def build_press(patch: Patch, seen: View, border: str, settings: AutomaticSmooth) -> KeptPress:
@@ -80,24 +89,19 @@ async def build_press(patch: Patch, seen: View, border: str, settings: Automatic
     problem = pose_problem(patch, seen)
     flaws = settings.choose_flaws(patch) if problem.is_cage else settings.choose_joining(patch)
     smoother = await build_smoother(problem, border, flaws, fair=settings.fair_border)
-    return KeptPress(problem, border, settings, smoother)
-
-
-@dataclass(frozen=True)
-class Preview:
-    """The result of a press as a drag shows it: nothing is measured yet."""
-    positions: np.ndarray  # #V x 3, world space
-    refusal: str = ""      # why nothing was moved
+    return KeptPress((problem,), border, settings, smoother)
 
 
 async def preview_press(kept: KeptPress, settings: AutomaticSmooth,
-                        progress: "native.Progress | None" = None) -> Preview:
-    """Presses without measuring the result; raises the native module's errors."""
-    problem, patch = kept.problem, kept.problem.patch
+                        progress: "native.Progress | None" = None) -> tuple[np.ndarray, str]:
+    """Presses without measuring the result, as a drag shows it: returns the positions (#V x 3, world space), and why
+    nothing was moved. Raises the native module's errors.
+    """
+    problem, patch = kept.problems[0], kept.problems[0].patch
     positions, report = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
                                    limit_range=problem.limit_range, progress=progress, judged=False)
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), report.region.closed)
-    return Preview(read_own(problem, positions), "" if report.applied else word_note(report.notes[0]))
+    return read_own(problem, positions), "" if report.applied else word_note(report.notes[0])
 
 
 async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
@@ -107,17 +111,16 @@ async def press_panel(kept: KeptPress, settings: AutomaticSmooth,
     All numbers are its own: scores are means over the lights, and the residual is how far the field of the light given
     differs from its smoothed self. After a refusal both are those of the start.
     """
-    begin = time.perf_counter()
+    begin, problem = time.perf_counter(), kept.problems[0]
     positions, report = await call(kept.smoother.press, strength=settings.strength, limit=settings.limit,
-                                   limit_range=kept.problem.limit_range, progress=progress)
-    return build_solution(kept.problem, positions, report, settings, time.perf_counter() - begin)
+                                   limit_range=problem.limit_range, progress=progress)
+    return build_solution(problem, positions, report, settings, time.perf_counter() - begin)
 
 
 def build_solution(problem: PanelProblem, positions: np.ndarray, report: "native.SmoothPanelReport",
                    settings: AutomaticSmooth, seconds: float) -> Solution:
     """Builds the solution from what the native press returns for a problem."""
     patch = problem.patch
-    press = read_press(problem, positions, report)
     live_optimizer.refuse_closed(patch.name, int(patch.faces.sum()), report.region.closed)
     summary = summarize(report, seconds)
     unevenness = report.unevenness_before, report.unevenness_after if report.applied else report.unevenness_before
@@ -125,15 +128,17 @@ def build_solution(problem: PanelProblem, positions: np.ndarray, report: "native
     scores = report.score_before, report.score_after if report.applied else report.score_before
     shifts, turns = np.mean([[(score.shift, score.turn) for score in each] for each in scores], axis=1).T.tolist()
     notes = (note for note in report.region.notes if note.kind != "unseen")  # lights are reported by their names
-    return Solution(patch, press.positions, summary, None, press.line_deviation, *lacks, report.length, *shifts,
+    return Solution(patch, read_own(problem, positions), summary, None,
+                    read_on_triangles(problem, report.line_deviation), *lacks, report.length, *shifts,
                     choose_notes(problem, report, settings.light_set), report.length,
-                    automatic_limit=0.0 if settings.limit else report.limit, cage_move=press.cage_move,
+                    automatic_limit=0.0 if settings.limit else report.limit,
+                    cage_move=report.largest_control_move if problem.is_cage else 0.0,
                     turn_before=turns[0], turn_after=turns[1],
                     kept=(*remarks.describe_marked_creases(patch), *word_notes(notes)),
                     healed=Healed(report.healed.area, report.healed.worst_before, report.healed.worst_after),
                     worse=find_worse(problem, settings, report), longer_waves=report.longer_waves,
                     flush=(report.flush_before, report.flush_after),
-                    verdict=press.verdict)
+                    verdict=read_on_triangles(problem, report.verdict))
 
 
 def find_worse(problem: PanelProblem, settings: AutomaticSmooth,

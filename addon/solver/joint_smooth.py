@@ -1,16 +1,16 @@
 """The automatic press of Smooth for several patches that face each other across gaps: one problem."""
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from .. import native
 from ..model.patch import Patch
 from ..model.solution import Solution
 from ..model.view import View
 from ..native_call import call
-from .automatic_smooth import AutomaticSmooth, build_solution
+from .automatic_smooth import AutomaticSmooth, KeptPress, build_solution
 from .build_native import build_joint_panel
-from .panel_problem import PanelProblem, pose_problem
+from .panel_problem import pose_problem
 
 
 def can_join(patch: Patch, settings: AutomaticSmooth) -> bool:
@@ -27,31 +27,16 @@ def show_to_others(patches: Sequence[Patch], settings: AutomaticSmooth) -> list[
             for patch in patches]
 
 
-@dataclass(frozen=True)
-class KeptJoint:
-    """A native smoother of several patches with what it was built from."""
-    problems: tuple[PanelProblem, ...]
-    border: str
-    settings: AutomaticSmooth  # of the first press
-    smoother: "native.JointSmoother"
-
-    def suits(self, patches: Sequence[Patch], views: Sequence[View], border: str, settings: AutomaticSmooth) -> bool:
-        """Returns whether the smoother serves these patches, views, border and settings."""
-        return (self.border == border and self.settings.find_same(settings) and len(self.problems) == len(patches)
-                and all(own.patch.same(patch) and own.patch.name == patch.name and own.view.has_same_light(view)
-                        for own, patch, view in zip(self.problems, patches, views, strict=True)))
-
-
 async def build_joint(patches: Sequence[Patch], views: Sequence[View], border: str,
-                      settings: AutomaticSmooth) -> KeptJoint:
+                      settings: AutomaticSmooth) -> KeptPress:
     """Builds the native smoother of patches; raises the native module's errors."""
     problems = tuple(map(pose_problem, patches, views))
     panels = [build_joint_panel(problem, border, settings.choose_joining(problem.patch)) for problem in problems]
     smoother = await call(native.reflines.JointSmoother.create, panels)
-    return KeptJoint(problems, border, settings, smoother)
+    return KeptPress(problems, border, settings, smoother)
 
 
-async def press_joint(kept: KeptJoint, settings: AutomaticSmooth,
+async def press_joint(kept: KeptPress, settings: AutomaticSmooth,
                       progress: "native.Progress | None" = None) -> list[Solution]:
     """Presses all patches once; raises the native module's errors. The time reported is that of all."""
     begin = time.perf_counter()

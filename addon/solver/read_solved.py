@@ -1,8 +1,6 @@
 """The results of a panel's problem as arrays of its patch: positions, lines, residuals and verdicts; and the way back,
 from values of the patch to those of the optimizer's vertices and triangles.
 """
-from dataclasses import dataclass
-
 import numpy as np
 
 from .. import native
@@ -11,15 +9,6 @@ from ..model.line_surface import LineState
 from ..native_call import call
 from ..targets import mirror_target
 from .panel_problem import PanelProblem, spread
-
-
-@dataclass(frozen=True)
-class Press:
-    """The result of an automatic press of Smooth, as arrays of the patch."""
-    positions: np.ndarray       # #V x 3, world space
-    line_deviation: np.ndarray  # #F, radians / length: how far theta is from its smoothed self
-    verdict: np.ndarray         # #F, see native.SmoothPanelReport
-    cage_move: float = 0.0  # largest move of a cage's vertices, which is more than its surface's
 
 
 def read_own(problem: PanelProblem, positions: np.ndarray) -> np.ndarray:
@@ -50,24 +39,17 @@ def read_residual(problem: PanelProblem, optimizer: "native.ShapeOptimizer", res
     square over the surface of each face, for all triangles of that face.
     """
     if not problem.is_cage:
-        return residual[:len(problem.patch.F)]
+        return read_on_triangles(problem, residual)
     faces = len(problem.patch.cage.sizes)
     squared, area = (np.bincount(optimizer.parent, values, faces)
                      for values in (optimizer.area * residual**2, optimizer.area))
-    return repeat_on_triangles(problem, np.sqrt(squared / np.maximum(area, 1e-300)))
+    return read_on_triangles(problem, np.sqrt(squared / np.maximum(area, 1e-300)))
 
 
-def read_press(problem: PanelProblem, positions: np.ndarray, report: "native.SmoothPanelReport") -> Press:
-    """Converts what the native smoother returns to arrays of the patch."""
-    deviation, verdict, own = report.line_deviation, report.verdict, len(problem.patch.F)
-    if problem.is_cage:
-        return Press(read_own(problem, positions), repeat_on_triangles(problem, deviation),
-                     repeat_on_triangles(problem, verdict), report.largest_control_move)
-    return Press(read_own(problem, positions), deviation[:own], verdict[:own])
-
-
-def repeat_on_triangles(problem: PanelProblem, values: np.ndarray) -> np.ndarray:
-    """Returns the values of the cage's faces (#faces) for the patch's triangles: #F."""
+def read_on_triangles(problem: PanelProblem, values: np.ndarray) -> np.ndarray:
+    """Returns for the patch's triangles (#F) the values of all that are solved, or of the cage's faces (#faces)."""
+    if not problem.is_cage:
+        return values[:len(problem.patch.F)]
     own = np.flatnonzero(problem.patch.faces)
     return np.repeat(values[own], problem.patch.cage.sizes[own] - 2)
 

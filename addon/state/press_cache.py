@@ -2,7 +2,6 @@
 the first press found. It can be rebuilt at any time from the mesh and the properties.
 """
 from collections.abc import Awaitable, Callable, Collection, Sequence
-from dataclasses import replace
 from typing import TypeVar
 
 from .. import native
@@ -13,14 +12,12 @@ from ..model.solution import Solution
 from ..model.view import View
 from ..solver import automatic_smooth, joint_smooth, live_optimizer
 from ..solver.automatic_smooth import AutomaticSmooth, KeptPress
-from ..solver.joint_smooth import KeptJoint
-from ..solver.panel_problem import pose_problem
 
 Pressed = TypeVar("Pressed")
 PressOnce = Callable[[KeptPress, AutomaticSmooth, "native.Progress | None"], Awaitable[Pressed]]
 
 _presses: dict[str, KeptPress] = {}  # by the name of the object
-_joint: list[KeptJoint] = []  # the last press of several objects, or none
+_joint: list[KeptPress] = []  # the last press of several objects, or none
 
 
 async def press_with_cache(press: PressOnce[Pressed], patch: Patch, seen: View, border: str, settings: AutomaticSmooth,
@@ -30,9 +27,8 @@ async def press_with_cache(press: PressOnce[Pressed], patch: Patch, seen: View, 
     """
     with live_optimizer.convert_native_errors(patch):
         kept = _presses.pop(patch.name, None)  # nobody else takes it meanwhile
-        if kept is not None and kept.suits(patch, seen, border, settings):
-            # The way back to the mesh may differ, such as the shape key.
-            kept = replace(kept, problem=pose_problem(patch, kept.problem.view))
+        if kept is not None and kept.suits([patch], [seen], border, settings):
+            kept = kept.go_back_to([patch])
         else:
             kept = await automatic_smooth.build_press(patch, seen, border, settings)
         pressed = await press(kept, settings, progress)
@@ -76,7 +72,7 @@ async def smooth_jointly(all_patches: Sequence[Patch], all_views: Sequence[View]
     try:
         if kept is None or not kept.suits(patches, views, border, settings):
             kept = await joint_smooth.build_joint(patches, views, border, settings)
-        kept = replace(kept, problems=tuple(map(pose_problem, patches, views)))
+        kept = kept.go_back_to(patches)
         solutions = await joint_smooth.press_joint(kept, settings, progress)
     except (native.InvalidInput, native.SolverFailure, Refusal):
         return {}

@@ -27,12 +27,12 @@ class VIEW3D_PT_reflines_check(ReflinesPanel, bpy.types.Panel):
             if row.shut_line:
                 continue
             change = row.change if check.compared else "better" if row.passes else "worse"
-            line = layout.column(align=True)
-            line.alert = change == "worse"
-            draw_paragraph(line, context, row.describe(compared=check.compared), ICONS.get(change, 'DOT'))
+            self.draw_line(layout, context, row.describe(compared=check.compared), change)
         for shut_line in check.list_shut_lines():
-            change = shut_line.find_change(compared=check.compared)
-            line = layout.column(align=True)
-            line.alert = change == "worse"
-            draw_paragraph(line, context, shut_line.describe(), ICONS[change])
+            self.draw_line(layout, context, shut_line.describe(), shut_line.find_change(compared=check.compared))
         layout.operator("reflines.export_table", icon='EXPORT')
+
+    def draw_line(self, layout: bpy.types.UILayout, context: bpy.types.Context, text: str, change: str) -> None:
+        line = layout.column(align=True)
+        line.alert = change == "worse"
+        draw_paragraph(line, context, text, ICONS.get(change, 'DOT'))

@@ -87,9 +87,5 @@ class ReflinesStripes(bpy.types.PropertyGroup):
     def freeze_if_asked(self, context: bpy.types.Context) -> None:
         region_3d = getattr(context.space_data, "region_3d", None)
         if self.eye == 'FROZEN' and region_3d is not None:
-            self.freeze(region_3d)
-
-    def freeze(self, region_3d: bpy.types.RegionView3D) -> None:
-        back = region_3d.view_matrix.inverted_safe()
-        perspective = region_3d.is_perspective
-        self.frozen_eye = (*(back.translation if perspective else back.col[2].to_3d()), float(perspective))
+            back, perspective = region_3d.view_matrix.inverted_safe(), region_3d.is_perspective
+            self.frozen_eye = (*(back.translation if perspective else back.col[2].to_3d()), float(perspective))
