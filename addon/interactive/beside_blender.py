@@ -1,9 +1,11 @@
 """The modal part of operators whose work is done in short steps beside Blender. Esc ends it."""
 from dataclasses import dataclass
-from typing import Generic, Protocol, TypeVar
+from typing import Generic, TypeVar
 
 import bpy
 import numpy as np
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ExportHelper
 from mathutils import Matrix
 
 from ..model.refusal import Refusal, report_refusals
@@ -17,20 +19,24 @@ TICK_INTERVAL = 0.02  # seconds between two steps
 Outcome = TypeVar("Outcome")
 
 
-class Job(Protocol[Outcome]):
-    """The interface of work that is done in steps."""
+class Job(Generic[Outcome]):
+    """Work that is done in steps."""
 
     def advance(self) -> Outcome | None:
         """Does a step; returns the outcome once. Raises Refusal and OSError."""
+        raise NotImplementedError
 
     def is_reading(self) -> bool:
         """Returns whether Blender's data is still being read, which must not change meanwhile."""
+        return False
 
     def describe(self) -> str:
         """Describes what is being done, for the status bar."""
+        raise NotImplementedError
 
     def stop(self) -> None:
         """Ends the work without an outcome."""
+        raise NotImplementedError
 
 
 class BesideBlender(running_operators.RunningOperator, Generic[Outcome]):
@@ -160,15 +166,12 @@ class PanelWork(BesideBlender[Outcome]):
         return {'FINISHED'}
 
 
-class FileWork:
+class FileWork(Job["FileWork"]):
     """Work on a file; its first step, which reads, is done at once."""
     steps: Steps[None]
 
     def write(self, context: bpy.types.Context) -> Steps[None]:
         """Reads the panel as it is in the first step, and writes; raises Refusal and OSError."""
-        raise NotImplementedError
-
-    def describe(self) -> str:
         raise NotImplementedError
 
     def describe_written(self) -> str:
@@ -181,16 +184,15 @@ class FileWork:
         except StopIteration:
             return self
 
-    def is_reading(self) -> bool:
-        return False
-
     def stop(self) -> None:
         """Ends the work; files that are written stay."""
         self.steps.close()
 
 
-class FileExport(BesideBlender[FileWork]):
-    """An operator that writes files once their name is chosen; at once where there is no window."""
+class FileExport(BesideBlender[FileWork], ExportHelper):
+    """An operator that writes pictures once their name is chosen; at once where there is no window."""
+    filename_ext = ".png"
+    filter_glob: StringProperty(default="*.png", options={'HIDDEN'})
 
     def write_file(self, context: bpy.types.Context, work: FileWork) -> set[str]:
         """Begins to write; raises Refusal and OSError."""

@@ -14,6 +14,7 @@ from ..model.surface import CheckedSurface
 from ..solver import live_optimizer, panel_check, shut_lines
 from ..solver.panel_check import Checked, Marks
 from ..solver.shut_lines import ShutLineMarks
+from .beside_blender import Job
 
 READING_TIME = 0.02  # seconds at a time, up to the end of a step
 
@@ -40,7 +41,7 @@ class CheckOutcome:
     own: Sequence[TableRow]  # the lines of the table that tell of the last run
 
 
-class CheckJob:
+class CheckJob(Job["CheckOutcome | Refusal"]):
     """The work on one check, and how far it is."""
 
     def __init__(self, reading: Steps[CheckInput]) -> None:
@@ -51,7 +52,6 @@ class CheckJob:
         self._work = BackgroundWork(self.run)
 
     def is_reading(self) -> bool:
-        """Returns whether Blender's data is still being read, which must not change meanwhile."""
         return self._reading is not None
 
     def advance(self) -> CheckOutcome | Refusal | None:
@@ -80,7 +80,6 @@ class CheckJob:
         self.stage = stage
 
     def describe(self) -> str:
-        """Describes what is being done, for the status bar."""
         return f"Checking: {self.stage}   Esc: cancel"
 
     def stop(self) -> None:

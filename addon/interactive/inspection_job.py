@@ -5,9 +5,10 @@ from ..model.inspection import Inspection
 from ..model.refusal import Refusal
 from ..solver import live_optimizer, panel_inspection
 from ..solver.panel_inspection import Inspected
+from .beside_blender import Job
 
 
-class InspectionJob:
+class InspectionJob(Job[Inspection | Refusal]):
     """The work on one inspection, and how far it is."""
 
     def __init__(self, wanted: Inspected) -> None:
@@ -30,12 +31,8 @@ class InspectionJob:
             return Refusal("The inspection stopped: nothing was found")
         return outcome
 
-    def is_reading(self) -> bool:
-        return False
-
     def stop(self) -> None:
         self.work.stop()
 
     def describe(self) -> str:
-        """Describes how far the work is, for the status bar."""
         return f"Inspecting: {self.progress.stage}, {self.progress.fraction:.0%}   Esc: cancel"

@@ -22,21 +22,6 @@ def settle_border(border: str, *, joined: bool) -> str:
     return border if border != AUTOMATIC else "follow" if joined else "clamped"
 
 
-def needs_surroundings(border: str | np.ndarray) -> bool:
-    """Returns whether a border, or one of its codes, takes its curvature, or more, from the faces around the region."""
-    codes = CODES[border] if isinstance(border, str) else border
+def needs_surroundings(codes: np.ndarray) -> bool:
+    """Returns whether one of the codes takes its curvature, or more, from the faces around the region."""
     return bool(np.isin(codes, (CODES["curvature"], CODES["flow"])).any())
-
-
-def fill_border(own: np.ndarray, border: str) -> str | np.ndarray:
-    """Returns the border as the native module takes it: the name where no vertex has a code of its own (#V), else the
-    codes, with the name's for the others.
-    """
-    return np.where(own == UNSET, CODES[border], own) if (own != UNSET).any() else border
-
-
-def clamp_instead(border: str | np.ndarray) -> str | np.ndarray:
-    """Returns the border, or its codes, clamped where it would follow its neighbours."""
-    if isinstance(border, str):
-        return "clamped" if border == "follow" else border
-    return np.where(border == CODES["follow"], CODES["clamped"], border)

@@ -4,8 +4,7 @@ from math import radians
 from pathlib import Path
 
 import bpy
-from bpy.props import EnumProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper
+from bpy.props import EnumProperty
 
 from ..interactive import read_picture
 from ..interactive.beside_blender import FileExport, FileWork
@@ -24,14 +23,12 @@ KINDS = (
 )
 
 
-class REFLINES_OT_export_film(FileExport, ExportHelper, bpy.types.Operator):
+class REFLINES_OT_export_film(FileExport, bpy.types.Operator):
     """Write a film of the panel with its stripes as one PNG a frame: the light turns, or the view walks around. Esc
 ends it early"""
     bl_idname = "reflines.export_film"
     bl_label = "Export Film"
 
-    filename_ext = ".png"
-    filter_glob: StringProperty(default="*.png", options={'HIDDEN'})
     kind: EnumProperty(name="Film", items=KINDS, default='LIGHT', description="What moves")
 
     @classmethod

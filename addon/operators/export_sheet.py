@@ -4,8 +4,6 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from bpy.props import StringProperty
-from bpy_extras.io_utils import ExportHelper
 
 from ..blender import units
 from ..interactive import read_picture
@@ -23,14 +21,11 @@ from ..write.png import encode_png
 ROOM = 1.12  # of the picture to the panel's extent
 
 
-class REFLINES_OT_export_sheet(FileExport, ExportHelper, bpy.types.Operator):
+class REFLINES_OT_export_sheet(FileExport, bpy.types.Operator):
     """Write the last inspection as one page for others: the panel with its stripes and numbered spots, a table, and the
 worst spots from near, each in the light that shows it. Esc cancels"""
     bl_idname = "reflines.export_sheet"
     bl_label = "Export Sheet"
-
-    filename_ext = ".png"
-    filter_glob: StringProperty(default="*.png", options={'HIDDEN'})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -26,7 +26,7 @@ of selected faces it is set at their rim"""
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         cls.poll_message_set("Select edges or vertices of a panel's border in Edit Mode")
-        return scene_objects.has_edited_selection(context, "total_vert_sel")
+        return scene_objects.has_selected_vertices(context)
 
     @report_refusals
     def execute(self, context: bpy.types.Context) -> set[str]:

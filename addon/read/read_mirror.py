@@ -19,9 +19,8 @@ def read_mirror(ob: bpy.types.Object, local: np.ndarray) -> Mirror | None:
         axes = [axis for axis in range(3) if first.use_axis[axis]]
         merged = first.merge_threshold / 2.0 if first.use_mirror_merge else 0.0
         seam = np.any([find_modifier_seam(ob, modifier, local) for modifier in mirrors], axis=0)
-        alone = len(mirrors) == len(axes) == 1 and shown[0] == first and not any(first.use_bisect_axis) \
-            and first.mirror_object is None
         one_plane = len(mirrors) == len(axes) == 1 and not any(first.use_bisect_axis)
+        alone = one_plane and shown[0] == first and first.mirror_object is None
         return Mirror(axes[0] if alone else -1, np.where(seam, np.arange(len(local)), -1), True, merged,
                       find_reflection(ob, first) if one_plane else None)
     return Mirror(0, mirror.find_pairs(local, 0), False) if ob.data.use_mirror_x else None

@@ -89,14 +89,11 @@ def list_edited_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
     return list({ob.data: ob for ob in context.view_layer.objects if ob.mode == 'EDIT' and ob.type == 'MESH'}.values())
 
 
-def has_edited_selection(context: bpy.types.Context, count: str) -> bool:
-    """Returns whether the active mesh is in Edit Mode and one of the edited meshes has a selection; `count` is the
-    property of a mesh that tells of how many elements.
-    """
+def has_selected_vertices(context: bpy.types.Context) -> bool:
+    """Returns whether the active mesh is in Edit Mode and one of the edited meshes has selected vertices."""
     ob = read_active_object(context)
-    if ob is None or ob.type != 'MESH' or ob.mode != 'EDIT':
-        return False
-    return getattr(ob.data, count) > 0 or any(getattr(each.data, count) > 0 for each in list_edited_meshes(context))
+    return ob is not None and ob.type == 'MESH' and ob.mode == 'EDIT' and (
+        ob.data.total_vert_sel > 0 or any(each.data.total_vert_sel > 0 for each in list_edited_meshes(context)))
 
 
 def describe_empty_selection(editing: list[bpy.types.Object]) -> str:

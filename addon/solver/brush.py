@@ -9,7 +9,7 @@ from ..model.border import CODES
 from ..model.patch import Patch
 from ..model.view import View
 from . import live_optimizer
-from .panel_problem import fill_codes, pose_alone, pose_problem
+from .panel_problem import choose_border, pose_alone, pose_problem
 
 CONTEXT, FEWEST_EDGES = 0.25, 4.0  # of the radius, and mean edges: what the filter sees beyond the circle
 FEWEST_FREE = 8  # vertices within a circle that can be smoothed
@@ -108,7 +108,7 @@ class BrushedPatch(BrushedRegion):
     def __init__(self, patch: Patch, view: View, border: str) -> None:
         """Takes the border of the region, which holds below the brush, too. A seam of a Mirror modifier is clamped."""
         self.patch, self.view = patch, view
-        self.border = fill_codes(pose_alone(patch, view), border)
+        self.border = choose_border(pose_alone(patch, view), border)
         problem = pose_problem(patch, view)
         super().__init__(patch.V, live_optimizer.compute_image_frame(patch, view), patch.limit_range,
                          None if problem.is_joined else problem.partner)

@@ -9,7 +9,7 @@ from ..model.patch import Patch
 from ..model.view import View
 from . import live_optimizer
 from .brush import TOLERANCE, Brush, BrushedPatch, BrushedRegion, build_dab_target
-from .panel_problem import fill_codes, pose_cage
+from .panel_problem import choose_border, pose_cage
 
 PICK_LEVEL = 1  # of the surface on which the mouse is found
 CONTEXT = 0.8  # of the radius: what the filter sees beyond the circle; with 0.25 moves differ by 4 %, with 0.8 by 0.7 %
@@ -28,7 +28,7 @@ class BrushedCage(BrushedRegion):
         """Takes the border of the region, which holds below the brush, too."""
         problem = pose_cage(patch, view)
         self.patch, self.cage, self.problem = patch, patch.cage, problem
-        self.border = fill_codes(problem, border)
+        self.border = choose_border(problem, border)
         self.region = self.cage.build_arguments(problem.is_symmetric)["region"]
         self.inside = self.cage.find_vertices(self.region)
         partner = np.where(self.cage.partner < 0, np.arange(len(self.cage.V)), self.cage.partner)

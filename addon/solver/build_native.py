@@ -9,19 +9,11 @@ from ..model.cage import Option
 from ..model.joined_cage import JoinedCagePatch
 from ..model.refusal import Refusal
 from ..native_call import call
-from .panel_problem import (
-    PanelProblem,
-    choose_border,
-    fill_codes,
-    find_following,
-    join_beside,
-    join_surroundings,
-    spread,
-)
+from .panel_problem import PanelProblem, choose_border, find_following, join_beside, join_surroundings, spread
 
 # Arguments of reflines.PanelSmoother by their names.
 PressSettings = Mapping[str, "str | float | bool"]
-EdgeArguments = dict[str, "str | np.ndarray | tuple[np.ndarray, np.ndarray] | None"]
+EdgeArguments = dict[str, "np.ndarray | tuple[np.ndarray, np.ndarray] | None"]
 
 
 async def build_optimizer(problem: PanelProblem, border: str, progress: "native.Progress | None", *,
@@ -75,7 +67,7 @@ def choose_cage_press(problem: PanelProblem) -> dict[str, Option | np.ndarray | 
 def build_joint_panel(problem: PanelProblem, border: str, settings: PressSettings) -> "native.JointPanel":
     """Builds the panel of a press of several from a patch that follows what lies beside it; raises the module's errors.
     """
-    codes = np.where(find_following(problem, border), CODES["follow"], fill_codes(problem, border))
+    codes = np.where(find_following(problem, border), CODES["follow"], choose_border(problem, border))
     if problem.is_cage:
         beside = problem.patch.beside
         return native.reflines.JointPanel.for_cage(
@@ -109,7 +101,7 @@ async def choose_press_edges(problem: PanelProblem, border: str, *, fair: bool) 
     follows = find_following(problem, border) & found.followed
     if not follows.any():
         return edges
-    return {"border": np.where(follows, CODES["follow"], fill_codes(problem, border)), "around": (found.V, found.F)}
+    return {"border": np.where(follows, CODES["follow"], choose_border(problem, border)), "around": (found.V, found.F)}
 
 
 def choose_press_mesh(problem: PanelProblem) -> dict[str, np.ndarray | None]:

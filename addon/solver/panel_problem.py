@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .. import native
 from ..model import mirror
 from ..model.beside import Beside
-from ..model.border import CODES, UNSET, clamp_instead, fill_border
+from ..model.border import CODES, UNSET
 from ..model.cage import CagePatch
 from ..model.patch import Patch
 from ..model.surroundings import Surroundings, join_images
@@ -117,17 +118,14 @@ def pose_cage(patch: CagePatch, view: View) -> PanelProblem:
     return PanelProblem(patch, view, cage.V, patch.F, source, border, cage.partner if symmetric else None, sign)
 
 
-def choose_border(problem: PanelProblem, border: str) -> str | np.ndarray:
-    """Returns the border, or its codes vertex by vertex (#V), as the native module takes it: clamped where it would
-    follow its neighbours, which the automatic press of Smooth alone does.
+def choose_border(problem: PanelProblem, border: str) -> np.ndarray:
+    """Returns the border's codes for each vertex of all that is solved (#V), with the given one where a vertex has none
+    of its own: clamped where it would follow its neighbours, which the automatic press of Smooth alone does.
     """
-    return clamp_instead(fill_border(problem.border, border))
-
-
-def fill_codes(problem: PanelProblem, border: str) -> np.ndarray:
-    """Returns the codes of choose_border for each vertex of all that is solved."""
-    codes = choose_border(problem, border)
-    return np.full(len(problem.V), CODES[codes]) if isinstance(codes, str) else codes
+    if border not in CODES:  # a changed file may hold any
+        raise native.InvalidInput(f"There is no border named '{border}'; choose one of {', '.join(sorted(CODES))}.")
+    codes = np.where(problem.border == UNSET, CODES[border], problem.border)
+    return np.where(codes == CODES["follow"], CODES["clamped"], codes)
 
 
 def find_following(problem: PanelProblem, border: str) -> np.ndarray:

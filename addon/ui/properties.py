@@ -113,7 +113,8 @@ class ReflinesReport(bpy.types.PropertyGroup):
             return "Nothing moved"
         held = f" (the limit held {self.limited} vertices back)" if self.limited else ""
         worse = f"; {self.worse}" if self.worse else ""
-        return f"{self.gain()}, moved at most {self.moved(2)}{self.moved_cage()}{held}{worse}"
+        moved = units.format_length(self.largest_move, bpy.context.scene, 2)
+        return f"{self.gain()}, moved at most {moved}{self.moved_cage()}{held}{worse}"
 
     def moved_cage(self) -> str:
         """Says how far the cage's vertices moved, where that is more than their surface."""
@@ -144,9 +145,6 @@ class ReflinesReport(bpy.types.PropertyGroup):
     def measured_length(self) -> str:
         """Says the length at which the line deviation was measured."""
         return units.format_length(self.length, bpy.context.scene, 3)
-
-    def moved(self, precision: int = 5) -> str:
-        return units.format_length(self.largest_move, bpy.context.scene, precision)
 
 
 def to_json_value(value: object) -> object:
