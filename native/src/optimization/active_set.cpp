@@ -30,6 +30,7 @@ Contacts list_contacts(const Sides& held, const Sides& always) {
 
 ActiveSet::ActiveSet(const RowLimits& limits, Workspace& workspace, Progress* progress)
     : limits_(limits), work_(workspace), progress_(progress) {
+  work_.held_factor.hold_functions(!limits.are_bounds());
   if (!limits.are_bounds()) return;
   narrow_ = limits.narrow(0.0);
   if (work_.held.size() == narrow_->held.size()) contacts_ = list_contacts(work_.held, narrow_->held);
@@ -67,7 +68,6 @@ Vector ActiveSet::find_ways(const Bounds& room) {
 
 std::optional<Vector> ActiveSet::lead_on(double left, QuasiNewtonMemory* memory) {
   const Bounds room = this->room();
-  ContactQuadratic quadratic = contact_quadratic();
   const Vector change = find_ways(room);
   const bool bounds = limits_.are_bounds();
   if (!all_press_ || (bounds && !contacts_keep_)) return {};
@@ -76,7 +76,7 @@ std::optional<Vector> ActiveSet::lead_on(double left, QuasiNewtonMemory* memory)
   if (bounds)
     work_.held_factor.solve(d);
   else
-    d = quadratic.step_along(contacts_, -d, change, 0.25 * narrow_->tolerance);
+    d = contact_quadratic().step_along(contacts_, -d, change, 0.25 * narrow_->tolerance);
   if (memory != nullptr) memory->after_solve(d);
   const Vector reached = narrow_->values(d);
   const double beyond = (reached - room.high).cwiseMax(room.low - reached).maxCoeff();
@@ -93,7 +93,7 @@ Vector ActiveSet::solve_model(double wanted) {
   Vector d;
   if (anew) d = search_contacts(room, wanted);
   if (work_.many_contacts)
-    d = limits_.are_bounds() ? eliminate_contacts(room, wanted, anew ? &d : nullptr) : solve_from_inside(room, wanted);
+    d = limits_.are_bounds() ? eliminate_contacts(room, wanted, anew, d) : solve_from_inside(room, wanted);
   find_ways(room);
   const Vector end = narrow_->end_step(work_.x, d);
   return limits_.are_bounds() ? narrow_->range.nearest(end, contacts_) : end;
@@ -113,12 +113,12 @@ Vector ActiveSet::search_contacts(const Bounds& room, double wanted) {
   return std::move(minimum.d);
 }
 
-// Determines the contacts of bounds where there are many, from d on, or from those of the last time.
-Vector ActiveSet::eliminate_contacts(const Bounds& room, double wanted, const Vector* d) {
+// Determines the contacts of bounds where there are many, anew from d on, or from those of the last time.
+Vector ActiveSet::eliminate_contacts(const Bounds& room, double wanted, bool anew, const Vector& d) {
   const QuadraticModel model{work_.matrix, work_.gradient};
-  BoundedQuadratic quadratic(model, room, wanted, work_.held_factor, progress_);
-  BoundedQuadratic::Minimum minimum =
-      quadratic.minimize(d != nullptr ? quadratic.estimate_held(*d) : std::move(work_.held));
+  if (anew) work_.held.clear();
+  BoundedMinimum minimum =
+      minimize_bounded(model, room, wanted, std::move(work_.held), d, work_.held_factor, progress_);
   work_.held = std::move(minimum.held);
   contacts_ = list_contacts(work_.held, narrow_->held);
   return std::move(minimum.d);
@@ -131,8 +131,8 @@ Vector ActiveSet::solve_from_inside(const Bounds& room, double wanted) {
     return bound.array().isFinite().select(bound.array().abs(), 0.0).maxCoeff();
   };
   const double extent = std::max({largest(room.low), largest(room.high), narrow_->tolerance});
-  const InteriorPoint::Minimum minimum =
-      InteriorPoint(model, limits, extent, work_.held_factor, progress_).minimize(0.5 * narrow_->tolerance, wanted);
+  const InteriorMinimum minimum =
+      minimize_from_inside(model, limits, extent, 0.5 * narrow_->tolerance, wanted, work_.held_factor, progress_);
   const Vector reached = narrow_->rows.transpose() * minimum.d;
   contacts_.clear();
   std::vector<double> forces;

@@ -14,8 +14,9 @@
 namespace reflines {
 
 // The limits of one run at the point and with the matrix of its Workspace, where the set of bounds stays for the next
-// run. ContactQuadratic finds few contacts. Many are eliminated where they are single unknowns (BoundedQuadratic); else
-// every step is one of InteriorPoint with a new matrix. Steps end within bounds to the last bit, and contacts at them.
+// run. ContactQuadratic finds few contacts. Many are eliminated where they are single unknowns (minimize_bounded); else
+// every step is one of minimize_from_inside with a new matrix. Steps end within bounds to the last bit, and contacts at
+// them.
 class ActiveSet {
  public:
   // Takes what outlives it; `progress` may be null.
@@ -56,7 +57,7 @@ class ActiveSet {
   Vector find_ways(const Bounds& room);
   void take_off_forces();
   Vector search_contacts(const Bounds& room, double wanted);
-  Vector eliminate_contacts(const Bounds& room, double wanted, const Vector* d);
+  Vector eliminate_contacts(const Bounds& room, double wanted, bool anew, const Vector& d);
   Vector solve_from_inside(const Bounds& room, double wanted);
 
   const RowLimits& limits_;
@@ -64,7 +65,7 @@ class ActiveSet {
   Progress* progress_;
   std::optional<RowLimits::Narrow> narrow_;  // of bounds, and of others where the free minimum is beyond the limits
   Contacts contacts_;
-  Vector forces_;               // of the contacts that InteriorPoint found
+  Vector forces_;               // of the contacts that minimize_from_inside found
   Vector left_;                 // the gradient without the contacts' forces
   bool all_press_ = true;       // no force has the wrong sign
   bool contacts_keep_ = false;  // the present step moves no contact

@@ -18,8 +18,7 @@ class BorderColumns {
   explicit BorderColumns(LinearSolver& solver) : solver_(solver), has_halves_(solver.has_halves()) {}
 
   void clear();
-  // Columns of functions of many unknowns have dense halves, and are quicker without.
-  void use_halves(bool may);
+  void use_halves(bool may);  // clears where that changes how columns are kept
   int count() const { return static_cast<int>(unknowns_.size()); }
   int find(int unknown) const;  // the unknown's column, or -1
 
@@ -28,7 +27,7 @@ class BorderColumns {
   // Returns the unknowns in an order in which their columns are cheap to add.
   std::vector<int> sort(std::vector<int> unknowns) const { return solver_.sort_by_elimination(std::move(unknowns)); }
 
-  // Adds columns (n x #unknowns). Throws Cancelled, and adds none then.
+  // Adds columns (n x #unknowns). Throws Cancelled, with some of them added.
   void add(const std::vector<int>& unknowns, const SparseMatrix& columns, const Progress* progress);
 
   const Eigen::MatrixXd& products() const { return products_; }  // B^T A^-1 B, m x m
@@ -40,18 +39,14 @@ class BorderColumns {
   Vector respond(const Vector& z);  // A^-1 B z
 
  private:
-  void add_halves(const SparseMatrix& columns, const Progress* progress);
-  void multiply_last_half(Eigen::Index right);
-  void add_whole(const SparseMatrix& columns, const Progress* progress);
-  Vector multiply_transposed(const Vector& x) const;
+  void add_some(const SparseMatrix& columns);
   Vector finish_from(Vector x, const Vector& z);
 
   LinearSolver& solver_;
   bool has_halves_;
   int solves_ = 0;
   std::vector<int> unknowns_;
-  std::vector<SparseMatrix> columns_;  // B, as added
-  std::vector<SparseColumns> halves_;  // L^-1 P B, by blocks, where the solver has halves
+  std::vector<SparseColumns> columns_;  // L^-1 P B where the solver has halves, else B
   Eigen::MatrixXd products_;
   Vector right_, solved_;  // the last right-hand side, and L^-1 P or A^-1 times it
 };

@@ -12,8 +12,8 @@ namespace {
 constexpr int kMaxRounds = 200;
 
 // The contacts, and their fraction of the unknowns, above which the search ends, for the small program takes their
-// cube: of 1,927 unknowns 1,125 contacts take 5.1 s, and InteriorPoint 2.7. Elimination, which bounds have, is quicker
-// sooner.
+// cube: of 1,927 unknowns 1,125 contacts take 5.1 s, and minimize_from_inside 2.7. Elimination, which bounds have, is
+// quicker sooner.
 constexpr double kMostContactFraction = 0.4, kMostHeldFraction = 0.03;
 constexpr size_t kMostContacts = 800, kMostHeld = 256;
 

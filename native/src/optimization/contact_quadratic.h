@@ -22,9 +22,7 @@ class ContactQuadratic {
   // Takes the columns beside a factor of H that leaves out what `limits` hold; both outlive this. `progress` may be
   // null.
   ContactQuadratic(const RowLimits::Narrow& limits, BorderColumns& known, Progress* progress)
-      : limits_(limits), rows_(limits.rows), known_(known), progress_(progress) {
-    known.use_halves(limits.are_bounds);
-  }
+      : limits_(limits), rows_(limits.rows), known_(known), progress_(progress) {}
 
   // Returns d within the tolerance of low <= A d <= high, or within bounds with a projected gradient as wanted; or what
   // it has come to where there are too many contacts for this method. `contacts` is an estimate. Throws Cancelled.

@@ -23,6 +23,10 @@ class HeldFactor {
 
   explicit HeldFactor(LinearSolver& solver) : solver_(solver), border_(solver) {}
 
+  // Tells whether what is held are unknowns, or functions of many of these, whose columns have dense halves, and are
+  // quicker without.
+  void hold_functions(bool functions) { border_.use_halves(!functions); }
+
   // Factors H (lower triangle, analysed by the solver before). Throws Cancelled.
   void factorize(const SparseMatrix& H, const Sides& held, const Progress* progress);
 

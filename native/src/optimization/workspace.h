@@ -26,7 +26,7 @@ struct Workspace {
   SparseMatrix matrix;  // the whole matrix of the model
   Sides held;           // n: unknowns that held_factor holds; empty: the solver's factor is one of the whole matrix
   HeldFactor held_factor{solver};
-  bool many_contacts = false;  // see BoundedQuadratic
+  bool many_contacts = false;  // see minimize_bounded
   int usual_steps = 1;         // of a minimization at whose start the matrix was assembled
   int extra_steps = 0;         // beyond these of each minimization since
 

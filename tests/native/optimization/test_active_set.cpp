@@ -227,7 +227,7 @@ TEST(ActiveSetTest, BothMethodsSolveTheModel) {
   EXPECT_GT(minimum.contacts.size(), 1U);
   const StepLimits range{&limits.rows, limits.range, limits.held};
   const Vector inside =
-      InteriorPoint(quadratic, range, 1.0, factor, nullptr).minimize(limits.tolerance, 1e-9 * gradient.norm()).d;
+      minimize_from_inside(quadratic, range, 1.0, limits.tolerance, 1e-9 * gradient.norm(), factor, nullptr).d;
   EXPECT_LT((inside - d).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LE((modes.transpose() * d).cwiseAbs().maxCoeff(), 0.2);
   EXPECT_LE((modes.transpose() * inside).cwiseAbs().maxCoeff(), 0.2);

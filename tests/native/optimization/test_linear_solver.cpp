@@ -230,11 +230,11 @@ TEST(LinearSolverHalves, SolveForSparseColumnsAlongPathsOfTheTree) {
   LinearSolver solver(LinearSolverKind::kCholmod);
   solver.analyze(matrix);
   solver.factorize(matrix);
-  SparseMatrix B(n, 7);
-  const int rows[] = {0, 7, 8, 800, n - 1};
-  for (int j = 0; j < 5; ++j) B.insert(rows[j], j) = 1.0;
-  for (const int row : {300, 301, 340}) B.insert(row, 5) = 0.1 * row;
-  B.insert(20, 6) = -2.0;
+  SparseMatrix B(n, 11);
+  const int rows[] = {0, 7, 8, 47, 48, 49, 90, 800, n - 1};
+  for (int j = 0; j < 9; ++j) B.insert(rows[j], j) = 1.0;
+  for (const int row : {300, 301, 340}) B.insert(row, 9) = 0.1 * row;
+  B.insert(20, 10) = -2.0;
   Eigen::MatrixXd inverse = B;
   solver.solve(inverse);
 
@@ -242,23 +242,25 @@ TEST(LinearSolverHalves, SolveForSparseColumnsAlongPathsOfTheTree) {
   std::vector<Vector> halves;
   for (const SparseColumns& block : blocks) {
     EXPECT_LT(block.row.size(), n / 2);  // paths, not the tree
-    for (Eigen::Index j = 0; j < block.value.cols(); ++j) {
+    for (int j = 0; j < block.count; ++j) {
       halves.push_back(Vector::Zero(n));
-      block.subtract_product(-Vector::Unit(block.value.cols(), j), halves.back());
+      block.subtract_product(-Vector::Unit(block.count, j), halves.back());
     }
   }
-  ASSERT_EQ(halves.size(), 7);
-  for (int j = 0; j < 7; ++j) {
+  ASSERT_EQ(halves.size(), 11);
+  for (int j = 0; j < 11; ++j) {
     Vector lower = B.col(j);
     solver.solve_lower(lower);
     EXPECT_LT((halves[j] - lower).norm(), 1e-14 * lower.norm());
   }
   Eigen::Index first = 0;
   for (const SparseColumns& block : blocks) {
-    const Eigen::MatrixXd products = blocks[0].transposed_times(block);
-    const Eigen::MatrixXd expected = (B.transpose() * inverse).block(0, first, products.rows(), products.cols());
+    SparseColumns::Rows other = SparseColumns::Rows::Zero(n, SparseColumns::kWidth);
+    other(block.row, Eigen::all) = block.value;
+    const Eigen::MatrixXd products = blocks[0].transposed_times(other).leftCols(block.count);
+    const Eigen::MatrixXd expected = (B.transpose() * inverse).block(0, first, SparseColumns::kWidth, block.count);
     EXPECT_LT((products - expected).norm(), 1e-13 * inverse.norm());
-    first += products.cols();
+    first += block.count;
   }
 }
 

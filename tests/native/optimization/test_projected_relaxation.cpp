@@ -18,6 +18,8 @@ struct Obstacle {
     chain.evaluate(Vector::Zero(kSize), &gradient);
   }
 
+  SparseMatrix whole() const { return H.selfadjointView<Eigen::Lower>(); }
+
   Chain chain{kSize, 0.0};  // its energy is quadratic
   Bounds bounds;
   SparseMatrix H;
@@ -31,7 +33,7 @@ TEST(ProjectedRelaxationTest, EndsAtTheContactsOfTheMinimum) {
     Vector x = Vector::Zero(kSize);
     ASSERT_TRUE(Minimizer().minimize(obstacle.chain, obstacle.bounds, x).converged());
     const Sides held =
-        ProjectedRelaxation(model, obstacle.bounds, nullptr).estimate_held(obstacle.chain.wave(1.0), 20000);
+        relax_contacts(model, obstacle.whole(), obstacle.bounds, obstacle.chain.wave(1.0), 20000, nullptr);
     EXPECT_GT(count_held(held), 0);
     EXPECT_EQ(held, obstacle.bounds.touched_by(x)) << limit;
   }
@@ -41,7 +43,7 @@ TEST(ProjectedRelaxationTest, HoldsPointsAndKeepsWhatIsPressed) {
   Obstacle obstacle(0.5);
   obstacle.bounds.low(3) = obstacle.bounds.high(3) = 0.0;
   const QuadraticModel model{obstacle.H, obstacle.gradient};
-  const Sides held = ProjectedRelaxation(model, obstacle.bounds, nullptr).estimate_held(obstacle.chain.wave(1.0), 1);
+  const Sides held = relax_contacts(model, obstacle.whole(), obstacle.bounds, obstacle.chain.wave(1.0), 1, nullptr);
   EXPECT_EQ(held[3], Side::kLow);
 }
 

@@ -22,9 +22,6 @@ namespace {
 // is likely or memory counts. In a plane straight cuts (see dissection_order) need neither.
 constexpr Eigen::Index kNestedDissection = 300000;
 
-// The number of columns of a sparse right-hand side that are solved together.
-constexpr int kColumnsAtOnce = 4;
-
 // CHOLMOD's order and structure of a supernodal L L^T, with 32-bit indices: they suffice for 2^31 entries of L, about
 // eight million unknowns, and take less memory than 64-bit ones. Its values, and solves for one vector, are computed on
 // all cores (see MultifrontalCholesky).
@@ -114,27 +111,11 @@ class Cholmod final : public LinearBackend {
   }
 
   std::vector<SparseColumns> solve_lower(const SparseMatrix& B) override {
-    const EliminationPaths paths(view_factor());
-    const std::vector<int> place = places();
-    std::vector<SparseColumns> result((B.cols() + kColumnsAtOnce - 1) / kColumnsAtOnce);
-    const auto solve_some = [&](int k, std::vector<int>& scratch) {
-      const int first = k * kColumnsAtOnce, count = std::min(kColumnsAtOnce, static_cast<int>(B.cols()) - first);
-      std::vector<EliminationPaths::Entry> entries;
-      for (int j = 0; j < count; ++j) {
-        for (SparseMatrix::InnerIterator entry(B, first + j); entry; ++entry)
-          entries.push_back({place[entry.row()], j, entry.value()});
-      }
-      result[k] = paths.solve(entries, count, scratch);
-    };
-    ParallelFailure failure;
-#pragma omp parallel if (result.size() > 1)
-    {
-      std::vector<int> scratch;
-      failure.run([&] { scratch.resize(place.size()); });
-#pragma omp for schedule(dynamic)
-      for (int k = 0; k < static_cast<int>(result.size()); ++k) failure.run([&] { solve_some(k, scratch); });
-    }
-    failure.rethrow();
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> to_factor(B.rows());
+    std::ranges::copy(places(), to_factor.indices().begin());
+    std::vector<SparseColumns> result = split_columns(to_factor * B);
+    run_parallel(static_cast<int>(result.size()), 1,
+                 [&](int k) { result[k] = solve_along_paths(view_factor(), multifrontal_->tree(), result[k]); });
     return result;
   }
 

@@ -1,25 +1,42 @@
 #include "optimization/linear/sparse_columns.h"
 
+#include <algorithm>
+#include <map>
+
 namespace reflines {
 
-Eigen::MatrixXd SparseColumns::transposed_times(const SparseColumns& other) const {
-  std::vector<int> here, there;
-  for (size_t i = 0, j = 0; i < row.size() && j < other.row.size();) {
-    if (row[i] == other.row[j]) {
-      here.push_back(static_cast<int>(i++));
-      there.push_back(static_cast<int>(j++));
-    } else if (row[i] < other.row[j]) {
-      ++i;
-    } else {
-      ++j;
-    }
-  }
-  const Eigen::MatrixXd mine = value(here, Eigen::all), others = other.value(there, Eigen::all);
-  return mine.transpose() * others;
+Eigen::Matrix<double, SparseColumns::kWidth, SparseColumns::kWidth> SparseColumns::transposed_times(
+    const Rows& x) const {
+  Eigen::Matrix<double, kWidth, kWidth> result = Eigen::Matrix<double, kWidth, kWidth>::Zero();
+  for (size_t i = 0; i < row.size(); ++i)
+    result.noalias() += value.row(static_cast<Eigen::Index>(i)).transpose() * x.row(row[i]);
+  return result;
 }
 
-Vector SparseColumns::transposed_times(const Vector& x) const { return value.transpose() * x(row); }
+Vector SparseColumns::transposed_times(const Vector& x) const { return value.leftCols(count).transpose() * x(row); }
 
-void SparseColumns::subtract_product(const Vector& z, Vector& x) const { x(row) -= value * z; }
+void SparseColumns::subtract_product(const Eigen::Ref<const Vector>& z, Vector& x) const {
+  x(row) -= value.leftCols(count) * z;
+}
+
+std::vector<SparseColumns> split_columns(const SparseMatrix& columns) {
+  using Row = Eigen::Matrix<double, 1, SparseColumns::kWidth>;
+  std::vector<SparseColumns> result;
+  for (int first = 0; first < columns.cols(); first += SparseColumns::kWidth) {
+    const int count = std::min(SparseColumns::kWidth, static_cast<int>(columns.cols()) - first);
+    std::map<int, Row> rows;
+    for (int j = 0; j < count; ++j) {
+      for (SparseMatrix::InnerIterator entry(columns, first + j); entry; ++entry)
+        rows.try_emplace(static_cast<int>(entry.row()), Row::Zero()).first->second(j) = entry.value();
+    }
+    SparseColumns block{count, {}, SparseColumns::Rows(rows.size(), SparseColumns::kWidth)};
+    for (const auto& [row, value] : rows) {
+      block.value.row(static_cast<Eigen::Index>(block.row.size())) = value;
+      block.row.push_back(row);
+    }
+    result.push_back(std::move(block));
+  }
+  return result;
+}
 
 }  // namespace reflines
