@@ -1,16 +1,15 @@
 #include "optimization/limited_descent.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "optimization/active_set.h"
 #include "optimization/descent.h"
-#include "optimization/wording.h"
+#include "optimization/descent_run.h"
 
 namespace reflines {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // The tolerance of the model's solution relative to the gradient: the energy is no quadratic function.
 constexpr double kModelTolerance = 0.01;
@@ -25,252 +24,194 @@ constexpr double kLeastGain = 0.9;
 // number of steps to the last digits with it.
 constexpr int kStepsPerModel = 5, kStepsAfterModel = 1;
 
-}  // namespace
+class LimitedDescent final : public DescentRun {
+ public:
+  LimitedDescent(const RowLimits& limits, Problem& problem, const MinimizerOptions& options, Progress* progress,
+                 Workspace& workspace)
+      : DescentRun(problem, options, progress, workspace, "projected gradient",
+                   RefactorPolicy(kStepsPerModel, kStepsAfterModel)),
+        active_(limits, workspace, progress),
+        factorizations_before_(workspace.held_factor.factorizations()),
+        solves_before_(workspace.held_factor.solves()) {}
 
-LimitedDescent::LimitedDescent(Problem& problem, ActiveSet& active, const MinimizerOptions& options, Progress* progress,
-                               Workspace& workspace, Report& report)
-    : problem_(problem),
-      active_(active),
-      options_(options),
-      progress_(progress),
-      work_(workspace),
-      report_(report),
-      policy_(kStepsPerModel, kStepsAfterModel),
-      stopping_("projected gradient", gradient_, options, progress, report_) {
-  report_.strategy = options.strategy;
-  report_.linear_solver = workspace.solver.kind();
-  report_.unknowns = problem.size();
-}
-
-void LimitedDescent::run(Vector& x) {
-  const int factorizations = work_.held_factor.factorizations(), solves = work_.held_factor.solves();
-  evaluate_start(x);
-  const bool kept = active_.has_factor(choose_model(options_.strategy));
-  try {
-    if (may_move() && (kept || start_near_free_minimum())) descend();
-  } catch (const Cancelled&) {
-    stopping_.is_cancelled();
+ private:
+  void place_start(const Vector& x) override {
+    work_.x = active_.move_inside(x);
+    report_.put_back = active_.count_beyond(x);
+    moved_ = report_.put_back > 0;
   }
-  finish(x);
-  report_.factorizations += work_.held_factor.factorizations() - factorizations;
-  report_.solves += work_.held_factor.solves() - solves;
-}
 
-void LimitedDescent::descend() {
-  while (!stopping_.is_cancelled() && !gradient_is_small() && !stopping_.iterations_are_used_up()) {
-    if (!choose_destination()) break;
-    if (find_step()) {
-      take_step();
-    } else if (!discard_model()) {
-      break;
-    }
+  double measure_gradient() override { return active_.measure_gradient(); }
+  bool factor_is_kept() const override { return active_.has_factor(model()); }
+
+  bool begin() override {
+    const bool kept = factor_is_kept();
+    return may_move() && (kept || start_near_free_minimum());
   }
-}
 
-double LimitedDescent::evaluate(const Vector& x, Vector& gradient) {
-  ++report_.evaluations;
-  return problem_.evaluate(x, &gradient);
-}
-
-void LimitedDescent::evaluate_start(const Vector& x) {
-  check_start(x.size(), problem_.size());
-  work_.resize(x.size());
-  work_.x = active_.move_inside(x);
-  report_.put_back = active_.count_beyond(x);
-  moved_ = report_.put_back > 0;
-  current_.energy = evaluate(work_.x, work_.gradient);
-  check_start(current_.energy, work_.gradient.norm());
-  gradient_.now = active_.measure_gradient();
-  report_.energy_before = current_.energy;
-  report_.gradient_before = gradient_.now;
-  gradient_.wanted = options_.gradient_tolerance * gradient_.now;
-  if (!active_.has_factor(choose_model(options_.strategy))) return;
-  measure_rounding(work_.rounding_weight);
-  policy_.start(gradient_.now, gradient_.reachable());
-}
-
-bool LimitedDescent::may_move() {
-  if (active_.may_move()) return true;
-  report_.gradient_before = gradient_.now = 0.0;
-  stopping_.stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
-                 "Nothing may move: the limit is 0 at every vertex that could.");
-  return false;
-}
-
-// Starts with the free minimum; returns false where that ends the run.
-bool LimitedDescent::start_near_free_minimum() {
-  const Vector start = work_.x;
-  Vector minimum = start;
-  Report free = Descent(problem_, options_, progress_, work_).run(minimum);
-  free.put_back = report_.put_back;
-  free.evaluations += report_.evaluations;
-  report_ = free;
-  report_.gradient_before = gradient_.now;
-  work_.x = start;
-  if (free.termination == Termination::kCancelled) return false;
-  if (active_.contain(minimum)) {
-    work_.x = minimum;
-    moved_ = true;
-    current_.energy = free.energy_after;
-    gradient_.now = free.gradient_after;
+  bool may_move() {
+    if (active_.may_move()) return true;
+    report_.gradient_before = gradient_.now = 0.0;
+    stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
+         "Nothing may move: the limit is 0 at every vertex that could.");
     return false;
   }
-  stopping_.count_before(std::exchange(report_.iterations, 0));
-  active_.aim_at(minimum);
-  if (!may_move()) return false;
-  start_on_the_way_to(minimum);
-  return true;
-}
 
-// Moves the start towards `minimum`, all unknowns by one factor: without the kinks of a move of each as far as it can.
-void LimitedDescent::start_on_the_way_to(const Vector& minimum) {
-  work_.x = active_.move_inside(work_.x);
-  current_.energy = evaluate(work_.x, work_.gradient);
-  report_.gradient_before = gradient_.now = active_.measure_gradient();
-  gradient_.wanted = options_.gradient_tolerance * gradient_.now;
-  work_.trial = active_.go_towards(minimum, work_.x);
-  const double energy = evaluate(work_.trial, work_.trial_gradient);
-  if (energy < current_.energy) {
-    work_.x.swap(work_.trial);
-    work_.gradient.swap(work_.trial_gradient);
-    current_.energy = energy;
-    moved_ = true;
+  // Starts with the free minimum; returns false where that ends the run.
+  bool start_near_free_minimum() {
+    const Vector start = work_.x;
+    Vector minimum = start;
+    Report free = descend(problem_, minimum, options_, progress_, work_);
+    free.put_back = report_.put_back;
+    free.evaluations += report_.evaluations;
+    report_ = free;
+    report_.gradient_before = gradient_.now;
+    work_.x = start;
+    if (free.termination == Termination::kCancelled) return false;
+    if (active_.contain(minimum)) {
+      work_.x = minimum;
+      moved_ = true;
+      current_.energy = free.energy_after;
+      gradient_.now = free.gradient_after;
+      return false;
+    }
+    steps_before_ = std::exchange(report_.iterations, 0);
+    active_.aim_at(minimum);
+    if (!may_move()) return false;
+    start_on_the_way_to(minimum);
+    return true;
   }
-  gradient_.now = active_.measure_gradient();
-  model_failed_ = true;
-}
 
-bool LimitedDescent::model_is_outdated() const {
-  if (model_failed_ || work_.matrix.rows() != work_.x.size()) return true;
-  if (model_is_fresh()) return false;
-  if (active_.renews_each_step()) return true;
-  switch (options_.strategy) {
-    case Strategy::kAdaptive:
-      return policy_.is_too_slow() || new_model_pays();
-    case Strategy::kLinearized:
-      return assembled_at_ < 0;
-    case Strategy::kGaussNewton:
-    case Strategy::kNewton:
-      break;
+  // Moves the start towards `minimum`, all unknowns by one factor: without the kinks of a move of each as far as it
+  // can.
+  void start_on_the_way_to(const Vector& minimum) {
+    work_.x = active_.move_inside(work_.x);
+    current_.energy = evaluate(work_.x, work_.gradient);
+    report_.gradient_before = gradient_.now = measure_gradient();
+    gradient_.wanted = options_.gradient_tolerance * gradient_.now;
+    work_.trial = active_.go_towards(minimum, work_.x);
+    trial_.energy = evaluate(work_.trial, work_.trial_gradient);
+    if (trial_.energy < current_.energy) accept_trial();
+    failed_ = true;
   }
-  return true;
-}
 
-// Returns whether a new matrix at the start of this run costs no more than the matrix that is kept has cost by now.
-bool LimitedDescent::new_model_pays() const {
-  return assembled_at_ < 0 && report_.iterations == 0 && work_.extra_steps >= kStepsPerModel;
-}
-
-bool LimitedDescent::choose_destination() {
-  if (digits_end_) return stopping_.has_no_progress(), false;
-  if (model_is_outdated()) return renew_model() && solve_model();
-  // The last run's pairs gain less than a solve: where contacts have changed, a step with them is no step to take.
-  if (report_.iterations == 0) return solve_model();
-  return kept_factor_leads_on() || solve_model();
-}
-
-bool LimitedDescent::renew_model() {
-  stopping_.tell("assembling");
-  work_.matrix = problem_.hessian(work_.x, choose_model(options_.strategy));
-  work_.held_factor.forget();
-  renewed_ = new_model_pays();
-  work_.usual_steps = 1;
-  work_.extra_steps = 0;
-  ++report_.assemblies;
-  measure_rounding(problem_.rounding_weight(work_.matrix));
-  report_.analyses += work_.analyze(work_.matrix, problem_, progress_);
-  work_.factored_model = choose_model(options_.strategy);
-  assembled_at_ = report_.iterations;
-  policy_.start(gradient_.now, gradient_.reachable());
-  model_failed_ = false;
-  return !stopping_.is_cancelled() && !gradient_is_small();
-}
-
-void LimitedDescent::measure_rounding(const Vector& weight) {
-  work_.rounding_weight = weight;
-  gradient_.rounding = kEpsilon * weight.cwiseProduct(work_.x).norm();
-}
-
-// Tries a step with the present factor and contacts; returns false where others are needed.
-bool LimitedDescent::kept_factor_leads_on() {
-  stopping_.tell("iterating");
-  std::optional<Vector> end = active_.lead_on(gradient_.now, learns_from_steps() ? &work_.memory : nullptr);
-  if (!end) return false;
-  destination_ = std::move(*end);
-  return true;
-}
-
-// Determines the contacts and the step anew; returns false where these tell that the present point is the minimum.
-bool LimitedDescent::solve_model() {
-  stopping_.tell("factorizing");
-  destination_ = active_.solve_model(std::max(kModelTolerance * gradient_.now, 0.3 * gradient_.wanted));
-  work_.memory.clear();
-  gradient_.now = active_.measure_gradient();
-  return !gradient_is_small();
-}
-
-bool LimitedDescent::find_step() {
-  work_.direction = destination_ - work_.x;
-  current_.slope = work_.gradient.dot(work_.direction);
-  if (!(current_.slope < 0.0)) return false;
-  try_step(1.0);
-  return lowers_energy_enough(current_, trial_) || backtrack(current_, trial_, [this](double step) { try_step(step); });
-}
-
-void LimitedDescent::try_step(double step) {
-  work_.trial = step == 1.0 ? destination_ : active_.keep_inside(work_.x + step * work_.direction);
-  trial_.step = step;
-  trial_.energy = evaluate(work_.trial, work_.trial_gradient);
-  trial_.slope = work_.trial_gradient.dot(work_.direction);
-}
-
-void LimitedDescent::take_step() {
-  if (learns_from_steps()) {
-    const Vector step = work_.trial - work_.x;
-    const Vector change = work_.trial_gradient - work_.gradient;
-    if (active_.keeps_contacts()) work_.memory.learn(step, change);
+  bool choose_step() override {
+    if (!choose_destination()) return false;
+    work_.direction = destination_ - work_.x;
+    current_.slope = work_.gradient.dot(work_.direction);
+    return true;
   }
-  work_.x.swap(work_.trial);
-  work_.gradient.swap(work_.trial_gradient);
-  current_.energy = trial_.energy;
-  const double before = std::exchange(gradient_.now, active_.measure_gradient());
-  policy_.observe(gradient_.now);
-  digits_end_ = active_.renews_each_step() && gradient_.now > kLeastGain * std::exchange(reached_norm_, gradient_.now);
-  model_failed_ = model_is_fresh() && gradient_.now > kTrusted * before;
-  ++report_.iterations;
-  moved_ = true;
-}
 
-bool LimitedDescent::discard_model() {
-  model_failed_ = !model_is_fresh();
-  if (model_failed_) return true;
-  stopping_.has_no_progress();
-  return false;
-}
+  bool choose_destination() {
+    if (digits_end_) return has_no_progress(), false;
+    if (model_is_outdated()) return renew_model() && solve_model();
+    // The last run's pairs gain less than a solve: where contacts have changed, a step with them is no step to take.
+    if (report_.iterations == 0) return solve_model();
+    return kept_factor_leads_on() || solve_model();
+  }
 
-void LimitedDescent::finish(Vector& x) {
-  count_steps();
-  report_.iterations = stopping_.steps();
-  const bool moved = moved_ && report_.termination != Termination::kCancelled;
-  report_.energy_after = moved ? current_.energy : report_.energy_before;
-  report_.gradient_after = moved ? gradient_.now : report_.gradient_before;
-  if (moved) x = work_.x;
-}
+  bool model_is_outdated() const {
+    if (work_.matrix.rows() != work_.x.size() || is_outdated()) return true;
+    return !is_fresh() && (active_.renews_each_step() || new_model_pays());
+  }
 
-// Counts the steps that the matrix has cost beyond the usual ones: a new matrix that saved none is not paid for again.
-void LimitedDescent::count_steps() {
-  const int steps = report_.iterations - std::max(assembled_at_, 0);
-  if (renewed_)
-    work_.usual_steps = std::max(steps, 1);
-  else
-    work_.extra_steps += std::max(steps - work_.usual_steps, 0);
-}
+  // Returns whether a new matrix at the start of this run costs no more than the matrix that is kept has cost by now.
+  bool new_model_pays() const {
+    return assembled_at_ < 0 && report_.iterations == 0 && work_.extra_steps >= kStepsPerModel;
+  }
 
-bool LimitedDescent::gradient_is_small() {
-  const bool small = gradient_.now <= gradient_.wanted && moved_;
-  if (!small && gradient_.now > gradient_.rounding) return false;
-  return stopping_.stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
-                        describe_small_gradient(gradient_.now, gradient_.reachable()));
+  bool renew_model() {
+    work_.held_factor.forget();
+    work_.matrix = assemble();
+    renewed_ = new_model_pays();
+    work_.usual_steps = 1;
+    work_.extra_steps = 0;
+    analyze(work_.matrix);
+    work_.factored_model = model();
+    assembled_at_ = report_.iterations;
+    start_policy();
+    failed_ = false;
+    return !is_cancelled() && !gradient_is_small();
+  }
+
+  // Tries a step with the present factor and contacts; returns false where others are needed.
+  bool kept_factor_leads_on() {
+    tell("iterating");
+    std::optional<Vector> end = active_.lead_on(gradient_.now, learns_from_steps() ? &work_.memory : nullptr);
+    if (!end) return false;
+    destination_ = std::move(*end);
+    return true;
+  }
+
+  // Determines the contacts and the step anew; returns false where these tell that the present point is the minimum.
+  bool solve_model() {
+    tell("factorizing");
+    destination_ = active_.solve_model(std::max(kModelTolerance * gradient_.now, 0.3 * gradient_.wanted));
+    work_.memory.clear();
+    gradient_.now = measure_gradient();
+    return !gradient_is_small();
+  }
+
+  void go(double step) override {
+    work_.trial = step == 1.0 ? destination_ : active_.keep_inside(work_.x + step * work_.direction);
+  }
+
+  bool shortens_steps() const override { return true; }
+  bool renews_failed() const override { return true; }
+
+  bool measure_step() override {
+    work_.direction = work_.trial - work_.x;
+    return active_.keeps_contacts();
+  }
+
+  void take_step() override {
+    const double before = gradient_.now;
+    const bool fresh = is_fresh();
+    DescentRun::take_step();
+    digits_end_ =
+        active_.renews_each_step() && gradient_.now > kLeastGain * std::exchange(reached_norm_, gradient_.now);
+    failed_ = fresh && gradient_.now > kTrusted * before;
+  }
+
+  void finish(Vector& x) override {
+    count_steps();
+    report_.iterations = steps();
+    DescentRun::finish(x);
+    report_.factorizations += work_.held_factor.factorizations() - factorizations_before_;
+    report_.solves += work_.held_factor.solves() - solves_before_;
+  }
+
+  // Counts the steps that the matrix has cost beyond the usual ones: a new matrix that saved none is not paid for
+  // again.
+  void count_steps() {
+    const int steps = report_.iterations - std::max(assembled_at_, 0);
+    if (renewed_)
+      work_.usual_steps = std::max(steps, 1);
+    else
+      work_.extra_steps += std::max(steps - work_.usual_steps, 0);
+  }
+
+  bool gradient_is_small() override {
+    const bool small = gradient_.now <= gradient_.wanted && moved_;
+    if (!small && gradient_.now > gradient_.rounding) return false;
+    return stop(moved_ ? Termination::kConverged : Termination::kAlreadyOptimal,
+                format_sentence("The projected gradient is down to %.3g; %.3g was wanted.", gradient_.now,
+                                gradient_.reachable()));
+  }
+
+  ActiveSet active_;
+  int factorizations_before_, solves_before_;
+  Vector destination_;       // end of a full step
+  bool renewed_ = false;     // the matrix replaces one whose steps have cost as much
+  bool digits_end_ = false;  // a new matrix for each step has not brought the gradient down
+  double reached_norm_ = std::numeric_limits<double>::infinity();  // gradient_.now after the last such step
+};
+
+}  // namespace
+
+Report descend_within(const RowLimits& limits, Problem& problem, Vector& x, const MinimizerOptions& options,
+                      Progress* progress, Workspace& workspace) {
+  return LimitedDescent(limits, problem, options, progress, workspace).run(x);
 }
 
 }  // namespace reflines

@@ -14,8 +14,6 @@ constexpr double kArmijo = 1e-4;
 constexpr double kEnergyRounding = 1e-10;
 constexpr double kSlopeReduction = 0.9;
 
-constexpr int kMaxTrials = 40;  // each at least halves the step, which has vanished after them
-
 }  // namespace
 
 bool lowers_energy_enough(const LinePoint& start, const LinePoint& trial) {
@@ -30,14 +28,6 @@ double shorter_step(const LinePoint& start, const LinePoint& trial) {
   const double excess = trial.energy - start.energy - t * start.slope;  // above the tangent; > 0 for a refused step
   if (!std::isfinite(excess) || !(excess > 0.0)) return 0.1 * t;
   return std::clamp(-start.slope * t * t / (2.0 * excess), 0.1 * t, 0.5 * t);
-}
-
-bool backtrack(const LinePoint& start, const LinePoint& trial, const std::function<void(double)>& try_step) {
-  for (int count = 1; count < kMaxTrials; ++count) {
-    try_step(shorter_step(start, trial));
-    if (lowers_energy_enough(start, trial)) return true;
-  }
-  return false;
 }
 
 }  // namespace reflines

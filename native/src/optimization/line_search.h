@@ -1,8 +1,6 @@
 // The acceptance test and the step reduction of a backtracking line search along a descent direction d.
 #pragma once
 
-#include <functional>
-
 namespace reflines {
 
 // A point of the line search: the energy there and its derivative along the line, g . d.
@@ -19,9 +17,5 @@ bool lowers_energy_enough(const LinePoint& start, const LinePoint& trial);
 // Returns a shorter step after a refused one: the minimum of the parabola through both, between a tenth and a half of
 // it.
 double shorter_step(const LinePoint& start, const LinePoint& trial);
-
-// Tries ever shorter steps by `try_step`, which writes `trial`, until one lowers the energy enough; returns false where
-// none of forty does. The first, which was refused, stands in `trial`.
-bool backtrack(const LinePoint& start, const LinePoint& trial, const std::function<void(double)>& try_step);
 
 }  // namespace reflines

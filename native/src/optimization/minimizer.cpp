@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "optimization/active_set.h"
 #include "optimization/descent.h"
 #include "optimization/limited_descent.h"
 #include "optimization/workspace.h"
@@ -41,18 +40,13 @@ void Minimizer::forget_factor() { workspace_->forget_factor(); }
 
 Report Minimizer::minimize(Problem& problem, Vector& x, const MinimizerOptions& options, Progress* progress) {
   check(options);
-  return measure_time([&] { return Descent(problem, options, progress, *workspace_).run(x); });
+  return measure_time([&] { return descend(problem, x, options, progress, *workspace_); });
 }
 
 Report Minimizer::minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options,
                            Progress* progress) {
   check(options);
-  return measure_time([&] {
-    Report report;
-    ActiveSet active(limits, *workspace_, progress);
-    LimitedDescent(problem, active, options, progress, *workspace_, report).run(x);
-    return report;
-  });
+  return measure_time([&] { return descend_within(limits, problem, x, options, progress, *workspace_); });
 }
 
 }  // namespace reflines
