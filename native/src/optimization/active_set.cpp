@@ -127,10 +127,7 @@ Vector ActiveSet::eliminate_contacts(const Bounds& room, double wanted, bool ane
 Vector ActiveSet::solve_from_inside(const Bounds& room, double wanted) {
   const QuadraticModel model{work_.matrix, work_.gradient};
   const StepLimits limits{&narrow_->rows, room, narrow_->held};
-  const auto largest = [](const Vector& bound) {
-    return bound.array().isFinite().select(bound.array().abs(), 0.0).maxCoeff();
-  };
-  const double extent = std::max({largest(room.low), largest(room.high), narrow_->tolerance});
+  const double extent = std::max({largest_finite(room.low), largest_finite(room.high), narrow_->tolerance});
   const InteriorMinimum minimum =
       minimize_from_inside(model, limits, extent, 0.5 * narrow_->tolerance, wanted, work_.held_factor, progress_);
   const Vector reached = narrow_->rows.transpose() * minimum.d;

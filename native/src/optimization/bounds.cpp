@@ -47,6 +47,10 @@ double Bounds::projected_norm(const Vector& x, const Vector& gradient) const {
   return std::sqrt(squared);
 }
 
+double largest_finite(const Vector& values) {
+  return values.array().isFinite().select(values.array().abs(), 0.0).maxCoeff();
+}
+
 int count_held(const Sides& sides) {
   return static_cast<int>(std::count_if(sides.begin(), sides.end(), [](Side s) { return s != Side::kBetween; }));
 }

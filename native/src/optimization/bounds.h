@@ -37,6 +37,7 @@ struct Bounds {
   double projected_norm(const Vector& x, const Vector& gradient) const;
 };
 
+double largest_finite(const Vector& values);  // by size; 0 where there is none
 int count_held(const Sides& sides);
 int count_changes(const Sides& before, const Sides& after);
 void clear_held(const Sides& held, Vector& x);  // writes 0

@@ -97,7 +97,8 @@ ContactQuadratic::System ContactQuadratic::find_system(Contacts contacts) {
   for (const Contact& contact : contacts) {
     if (known_.find(contact.row) < 0) unknown.push_back(contact.row);
   }
-  if (!unknown.empty()) add_columns(limits_.are_bounds ? known_.sort(std::move(unknown)) : unknown);
+  if (limits_.are_bounds) unknown = known_.sort(std::move(unknown));
+  if (!unknown.empty()) known_.add(unknown, select_columns(rows_, unknown), progress_);
   result.sign.resize(static_cast<Eigen::Index>(contacts.size()));
   for (size_t i = 0; i < contacts.size(); ++i) {
     result.column.push_back(known_.find(contacts[i].row));
@@ -106,18 +107,6 @@ ContactQuadratic::System ContactQuadratic::find_system(Contacts contacts) {
   result.S = result.sign.asDiagonal() * known_.products()(result.column, result.column) * result.sign.asDiagonal();
   result.contacts = std::move(contacts);
   return result;
-}
-
-void ContactQuadratic::add_columns(const std::vector<int>& rows) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (size_t j = 0; j < rows.size(); ++j) {
-    for (SparseMatrix::InnerIterator entry(rows_, rows[j]); entry; ++entry) {
-      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(j), entry.value());
-    }
-  }
-  SparseMatrix columns(rows_.rows(), static_cast<Eigen::Index>(rows.size()));
-  columns.setFromTriplets(entries.begin(), entries.end());
-  known_.add(rows, columns, progress_);
 }
 
 // Returns how far the free minimum moves the contacts' functions into their range.

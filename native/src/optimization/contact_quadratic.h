@@ -57,7 +57,6 @@ class ContactQuadratic {
   size_t most_contacts() const;
   Minimum let_go(const Vector& gradient, const Bounds& range, double tolerance, const Contacts& contacts);
   System find_system(Contacts contacts);
-  void add_columns(const std::vector<int>& rows);
   Vector free_changes(const System& system, const Vector& gradient);
   Vector changes(const System& system, const Vector& d) const;
   Vector border(const System& system, const Vector& forces) const;

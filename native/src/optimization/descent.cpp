@@ -114,8 +114,8 @@ class Descent final : public DescentRun {
 
   void go(double step) override { work_.trial.noalias() = work_.x + step * work_.direction; }
 
-  // Where a full step with an old factor is refused, the factor is wrong at this point, and a shorter step would make
-  // little progress: the search fails at once.
+  // Returns false for an old factor, which is wrong at a point where it leads to a refused step: a shorter one would
+  // make little progress.
   bool shortens_steps() const override { return is_fresh() || !learns_from_steps(); }
   bool renews_failed() const override { return learns_from_steps(); }
 

@@ -60,7 +60,7 @@ class DescentRun {
   bool is_fresh() const { return assembled_at_ == report_.iterations; }
   int steps() const { return steps_before_ + report_.iterations; }
 
-  // Each test that holds writes Report::termination and its sentence, and returns true.
+  // These are stopping tests: each that holds writes Report::termination and its sentence, and returns true.
   bool is_cancelled();
   bool iterations_are_used_up();
   bool has_no_progress();  // no test: no step lowers the energy

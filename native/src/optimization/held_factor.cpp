@@ -1,5 +1,6 @@
 #include "optimization/held_factor.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace reflines {
@@ -22,8 +23,7 @@ void HeldFactor::factorize(const SparseMatrix& H, const Sides& held, const Progr
 void HeldFactor::forget() {
   is_current_ = false;
   differences_ = {};
-  contact_column_.clear();
-  released_column_.clear();
+  column_.clear();
   border_.clear();
 }
 
@@ -90,53 +90,36 @@ SparseMatrix HeldFactor::make_columns(const SparseMatrix& H, const std::vector<i
   return columns;
 }
 
-Eigen::MatrixXd HeldFactor::select_block(const SparseMatrix& H, const std::vector<int>& unknowns) const {
-  const auto count = static_cast<Eigen::Index>(unknowns.size());
-  Eigen::MatrixXd block(count, count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    for (Eigen::Index i = j; i < count; ++i) block(i, j) = block(j, i) = H.coeff(unknowns[i], unknowns[j]);
-  }
-  return block;
-}
-
+// Factors the equations of forces and moves: their blocks are those of the products, less H_RR for the moves.
 void HeldFactor::factorize_schur_complement(const SparseMatrix& H) {
-  const auto places = [this](const std::vector<int>& unknowns) {
-    std::vector<int> result;
-    for (const int k : unknowns) result.push_back(border_.find(k));
-    return result;
-  };
-  contact_column_ = places(differences_.contacts);
-  released_column_ = places(differences_.released);
-  const Eigen::MatrixXd& products = border_.products();
-  of_contacts_.compute(products(contact_column_, contact_column_));
-  if (released_column_.empty()) return;
-  coupling_ = products(contact_column_, released_column_);
-  of_released_.compute(select_block(H, differences_.released) - products(released_column_, released_column_) +
-                       coupling_.transpose() * of_contacts_.solve(coupling_));
+  const std::vector<int>& released = differences_.released;
+  column_.clear();
+  for (const int k : differences_.contacts) column_.push_back(border_.find(k));
+  for (const int k : released) column_.push_back(border_.find(k));
+  if (column_.empty()) return;
+  Eigen::MatrixXd system = border_.products()(column_, column_);
+  const Eigen::Index first = system.rows() - static_cast<Eigen::Index>(released.size());
+  for (Eigen::Index j = first; j < system.rows(); ++j) {
+    for (Eigen::Index i = first; i < system.rows(); ++i) {
+      const auto [low, high] = std::minmax(released[i - first], released[j - first]);
+      system(i, j) -= H.coeff(high, low);
+    }
+  }
+  schur_.compute(system);
 }
 
 void HeldFactor::solve(Vector& x) {
-  const Vector of_released = x(differences_.released);
+  Vector right = Vector::Zero(static_cast<Eigen::Index>(column_.size()));
+  right.tail(static_cast<Eigen::Index>(differences_.released.size())) = x(differences_.released);
   clear_held(factored_, x);
-  const Vector z = find_border(border_.begin(x), of_released);
+  // Forces of contacts, moves of released unknowns, and 0 for those that are neither now.
+  const Vector reached = border_.begin(x);
+  Vector z = Vector::Zero(reached.size());
+  if (!column_.empty()) z(column_) = schur_.solve(Vector(reached(column_)) - right).eval();
   x = border_.finish(z);
   clear_held(factored_, x);
   x(differences_.contacts).setZero();
-  x(differences_.released) = z(released_column_);
-}
-
-// Returns the border's unknowns: forces of contacts, moves of released unknowns, and 0 for those that are neither now.
-Vector HeldFactor::find_border(const Vector& reached, const Vector& of_released) const {
-  Vector z = Vector::Zero(reached.size());
-  Vector beyond = reached(contact_column_);
-  if (!released_column_.empty()) {
-    const Vector right = of_released - reached(released_column_) + coupling_.transpose() * of_contacts_.solve(beyond);
-    const Vector moves = of_released_.solve(right);
-    z(released_column_) = moves;
-    beyond -= coupling_ * moves;
-  }
-  if (!contact_column_.empty()) z(contact_column_) = Vector(of_contacts_.solve(beyond));
-  return z;
+  x(differences_.released) = z(column_).tail(static_cast<Eigen::Index>(differences_.released.size()));
 }
 
 }  // namespace reflines

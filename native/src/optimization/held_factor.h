@@ -1,7 +1,7 @@
 // A factor of the rows and columns of a matrix that belong to unknowns which are not held.
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <vector>
 
 #include "optimization/border_columns.h"
@@ -58,9 +58,7 @@ class HeldFactor {
   };
   Differences find_differences(const Sides& held) const;
   SparseMatrix make_columns(const SparseMatrix& H, const std::vector<int>& unknowns) const;
-  Eigen::MatrixXd select_block(const SparseMatrix& H, const std::vector<int>& unknowns) const;
   void factorize_schur_complement(const SparseMatrix& H);
-  Vector find_border(const Vector& reached, const Vector& of_released) const;
 
   LinearSolver& solver_;
   Sides factored_;  // n: held by the factor
@@ -68,10 +66,8 @@ class HeldFactor {
   int factorizations_ = 0;
   BorderColumns border_;  // of unknowns that were contacts or released since the factorization
   Differences differences_;
-  std::vector<int> contact_column_, released_column_;  // their places in the border
-  Eigen::LLT<Eigen::MatrixXd> of_contacts_;            // of E_C^T H_FF^-1 E_C
-  Eigen::MatrixXd coupling_;                           // E_C^T H_FF^-1 H_FR
-  Eigen::LLT<Eigen::MatrixXd> of_released_;            // of the Schur complement that is left
+  std::vector<int> column_;                     // their places in the border, contacts before released ones
+  Eigen::PartialPivLU<Eigen::MatrixXd> schur_;  // of their equations, without the unknowns that the factor has
 };
 
 }  // namespace reflines

@@ -84,11 +84,18 @@ Directions find_directions(const SparseMatrix& rows, const Vector& low, const Ve
   return {std::move(up), std::move(down)};
 }
 
-double largest_finite(const Vector& values) {
-  return values.array().isFinite().select(values.array().abs(), 0.0).maxCoeff();
-}
-
 }  // namespace
+
+SparseMatrix select_columns(const SparseMatrix& matrix, const std::vector<int>& columns) {
+  SparseMatrix result(matrix.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (size_t j = 0; j < columns.size(); ++j) {
+    result.startVec(static_cast<Eigen::Index>(j));
+    for (SparseMatrix::InnerIterator entry(matrix, columns[j]); entry; ++entry)
+      result.insertBack(entry.row(), static_cast<Eigen::Index>(j)) = entry.value();
+  }
+  result.finalize();
+  return result;
+}
 
 RowLimits::RowLimits(const SparseMatrix& modes, Vector low, Vector high, Vector origin, double rounding)
     : modes_(&modes), range_{std::move(low), std::move(high)}, origin_(std::move(origin)), rounding_(rounding) {
@@ -157,17 +164,11 @@ void RowLimits::Narrow::merge_equal(const Vector& sum) {
     range.high(leader[i]) = std::min(range.high(leader[i]), range.high(i));
   }
   std::vector<int> kept;
-  std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < rows.cols(); ++i) {
-    if (leader[i] != i || !(sum(i) > 0) || !(std::isfinite(range.low(i)) || std::isfinite(range.high(i)))) continue;
-    for (SparseMatrix::InnerIterator entry(rows, i); entry; ++entry) {
-      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(kept.size()), entry.value());
-    }
-    kept.push_back(i);
+    if (leader[i] == i && sum(i) > 0 && (std::isfinite(range.low(i)) || std::isfinite(range.high(i))))
+      kept.push_back(i);
   }
-  SparseMatrix chosen(rows.rows(), static_cast<Eigen::Index>(kept.size()));
-  chosen.setFromTriplets(entries.begin(), entries.end());
-  rows = std::move(chosen);
+  rows = select_columns(rows, kept);
   range.low = Vector(range.low(kept));
   range.high = Vector(range.high(kept));
 }

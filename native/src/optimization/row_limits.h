@@ -9,6 +9,8 @@
 
 namespace reflines {
 
+SparseMatrix select_columns(const SparseMatrix& matrix, const std::vector<int>& columns);
+
 // The limits low <= modes^T (x - origin) <= high, or low <= x <= high. They are in terms of what the caller limits;
 // narrow() prepares the form that a minimization works with.
 class RowLimits {

@@ -19,8 +19,7 @@ void PieceProblem::set_limit(const MoveLimit& limit, double rounding) {
   if (!limit.exists()) return;
   limit_.lowest = limit.lowest(piece_.vertex);
   limit_.highest = limit.highest(piece_.vertex);
-  const auto largest = [](const auto& ends) { return ends.isFinite().select(ends.abs(), 0.0).maxCoeff(); };
-  limit_size_ = std::max(largest(limit_.lowest.array()), largest(limit_.highest.array()));
+  limit_size_ = std::max(largest_finite(limit_.lowest), largest_finite(limit_.highest));
 }
 
 RowLimits PieceProblem::limits() const {

@@ -41,24 +41,15 @@ std::shared_ptr<LinearBackend> make_backend(LinearSolverKind kind) {
 
 const char* to_string(LinearSolverKind kind) { return kind == LinearSolverKind::kCholmod ? "cholmod" : "umfpack"; }
 
-struct LinearSolver::Pattern {
-  std::vector<int> starts, rows;
-};
-
-LinearSolver::LinearSolver(LinearSolverKind kind)
-    : kind_(kind), pattern_(std::make_unique<Pattern>()), backend_(make_backend(kind)) {}
+LinearSolver::LinearSolver(LinearSolverKind kind) : kind_(kind), backend_(make_backend(kind)) {}
 
 LinearSolver::~LinearSolver() = default;
-
-LinearSolverKind LinearSolver::kind() const { return kind_; }
-bool LinearSolver::has_factor() const { return has_factor_; }
-double LinearSolver::diagonal_shift() const { return diagonal_shift_; }
 
 bool LinearSolver::has_pattern_of(const SparseMatrix& matrix) const {
   const int* starts = matrix.outerIndexPtr();
   const int* rows = matrix.innerIndexPtr();
-  return std::equal(pattern_->starts.begin(), pattern_->starts.end(), starts, starts + matrix.outerSize() + 1) &&
-         std::equal(pattern_->rows.begin(), pattern_->rows.end(), rows, rows + matrix.nonZeros());
+  return std::equal(starts_.begin(), starts_.end(), starts, starts + matrix.outerSize() + 1) &&
+         std::equal(rows_.begin(), rows_.end(), rows, rows + matrix.nonZeros());
 }
 
 // Gives work to the back end, with a matrix of its own where it may be abandoned; it is replaced then.
@@ -71,16 +62,16 @@ void LinearSolver::work(const SparseMatrix& matrix, const Progress* progress,
     run_abandonable(progress, [backend = backend_, matrix, task] { task(*backend, matrix); });
   } catch (const Cancelled&) {
     backend_ = make_backend(kind_);
-    pattern_->starts.clear();
+    starts_.clear();
     throw;
   }
 }
 
 void LinearSolver::analyze(const SparseMatrix& matrix, const std::vector<int>& order, const Progress* progress) {
-  pattern_->starts.clear();
+  starts_.clear();
   work(matrix, progress, [order](LinearBackend& backend, const SparseMatrix& own) { backend.analyze(own, order); });
-  pattern_->starts.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
-  pattern_->rows.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+  starts_.assign(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
+  rows_.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
 }
 
 void LinearSolver::factorize(const SparseMatrix& matrix, const Progress* progress) {

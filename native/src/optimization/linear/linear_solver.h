@@ -25,7 +25,7 @@ class LinearSolver {
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
-  LinearSolverKind kind() const;
+  LinearSolverKind kind() const { return kind_; }
 
   // Returns whether `matrix` has the pattern last analysed: its factorization needs no new analysis.
   bool has_pattern_of(const SparseMatrix& matrix) const;
@@ -38,9 +38,11 @@ class LinearSolver {
   // tried again with a small multiple of its diagonal added (see diagonal_shift). Throws SolverFailure where that does
   // not help.
   void factorize(const SparseMatrix& matrix, const Progress* progress = nullptr);
-  bool has_factor() const;
+  bool has_factor() const { return has_factor_; }
   void forget_factor() { has_factor_ = false; }  // the analysis stays
-  double diagonal_shift() const;                 // shift of the factored A + shift * diag(A); 0 for a sound matrix
+  double diagonal_shift() const {
+    return diagonal_shift_;
+  }  // shift of the factored A + shift * diag(A); 0 for a sound matrix
 
   // Solves x <- A^-1 x with the last factor. Allocates only in the first call after `analyze`.
   void solve(Vector& x);
@@ -63,12 +65,11 @@ class LinearSolver {
   std::vector<int> sort_by_elimination(std::vector<int> unknowns) const;
 
  private:
-  struct Pattern;
   void work(const SparseMatrix& matrix, const Progress* progress,
             const std::function<void(LinearBackend&, const SparseMatrix&)>& task);
 
   LinearSolverKind kind_;
-  std::unique_ptr<Pattern> pattern_;
+  std::vector<int> starts_, rows_;  // the pattern last analysed
   std::shared_ptr<LinearBackend> backend_;
   bool has_factor_ = false;
   double diagonal_shift_ = 0.0;
