@@ -10,6 +10,7 @@
 #include "base/parallel_failure.h"
 #include "base/union_find.h"
 #include "geometry/bend_contrast.h"
+#include "geometry/mesh.h"
 #include "reflines/errors.h"
 
 namespace reflines {
@@ -93,10 +94,7 @@ EdgeMask find_bent_edges(const Positions& V, const Triangles& F, const Triangles
 Positions triangle_normals(const Positions& V, const Triangles& F) {
   Positions normals(F.rows(), 3);
 #pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
-  for (int t = 0; t < static_cast<int>(F.rows()); ++t) {
-    const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-    normals.row(t) = (b - a).cross(c - a).normalized();
-  }
+  for (int t = 0; t < static_cast<int>(F.rows()); ++t) normals.row(t) = unit_normal(V, F, t);
   return normals;
 }
 

@@ -1,21 +1,18 @@
 #include "geometry/derivatives.h"
 
+#include <algorithm>
+
 namespace reflines {
 
-StencilEntries::StencilEntries(const Stencils& stencils, int vertex_count) {
-  Incidence& lists = entries_of_vertex;
-  lists.offset.assign(vertex_count + 1, 0);
-  for (int v : stencils.vertex) ++lists.offset[v + 1];
-  for (int v = 0; v < vertex_count; ++v) lists.offset[v + 1] += lists.offset[v];
-  lists.items.resize(stencils.vertex.size());
-  triangle.resize(stencils.vertex.size());
-  std::vector<int> next(lists.offset.begin(), lists.offset.end() - 1);
-  for (int t = 0; t < stencils.triangle_count(); ++t) {
-    for (int e = stencils.offset[t]; e < stencils.offset[t + 1]; ++e) {
-      lists.items[next[stencils.vertex[e]]++] = e;
-      triangle[e] = t;
-    }
-  }
+StencilEntries::StencilEntries(const Stencils& stencils, int vertex_count)
+    : entries_of_vertex(make_incidence(vertex_count,
+                                       [&](const auto& take) {
+                                         for (int e = 0; e < static_cast<int>(stencils.vertex.size()); ++e)
+                                           take(stencils.vertex[e], e);
+                                       })),
+      triangle(stencils.vertex.size()) {
+  for (int t = 0; t < stencils.triangle_count(); ++t)
+    std::fill(triangle.begin() + stencils.offset[t], triangle.begin() + stencils.offset[t + 1], t);
 }
 
 void apply_stencils(const Stencils& stencils, const Vector& z, TriangleDerivatives& u) {

@@ -12,11 +12,6 @@ namespace {
 
 enum class Facing { kViewer, kSilhouette, kAway };
 
-Vector3 unit_normal(const Positions& V, const Triangles& F, int t) {
-  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-  return (b - a).cross(c - a).normalized();
-}
-
 Facing facing(const Positions& V, const Triangles& F, int t, const Vector3& view) {
   const double cosine = unit_normal(V, F, t).dot(view);
   if (std::abs(cosine) < kSilhouette) return Facing::kSilhouette;

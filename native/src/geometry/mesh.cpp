@@ -1,11 +1,11 @@
 #include "geometry/mesh.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <map>
 #include <string>
 
+#include "base/sort_unique.h"
 #include "reflines/errors.h"
 
 namespace reflines {
@@ -190,15 +190,15 @@ Mask find_border_vertices(const Triangles& F, int vertex_count) {
 }
 
 Incidence vertex_triangles(const Triangles& F, int vertex_count) {
-  Incidence result;
-  result.offset.assign(vertex_count + 1, 0);
-  for (int k = 0; k < F.size(); ++k) ++result.offset[F.data()[k] + 1];
-  for (int v = 0; v < vertex_count; ++v) result.offset[v + 1] += result.offset[v];
-  result.items.resize(F.size());
-  std::vector<int> next(result.offset.begin(), result.offset.end() - 1);
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) result.items[next[F(t, i)]++] = t;
-  }
+  return make_incidence(vertex_count, [&](const auto& take) {
+    for (int k = 0; k < static_cast<int>(F.size()); ++k) take(F.data()[k], k / 3);
+  });
+}
+
+std::vector<int> list_vertices(const Triangles& F, const std::vector<int>& triangles) {
+  std::vector<int> result;
+  for (const int t : triangles) result.insert(result.end(), {F(t, 0), F(t, 1), F(t, 2)});
+  sort_unique(result);
   return result;
 }
 

@@ -2,6 +2,9 @@
 // triangles.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include "reflines/types.h"
@@ -17,6 +20,30 @@ struct Incidence {
   int end(int i) const { return offset[i + 1]; }
   int size() const { return static_cast<int>(offset.size()) - 1; }
 };
+
+// Builds lists of items: visit(take) calls take(list, item) for each, in the order that the lists keep, and does so
+// twice.
+template <typename Visit>
+Incidence make_incidence(std::size_t lists, const Visit& visit) {
+  Incidence result{std::vector<int>(lists + 1, 0), {}};
+  visit([&](std::size_t list, int) { ++result.offset[list + 1]; });
+  std::partial_sum(result.offset.begin(), result.offset.end(), result.offset.begin());
+  result.items.resize(result.offset.back());
+  std::vector<int> next(result.offset.begin(), result.offset.end() - 1);
+  visit([&](std::size_t list, int item) { result.items[next[list]++] = item; });
+  return result;
+}
+
+// Returns a normal of triangle t of V (#V x 3), F (#F x 3): as long as twice its area, or one of unit length, which is
+// 0 for a triangle without area.
+inline Vector3 area_normal(const Positions& V, const Triangles& F, int t) {
+  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
+  return (b - a).cross(c - a);
+}
+inline Vector3 unit_normal(const Positions& V, const Triangles& F, int t) { return area_normal(V, F, t).normalized(); }
+
+// Returns the vertices of these triangles of F (#F x 3), ascending.
+std::vector<int> list_vertices(const Triangles& F, const std::vector<int>& triangles);
 
 // Throws InvalidInput where a triangle names a vertex that is not one of V (#V x 3).
 void check_indices(const Positions& V, const Triangles& F);

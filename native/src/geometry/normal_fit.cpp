@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/parallel_failure.h"
+#include "base/sort_unique.h"
 #include "reflines/errors.h"
 
 namespace reflines {
@@ -26,11 +27,6 @@ constexpr double kSameSurface = 0.2;
 // jittered cylinder: largest error 0.018 without, 0.002 with).
 constexpr size_t kEnoughVertices = 9;
 
-void sort_unique(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
 std::vector<int> fit_vertices(const Triangles& F, const Triangles& neighbors, const Incidence& triangles_of_vertex,
                               int v) {
   std::vector<int> triangles(triangles_of_vertex.items.begin() + triangles_of_vertex.begin(v),
@@ -43,17 +39,11 @@ std::vector<int> fit_vertices(const Triangles& F, const Triangles& neighbors, co
       }
     }
     sort_unique(triangles);
-    for (int t : triangles) around.insert(around.end(), {F(t, 0), F(t, 1), F(t, 2)});
-    sort_unique(around);
+    around = list_vertices(F, triangles);
   }
   around.erase(std::remove(around.begin(), around.end(), v), around.end());
   if (!around.empty()) around.insert(around.begin(), v);
   return around;
-}
-
-Vector3 compute_area_vector(const Positions& V, const Triangles& F, int t) {
-  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-  return (b - a).cross(c - a);
 }
 
 // Returns the sum of the normals of the triangles around each vertex (#V x 3), each as long as twice the triangle's
@@ -63,7 +53,7 @@ Positions area_normals(const Positions& V, const Triangles& F, const Incidence& 
 #pragma omp parallel for schedule(dynamic, 1024)
   for (int v = 0; v < static_cast<int>(V.rows()); ++v) {
     for (int k = triangles_of_vertex.begin(v); k < triangles_of_vertex.end(v); ++k) {
-      normals.row(v) += compute_area_vector(V, F, triangles_of_vertex.items[k]).transpose();
+      normals.row(v) += area_normal(V, F, triangles_of_vertex.items[k]).transpose();
     }
   }
   return normals;

@@ -14,18 +14,13 @@ constexpr double kTurned = 0.5;  // cosine of 60 degrees
 
 using EdgeNormals = std::map<std::pair<int, int>, std::vector<Vector3>>;
 
-Vector3 area_normal(const Positions& V, const Triangles& F, int t) {
-  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-  return (b - a).cross(c - a);
-}
-
 // Returns the unit normals of the triangles around, by the edges of the region that they may have, too.
 EdgeNormals list_around(const Positions& V, const Surroundings& around) {
   Positions all(V.rows() + around.V.rows(), 3);
   all << V, around.V;
   EdgeNormals result;
   for (int t = 0; t < around.F.rows(); ++t) {
-    const Vector3 n = area_normal(all, around.F, t).normalized();
+    const Vector3 n = unit_normal(all, around.F, t);
     for (int i = 0; i < 3; ++i) {
       const std::pair<int, int> ends = std::minmax(around.F(t, (i + 1) % 3), around.F(t, (i + 2) % 3));
       if (ends.second < V.rows()) result[ends].push_back(n);

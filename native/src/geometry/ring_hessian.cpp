@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.h"
 #include "geometry/local_monomials.h"
 #include "geometry/stencil.h"
 #include "geometry/stencil_quality.h"
@@ -65,8 +66,7 @@ void append_spread(const std::vector<int>& fan, std::vector<int>& vertices) {
 std::vector<int> ring(const HeightField& field, int t) {
   std::vector<int> around;
   for (int i = 0; i < 3; ++i) append_spread(collect_fan(field, t, field.F(t, i)), around);
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
+  sort_unique(around);
   std::vector<int> vertex = {field.F(t, 0), field.F(t, 1), field.F(t, 2)};
   for (int v : around) {
     if (std::find(vertex.begin(), vertex.begin() + 3, v) == vertex.begin() + 3) vertex.push_back(v);

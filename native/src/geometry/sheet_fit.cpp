@@ -5,6 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/sort_unique.h"
+#include "geometry/mesh.h"
+
 namespace reflines {
 namespace {
 
@@ -13,16 +16,6 @@ constexpr size_t kEnough = 18;        // vertices; a cubic has ten coefficients
 constexpr int kMostLayers = 8;        // of triangles around the first
 constexpr double kDetermined = 1e-3;  // the pivot, relative to the largest, below which a polynomial is not determined
 
-void sort_unique(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
-Vector3 unit_normal(const NeighborSheets& sheets, int t) {
-  const Vector3 a = sheets.V.row(sheets.F(t, 0)), b = sheets.V.row(sheets.F(t, 1)), c = sheets.V.row(sheets.F(t, 2));
-  return (b - a).cross(c - a).normalized();
-}
-
 // Adds the triangles across the edges of the last layer, where they face the same way; returns the new layer.
 std::vector<int> grow(const NeighborSheets& sheets, const Vector3& normal, const std::vector<int>& layer,
                       std::vector<int>& all) {
@@ -30,7 +23,7 @@ std::vector<int> grow(const NeighborSheets& sheets, const Vector3& normal, const
   for (const int t : layer) {
     for (const int other : sheets.neighbors.row(t)) {
       if (other >= 0 && !std::binary_search(all.begin(), all.end(), other) &&
-          unit_normal(sheets, other).dot(normal) > kTurned)
+          unit_normal(sheets.V, sheets.F, other).dot(normal) > kTurned)
         next.push_back(other);
     }
   }
@@ -40,21 +33,14 @@ std::vector<int> grow(const NeighborSheets& sheets, const Vector3& normal, const
   return next;
 }
 
-std::vector<int> list_vertices(const NeighborSheets& sheets, const std::vector<int>& triangles) {
-  std::vector<int> result;
-  for (const int t : triangles) result.insert(result.end(), {sheets.F(t, 0), sheets.F(t, 1), sheets.F(t, 2)});
-  sort_unique(result);
-  return result;
-}
-
 // Grows layers around triangle t until they have enough vertices, and by one or two more, since a layer of triangles
 // across edges is narrower at its corners.
 std::vector<int> gather_vertices(const NeighborSheets& sheets, int t, const Vector3& normal) {
-  std::vector<int> all = {t}, layer = all, vertices = list_vertices(sheets, all);
+  std::vector<int> all = {t}, layer = all, vertices = list_vertices(sheets.F, all);
   for (int k = 0, more = 2; k < kMostLayers && more > 0 && !layer.empty(); ++k) {
     more -= vertices.size() >= kEnough;
     layer = grow(sheets, normal, layer, all);
-    vertices = list_vertices(sheets, all);
+    vertices = list_vertices(sheets.F, all);
   }
   return vertices;
 }

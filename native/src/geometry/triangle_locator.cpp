@@ -85,7 +85,13 @@ TriangleLocator::TriangleLocator(const PlanePositions& xy, const Triangles& F) :
     cell_ = extent_.cwiseQuotient(Vector2(columns_, rows_));
     if (count_entries() <= kEntries * count || bins < 1) break;
   }
-  fill();
+  triangles_of_bin_ = make_incidence(static_cast<std::size_t>(columns_) * rows_, [&](const auto& take) {
+    for (int t = 0; t < static_cast<int>(F_.rows()); ++t) {
+      for_each_row(t, [&](int row, int left, int right) {
+        for (int i = left; i <= right; ++i) take(static_cast<std::size_t>(row) * columns_ + i, t);
+      });
+    }
+  });
 }
 
 double TriangleLocator::count_entries() const {
@@ -94,23 +100,6 @@ double TriangleLocator::count_entries() const {
     for_each_row(t, [&](int, int left, int right) { result += right - left + 1; });
   }
   return result;
-}
-
-void TriangleLocator::fill() {
-  std::vector<int>& offset = triangles_of_bin_.offset;
-  offset.assign(static_cast<size_t>(columns_) * rows_ + 1, 0);
-  const auto visit = [&](const auto& take) {
-    for (int t = 0; t < static_cast<int>(F_.rows()); ++t) {
-      for_each_row(t, [&](int row, int left, int right) {
-        for (int i = left; i <= right; ++i) take(static_cast<size_t>(row) * columns_ + i, t);
-      });
-    }
-  };
-  visit([&](size_t bin, int) { ++offset[bin + 1]; });
-  for (size_t bin = 1; bin < offset.size(); ++bin) offset[bin] += offset[bin - 1];
-  triangles_of_bin_.items.resize(offset.back());
-  std::vector<int> next(offset.begin(), offset.end() - 1);
-  visit([&](size_t bin, int t) { triangles_of_bin_.items[next[bin]++] = t; });
 }
 
 int TriangleLocator::bin(const Vector2& point) const {

@@ -29,7 +29,6 @@ class TriangleLocator {
   template <class Take>
   void for_each_row(int t, const Take& take) const;
   double count_entries() const;
-  void fill();
 
   const PlanePositions& xy_;
   const Triangles& F_;

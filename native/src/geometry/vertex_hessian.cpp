@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "base/sort_unique.h"
+
 namespace reflines {
 namespace {
 
@@ -85,8 +87,7 @@ Eigen::Matrix3d find_inverse_root(const VertexPatch& patch, const std::vector<Ed
 VertexPatch make_patch(const std::vector<EdgeJump>& all, const std::vector<int>& edges, int center) {
   VertexPatch patch{center, Eigen::Matrix3d::Identity(), {}, {}};
   for (const int e : edges) patch.vertex.insert(patch.vertex.end(), all[e].vertex, all[e].vertex + 4);
-  std::sort(patch.vertex.begin(), patch.vertex.end());
-  patch.vertex.erase(std::unique(patch.vertex.begin(), patch.vertex.end()), patch.vertex.end());
+  sort_unique(patch.vertex);
   for (const int e : edges) {
     VertexPatch::Edge own{e, {}};
     for (int i = 0; i < 4; ++i) {

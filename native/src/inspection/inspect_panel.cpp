@@ -87,10 +87,7 @@ struct Scene {
 
   auto panel_vertices() const { return V.topRows(own_vertices); }
   auto panel() const { return F.topRows(own_triangles); }
-  Vector3 cross(int t) const {
-    const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-    return (b - a).cross(c - a);
-  }
+  Vector3 cross(int t) const { return area_normal(V, F, t); }
   Vector3 middle(int t) const { return (V.row(F(t, 0)) + V.row(F(t, 1)) + V.row(F(t, 2))) / 3; }
 };
 

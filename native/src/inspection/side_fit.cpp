@@ -5,7 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/sort_unique.h"
 #include "geometry/height_fit.h"
+#include "geometry/mesh.h"
 
 namespace reflines {
 namespace {
@@ -14,23 +16,6 @@ namespace {
 constexpr size_t kEnoughVertices = 16;
 constexpr int kMostLayers = 8;   // of triangles around the first, where a side has few vertices
 constexpr double kTurned = 0.5;  // cosine of 60 degrees
-
-Vector3 unit_normal(const Positions& V, const Triangles& F, int t) {
-  const Vector3 a = V.row(F(t, 0)), b = V.row(F(t, 1)), c = V.row(F(t, 2));
-  return (b - a).cross(c - a).normalized();
-}
-
-void sort_unique(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
-std::vector<int> list_vertices(const Triangles& F, const std::vector<int>& triangles) {
-  std::vector<int> result;
-  for (const int t : triangles) result.insert(result.end(), {F(t, 0), F(t, 1), F(t, 2)});
-  sort_unique(result);
-  return result;
-}
 
 // Adds the triangles across the edges of those there are, where they face the same way.
 void grow(const Positions& V, const CutSurface& surface, const Vector3& normal, std::vector<int>& triangles) {

@@ -4,16 +4,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/sort_unique.h"
+
 namespace reflines {
-namespace {
-
-void sort_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-}  // namespace
-
 GalerkinProduct::GalerkinProduct(const SparseMatrix& modes) : modes_(modes) { find_groups(); }
 
 void GalerkinProduct::find_groups() {

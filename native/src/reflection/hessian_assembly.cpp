@@ -24,18 +24,11 @@ Vector5 multiply_packed(const double* m, double p, double q, const double* w) {
 }
 
 Incidence list_vertices_of_unknowns(const std::vector<int>& column, int unknown_count) {
-  Incidence lists;
-  lists.offset.assign(unknown_count + 1, 0);
-  for (const int unknown : column) {
-    if (unknown >= 0) ++lists.offset[unknown + 1];
-  }
-  for (int i = 0; i < unknown_count; ++i) lists.offset[i + 1] += lists.offset[i];
-  lists.items.resize(lists.offset[unknown_count]);
-  std::vector<int> next(lists.offset.begin(), lists.offset.end() - 1);
-  for (size_t v = 0; v < column.size(); ++v) {
-    if (column[v] >= 0) lists.items[next[column[v]]++] = static_cast<int>(v);
-  }
-  return lists;
+  return make_incidence(unknown_count, [&](const auto& take) {
+    for (int v = 0; v < static_cast<int>(column.size()); ++v) {
+      if (column[v] >= 0) take(column[v], v);
+    }
+  });
 }
 
 }  // namespace

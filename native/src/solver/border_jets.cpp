@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/sort_unique.h"
 #include "geometry/crease.h"
 
 namespace reflines {
@@ -39,8 +40,7 @@ Triangles join_visible(const Positions& all, const Triangles& region, const Tria
   joined.topRows(region.rows()) = region;
   Eigen::Index count = region.rows();
   for (int t = 0; t < around.rows(); ++t) {
-    const Vector3 a = all.row(around(t, 0)), b = all.row(around(t, 1)), c = all.row(around(t, 2));
-    const Vector3 n = (b - a).cross(c - a);
+    const Vector3 n = area_normal(all, around, t);
     if (n.dot(view) > kSilhouette * n.norm()) joined.row(count++) = around.row(t);
   }
   joined.conservativeResize(count, 3);
@@ -64,11 +64,6 @@ Beside place_surroundings(const Positions& V, const HeightField& field, const Su
   beside.crease = crease_edges(all, beside.F, beside.neighbors, creases);
   beside.triangles_of_vertex = vertex_triangles(beside.F, static_cast<int>(all.rows()));
   return beside;
-}
-
-void sort_unique(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 bool has_any(const Triangles& F, int t, const std::vector<int>& vertices) {

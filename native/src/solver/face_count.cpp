@@ -1,7 +1,8 @@
 #include "solver/face_count.h"
 
-#include <algorithm>
 #include <vector>
+
+#include "base/sort_unique.h"
 
 namespace reflines {
 
@@ -11,8 +12,8 @@ int count_faces(const Mask& triangles, const IndexVector& face_of_triangle) {
   for (Eigen::Index t = 0; t < triangles.size(); ++t) {
     if (triangles(t)) faces.push_back(face_of_triangle(t));
   }
-  std::sort(faces.begin(), faces.end());
-  return static_cast<int>(std::unique(faces.begin(), faces.end()) - faces.begin());
+  sort_unique(faces);
+  return static_cast<int>(faces.size());
 }
 
 }  // namespace reflines

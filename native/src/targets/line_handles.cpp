@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/sort_unique.h"
 #include "geometry/mesh.h"
 #include "reflection/reflection_function.h"
 #include "reflection/scalar_gradient.h"
@@ -254,8 +255,7 @@ void LineHandles::weight_places(const std::vector<Handle>& handles, const Places
         }
       }
     }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    sort_unique(around);
     double area = 0;
     for (const int t : around) area += field_->area(t);
     // A pinned area weighs as the places that it has room for.
