@@ -1,8 +1,9 @@
 #include "geometry/cage_border.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
+
+#include "reflines/cage.h"
 
 namespace reflines {
 namespace {
@@ -19,21 +20,14 @@ void mark_columns(const SparseMatrix& matrix, const Mask& rows, Mask* columns) {
 }  // namespace
 
 Mask find_refined_border(const Subdivision& subdivision, const Mask& region) {
-  const auto& faces = subdivision.faces;
-  std::vector<std::array<int, 2>> edges;
-  for (int f = 0; f < faces.rows(); ++f) {
-    if (!region[subdivision.face_parent[f]]) continue;
-    for (int i = 0; i < faces.cols(); ++i) {
-      const auto [first, second] = std::minmax(faces(f, i), faces(f, (i + 1) % faces.cols()));
-      edges.push_back({first, second});
-    }
+  std::vector<int> inside;
+  for (int f = 0; f < subdivision.faces.rows(); ++f) {
+    if (region[subdivision.face_parent[f]]) inside.push_back(f);
   }
-  std::sort(edges.begin(), edges.end());
-  Mask border = Mask::Constant(subdivision.positions.rows(), false);
-  for (auto begin = edges.begin(); begin != edges.end();) {
-    const auto end = std::find_if(begin, edges.end(), [&](const auto& edge) { return edge != *begin; });
-    if (end - begin == 1) border[(*begin)[0]] = border[(*begin)[1]] = true;
-    begin = end;
+  const int count = static_cast<int>(subdivision.positions.rows());
+  Mask border = Mask::Constant(count, false);
+  for (const CageEdge& edge : cage_edges(cage_from_faces(count, subdivision.faces(inside, Eigen::all)))) {
+    if (edge.faces == 1) border[edge.first] = border[edge.second] = true;
   }
   return border;
 }

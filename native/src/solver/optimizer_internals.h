@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "geometry/height_field.h"
@@ -62,7 +63,8 @@ struct ShapeOptimizer::Internals {
   std::vector<Vector> sight;       // #F of each family, or none; see Families
   std::vector<Target> border;      // continue the surroundings' curvature; see continue_curvature
   bool sampled = false;            // some triangles have the quadrature weight 0
-  std::map<int, RegionField> region_fields, vertex_fields;  // of the families asked for, at the current heights
+  std::map<int, std::optional<RegionField>> region_fields,
+      vertex_fields;  // of the families asked for, at the current heights
 };
 
 }  // namespace reflines

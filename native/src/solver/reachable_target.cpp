@@ -56,7 +56,39 @@ bool has_values(const Target& target) { return target.reachable_only && target.t
 
 bool is_reduced(const Target& target) { return target.reachable_only && target.theta.size() == 0; }
 
-}  // namespace
+// The unreachable part of a smooth target is a smooth residual r that in the continuum is orthogonal to every motion:
+// the integral of r D phi vanishes for every phi. The second-order stencils D are exact on quadratic heights but not
+// conservative: sum A r . D phi is 0 up to noise as large as r on motions of a few triangles, which bends the lines
+// from triangle to triangle however fine the mesh is. A target without r has no such effect. r is the fixed point of c
+// = average(target - field solved for target - c), found by Anderson's method of depth one: on a 4-8 mesh the imprint
+// itself averages to half of r, and plain iteration only halves it in each round.
+//
+// Beside values r is no longer orthogonal: it balances what the values lack. So what values with reachable_only lack is
+// taken off them too; others are to be met.
+class ReachableTarget {
+ public:
+  // Takes `wanted` and `piece`, which must outlive this; targets without reachable_only are not changed.
+  ReachableTarget(PieceProblem& piece, const std::vector<Target>& wanted);
+
+  // Subtracts the piece's unreachable rows from `targets` (as many as wanted) after a solve; returns false, and changes
+  // nothing, where they have converged.
+  bool remove_unreachable(std::vector<Target>& targets);
+
+ private:
+  PlaneVectors gather_rows(const Target& target) const;
+  PlaneVectors compute_unreached();  // what the lines lack of the targets, rows of one below those of the other
+  PlaneVectors average(PlaneVectors values);
+  bool is_visible(const PlaneVectors& values) const;
+  PlaneVectors extrapolate(const PlaneVectors& left, const PlaneVectors& change) const;
+
+  PieceProblem& piece_;
+  const std::vector<Target>& wanted_;
+  Vector area_;                                  // area of the rows; 0 where they do not count
+  std::vector<Mask> counts_;                     // #T for each target
+  double squared_norm_ = 0.0;                    // sum of area |target|^2
+  PlaneVectors unreachable_;                     // c
+  PlaneVectors last_unreachable_, last_change_;  // of the previous round; empty in the first
+};
 
 ReachableTarget::ReachableTarget(PieceProblem& piece, const std::vector<Target>& wanted)
     : piece_(piece), wanted_(wanted) {
@@ -146,6 +178,8 @@ bool ReachableTarget::remove_unreachable(std::vector<Target>& targets) {
   }
   return true;
 }
+
+}  // namespace
 
 Report minimize_reachable(PieceProblem& piece, const std::vector<Target>& wanted, std::vector<Target>& reachable,
                           const MinimizerOptions& options, Progress* progress) {

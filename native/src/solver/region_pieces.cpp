@@ -26,28 +26,28 @@ PlanePositions RegionPieces::centers() const {
   return result;
 }
 
-Vector RegionPieces::area() const {
-  Vector result = Vector::Zero(triangle_count());
-  for (const auto& piece : pieces_) result(piece->triangles()) = piece->field().area;
+// Returns the rows of all triangles, zeros for those in no piece: of the others read(piece).
+template <typename Rows, typename Read>
+Rows RegionPieces::gather(int columns, const Read& read) const {
+  Rows result = Rows::Zero(triangle_count(), columns);
+  for (const auto& piece : pieces_) result(piece->triangles(), Eigen::all) = read(*piece);
   return result;
+}
+
+Vector RegionPieces::area() const {
+  return gather<Vector>(1, [](const PieceProblem& piece) { return piece.field().area; });
 }
 
 Mask RegionPieces::active() const {
-  Mask result = Mask::Constant(triangle_count(), false);
-  for (const auto& piece : pieces_) result(piece->triangles()) = true;
-  return result;
+  return gather<Mask>(1, [](const PieceProblem& piece) { return Mask::Constant(piece.triangles().size(), true); });
 }
 
 Mask RegionPieces::changeable() const {
-  Mask result = Mask::Constant(triangle_count(), false);
-  for (const auto& piece : pieces_) result(piece->triangles()) = piece->changeable();
-  return result;
+  return gather<Mask>(1, [](const PieceProblem& piece) { return piece.changeable(); });
 }
 
 Mask RegionPieces::hidden() const {
-  Mask result = Mask::Constant(triangle_count(), false);
-  for (const auto& piece : pieces_) result(piece->triangles()) = piece->hidden();
-  return result;
+  return gather<Mask>(1, [](const PieceProblem& piece) { return piece.hidden(); });
 }
 
 Mask RegionPieces::free() const {
@@ -108,36 +108,26 @@ Positions RegionPieces::positions() const {
 }
 
 Vector RegionPieces::theta(int family) const {
-  Vector result = Vector::Zero(triangle_count());
-  for (const auto& piece : pieces_) result(piece->triangles()) = piece->lines(family).theta;
-  return result;
+  return gather<Vector>(1, [&](PieceProblem& piece) { return piece.lines(family).theta; });
 }
 
 PlaneVectors RegionPieces::field(int family) const {
-  PlaneVectors result = PlaneVectors::Zero(triangle_count(), 2);
-  for (const auto& piece : pieces_) result(piece->triangles(), Eigen::all) = piece->lines(family).gradient;
-  return result;
+  return gather<PlaneVectors>(2, [&](PieceProblem& piece) { return piece.lines(family).gradient; });
 }
 
 PlaneVectors RegionPieces::smooth_field(const SmoothOptions& options, int family) {
-  PlaneVectors result = PlaneVectors::Zero(triangle_count(), 2);
-  for (const auto& piece : pieces_) {
-    const PlaneVectors own = piece->lines(family).gradient;
-    result(piece->triangles(), Eigen::all) = piece->size() > 0 ? piece->smoother().smooth(own, options, family) : own;
-  }
-  return result;
+  return gather<PlaneVectors>(2, [&](PieceProblem& piece) {
+    const PlaneVectors own = piece.lines(family).gradient;
+    return piece.size() > 0 ? piece.smoother().smooth(own, options, family) : own;
+  });
 }
 
 Mask RegionPieces::features(int family, double length) {
-  Mask result = Mask::Constant(triangle_count(), false);
-  for (const auto& piece : pieces_) result(piece->triangles()) = piece->smoother().features(length, family);
-  return result;
+  return gather<Mask>(1, [&](PieceProblem& piece) { return piece.smoother().features(length, family); });
 }
 
 PlaneVectors RegionPieces::start_field(int family) const {
-  PlaneVectors start = PlaneVectors::Zero(triangle_count(), 2);
-  for (const auto& piece : pieces_) start(piece->triangles(), Eigen::all) = piece->smoother().start_gradient(family);
-  return start;
+  return gather<PlaneVectors>(2, [&](const PieceProblem& piece) { return piece.smoother().start_gradient(family); });
 }
 
 double RegionPieces::strong_size(const PlaneVectors& field) const {

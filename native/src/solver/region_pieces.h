@@ -61,6 +61,8 @@ class RegionPieces {
   void pull_to(const Vector& heights, const Vector& weight);
 
  private:
+  template <typename Rows, typename Read>
+  Rows gather(int columns, const Read& read) const;
   MoveRange range(int vertex) const;
   Vector response(int family, const Mask& features) const;  // #F, of the lines at the start; see RegionField
 

@@ -264,19 +264,16 @@ Report ShapeOptimizer::solve(const std::vector<Target>& targets, const Minimizer
   if (targets.empty()) throw InvalidInput("There is no target to solve for; give at least one.");
   for (const Target& target : targets) own_->check(target);
   if (limit.exists()) reflines::check(limit, own_->pieces.vertex_count());
-  const MoveLimit limit_before = own_->pieces.limit();
+  const Internals::State before = own_->state();
+  const auto restore = [&](bool factors_are_kept) {
+    own_->restore(before);
+    for (const auto& piece : own_->pieces.pieces()) {
+      if (!factors_are_kept) piece->forget_factor();
+    }
+  };
   own_->pieces.set_limit(limit.exists() && is_infinite(limit) ? MoveLimit::none()
                                                               : intersect_limits(limit, own_->partner));
   own_->forget_lines();
-  std::vector<Vector> before;
-  for (const auto& piece : own_->pieces.pieces()) before.push_back(piece->unknowns());
-  const auto restore = [&](bool factors_are_kept) {
-    for (size_t k = 0; k < before.size(); ++k) {
-      own_->pieces.pieces()[k]->set_heights(before[k]);
-      if (!factors_are_kept) own_->pieces.pieces()[k]->forget_factor();
-    }
-    own_->pieces.set_limit(limit_before);
-  };
   const std::vector<Target> joined = own_->border.empty() ? std::vector<Target>() : own_->with_border(targets);
   const std::vector<Target>& all = own_->border.empty() ? targets : joined;
   std::vector<Target> reachable;
@@ -449,16 +446,16 @@ Vector ShapeOptimizer::sight(int family) const {
 
 const RegionField& ShapeOptimizer::region_field(int family) {
   own_->check_family(family);
-  const auto kept = own_->region_fields.find(family);
-  if (kept != own_->region_fields.end()) return kept->second;
-  return own_->region_fields.emplace(family, own_->pieces.region_field(family, own_->feature_length)).first->second;
+  std::optional<RegionField>& kept = own_->region_fields[family];
+  if (!kept) kept = own_->pieces.region_field(family, own_->feature_length);
+  return *kept;
 }
 
 const RegionField& ShapeOptimizer::vertex_field(int family) {
   own_->check_family(family);
-  const auto kept = own_->vertex_fields.find(family);
-  if (kept != own_->vertex_fields.end()) return kept->second;
-  return own_->vertex_fields.emplace(family, own_->pieces.vertex_field(family)).first->second;
+  std::optional<RegionField>& kept = own_->vertex_fields[family];
+  if (!kept) kept = own_->pieces.vertex_field(family);
+  return *kept;
 }
 
 void ShapeOptimizer::Internals::forget_lines() {
