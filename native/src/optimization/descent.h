@@ -9,7 +9,7 @@
 
 namespace reflines {
 
-// Implements Minimizer::minimize; `seconds` is left to the caller. `progress` may be null.
+// Implements Minimizer::minimize. `progress` may be null.
 Report descend(Problem& problem, Vector& x, const MinimizerOptions& options, Progress* progress, Workspace& workspace);
 
 }  // namespace reflines

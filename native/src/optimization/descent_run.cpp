@@ -39,6 +39,7 @@ Report DescentRun::run(Vector& x) {
     is_cancelled();
   }
   finish(x);
+  report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   return report_;
 }
 

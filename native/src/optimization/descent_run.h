@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 
 #include "optimization/line_search.h"
@@ -30,7 +31,7 @@ class DescentRun {
              const char* name, const RefactorPolicy& policy);
   virtual ~DescentRun() = default;
 
-  // Implements Minimizer::minimize; `seconds` is left to the caller.
+  // Implements Minimizer::minimize.
   Report run(Vector& x);
 
  protected:
@@ -75,6 +76,7 @@ class DescentRun {
   Progress* progress_;
   Workspace& work_;
   const std::string name_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Report report_;
   RefactorPolicy policy_;
   GradientNorm gradient_;

@@ -1,6 +1,5 @@
 #include "optimization/minimizer.h"
 
-#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -22,14 +21,6 @@ void check(const MinimizerOptions& options) {
   }
 }
 
-template <typename Run>
-Report measure_time(const Run& run) {
-  const auto start = std::chrono::steady_clock::now();
-  Report report = run();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return report;
-}
-
 }  // namespace
 
 Minimizer::Minimizer(LinearSolverKind kind) : workspace_(std::make_unique<Workspace>(kind)) {}
@@ -40,13 +31,13 @@ void Minimizer::forget_factor() { workspace_->forget_factor(); }
 
 Report Minimizer::minimize(Problem& problem, Vector& x, const MinimizerOptions& options, Progress* progress) {
   check(options);
-  return measure_time([&] { return descend(problem, x, options, progress, *workspace_); });
+  return descend(problem, x, options, progress, *workspace_);
 }
 
 Report Minimizer::minimize(Problem& problem, const RowLimits& limits, Vector& x, const MinimizerOptions& options,
                            Progress* progress) {
   check(options);
-  return measure_time([&] { return descend_within(limits, problem, x, options, progress, *workspace_); });
+  return descend_within(limits, problem, x, options, progress, *workspace_);
 }
 
 }  // namespace reflines

@@ -1,5 +1,6 @@
 #include "optimization/linear/dissection.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 
@@ -44,12 +45,9 @@ class Dissection {
   // Sorts the part along the longer side of its bounding box and returns its middle, with half of the unknowns on each
   // side.
   int halve(const Part& part) {
-    Vector2 low = places_.row(order_[part.begin]), high = low;
-    for (int k = part.begin; k < part.end; ++k) {
-      low = low.cwiseMin(places_.row(order_[k]).transpose());
-      high = high.cwiseMax(places_.row(order_[k]).transpose());
-    }
-    const int axis = (high - low).x() >= (high - low).y() ? 0 : 1;
+    Eigen::AlignedBox2d box;
+    for (int k = part.begin; k < part.end; ++k) box.extend(places_.row(order_[k]).transpose());
+    const int axis = box.sizes().x() >= box.sizes().y() ? 0 : 1;
     const auto before = [this, axis](int a, int b) {
       return places_(a, axis) != places_(b, axis) ? places_(a, axis) < places_(b, axis) : a < b;
     };
