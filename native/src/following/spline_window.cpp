@@ -104,7 +104,6 @@ std::vector<ModeRow> SplineWindow::choose_rows(const Mask& chosen) const {
     if (taken[part]) continue;
     taken[part] = true;
     ModeRow row = row_at(xy);
-    row.vertex = v;
     if (!row.mode.empty()) rows.push_back(std::move(row));
   }
   return rows;

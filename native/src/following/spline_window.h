@@ -19,9 +19,8 @@ struct WindowSample {
   Eigen::Matrix<double, 6, Eigen::Dynamic> D;
 };
 
-// A vertex and the motions that would move it.
+// The motions that would move a place.
 struct ModeRow {
-  int vertex = -1;
   std::vector<int> mode;  // ascending
   std::vector<double> value;
 };

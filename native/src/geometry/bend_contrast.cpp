@@ -89,7 +89,7 @@ class Walk {
     const int next = surface_.neighbors(t_, exit);
     place_ += step_ * direction_;
     direction_ = (along * edge + across * edge.cross(Vector3(surface_.normals.row(next)))).normalized();
-    entry_ = find_facing_corner(surface_, t_, exit);
+    entry_ = find_facing_corner(surface_.F, surface_.neighbors, t_, exit);
     t_ = next;
     return turning;
   }
@@ -121,15 +121,15 @@ double measure_contrast(const Path (&sides)[2], double bend, double width) {
 
 }  // namespace
 
-int find_facing_corner(const BentSurface& surface, int t, int i) {
-  const int other = surface.neighbors(t, i), start = surface.F(t, (i + 1) % 3), end = surface.F(t, (i + 2) % 3);
+int find_facing_corner(const Triangles& F, const Triangles& neighbors, int t, int i) {
+  const int other = neighbors(t, i), start = F(t, (i + 1) % 3), end = F(t, (i + 2) % 3);
   int corner = 0;
-  while (surface.F(other, corner) == start || surface.F(other, corner) == end) ++corner;
+  while (F(other, corner) == start || F(other, corner) == end) ++corner;
   return corner;
 }
 
 double bend_contrast(const BentSurface& surface, int t, int i, double widest) {
-  const int other = surface.neighbors(t, i), facing = find_facing_corner(surface, t, i);
+  const int other = surface.neighbors(t, i), facing = find_facing_corner(surface.F, surface.neighbors, t, i);
   const double first = kFirstWidth * std::max(measure_height(surface, t, i), measure_height(surface, other, facing));
   const double distance = (0.5 + kBeside) * std::max(first, widest);
   const Path sides[2] = {Walk(surface, t, i).go(distance), Walk(surface, other, facing).go(distance)};

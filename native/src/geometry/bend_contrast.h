@@ -24,6 +24,6 @@ struct BentSurface {
 double bend_contrast(const BentSurface& surface, int t, int i, double widest);
 
 // Returns the corner of the neighbouring triangle that is opposite the edge shared with corner i of t.
-int find_facing_corner(const BentSurface& surface, int t, int i);
+int find_facing_corner(const Triangles& F, const Triangles& neighbors, int t, int i);
 
 }  // namespace reflines

@@ -68,7 +68,7 @@ EdgeMask find_contrasting_edges(const BentSurface& surface, double least, double
   });
   for (int t = 0; t < surface.F.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      if (result(t, i)) result(surface.neighbors(t, i), find_facing_corner(surface, t, i)) = true;
+      if (result(t, i)) result(surface.neighbors(t, i), find_facing_corner(surface.F, surface.neighbors, t, i)) = true;
     }
   }
   return result;

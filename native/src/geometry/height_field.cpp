@@ -131,13 +131,9 @@ bool HeightField::has_free_vertex(int t) const {
 }
 
 double HeightField::diagonal() const {
-  Vector2 low = xy.row(F(0, 0)), high = low;
-  for (int k = 0; k < F.size(); ++k) {
-    const Vector2 point = xy.row(F.data()[k]);
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return (high - low).norm();
+  Eigen::AlignedBox2d box;
+  for (const int v : F.reshaped()) box.extend(xy.row(v).transpose());
+  return box.diagonal().norm();
 }
 
 Vector HeightField::piece_diagonals() const {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/bend_contrast.h"
 #include "geometry/stencil.h"
 
 namespace reflines {
@@ -19,23 +20,12 @@ namespace {
 // invariant under affine maps. Measured: sane irregular stencils have 1e-3 and more, exact conics 1e-16.
 constexpr double kOnConic = 1e-10;
 
-// Returns the opposite corner of the triangle across the edge opposite corner i, or -1 on the border.
-int opposite_vertex(const HeightField& field, int t, int i) {
-  const int other = field.neighbors(t, i);
-  if (other < 0) return -1;
-  const int left = field.F(t, (i + 1) % 3), right = field.F(t, (i + 2) % 3);
-  for (int j = 0; j < 3; ++j) {
-    const int v = field.F(other, j);
-    if (v != left && v != right) return v;
-  }
-  return -1;
-}
-
 // Finds the three opposite vertices; returns false on a border and at valence three, where points coincide.
 bool find_opposite(const HeightField& field, int t, int (&opposite)[3]) {
   for (int i = 0; i < 3; ++i) {
-    opposite[i] = opposite_vertex(field, t, i);
-    if (opposite[i] < 0 || opposite[i] == field.F(t, i)) return false;
+    if (field.neighbors(t, i) < 0) return false;
+    opposite[i] = field.F(field.neighbors(t, i), find_facing_corner(field.F, field.neighbors, t, i));
+    if (opposite[i] == field.F(t, i)) return false;
   }
   return opposite[0] != opposite[1] && opposite[1] != opposite[2] && opposite[2] != opposite[0];
 }

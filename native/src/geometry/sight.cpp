@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/smoothstep.h"
+#include "geometry/bounding_box.h"
 #include "geometry/mesh.h"
 
 namespace reflines {
@@ -125,17 +126,11 @@ bool ViewVisibility::is_hidden(int t, double clearance) const {
 
 double ViewVisibility::facing(int t) const { return unit_normal(seen_, F_, t).z(); }
 
-double find_diagonal(const Positions& V, const Triangles& F) {
-  Eigen::AlignedBox3d box;
-  for (const int v : F.reshaped()) box.extend(V.row(v).transpose());
-  return box.diagonal().norm();
-}
-
 }  // namespace
 
 Vector weigh_sight(const Positions& V, const Triangles& F, const std::vector<int>& triangles, const Vector3& eye) {
   const ViewVisibility visibility(V, F, eye);
-  const double clearance = kClearance * find_diagonal(V, F);
+  const double clearance = kClearance * find_bounding_box(V, F).diagonal().norm();
   const int count = static_cast<int>(triangles.size());
   Vector weight(count);
 #pragma omp parallel for schedule(dynamic, 256)

@@ -1,5 +1,6 @@
 #include "geometry/triangle_locator.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -70,14 +71,11 @@ void TriangleLocator::for_each_row(int t, const Take& take) const {
 }
 
 TriangleLocator::TriangleLocator(const PlanePositions& xy, const Triangles& F) : xy_(xy), F_(F) {
-  low_ = Vector2::Constant(0);
-  Vector2 high = low_;
-  if (F.rows() > 0) low_ = high = xy.row(F(0, 0));
-  for (int k = 0; k < F.size(); ++k) {
-    low_ = low_.cwiseMin(xy.row(F.data()[k]).transpose());
-    high = high.cwiseMax(xy.row(F.data()[k]).transpose());
-  }
-  extent_ = (high - low_).cwiseMax(1e-300);
+  Eigen::AlignedBox2d box;
+  for (const int v : F.reshaped()) box.extend(xy.row(v).transpose());
+  if (box.isEmpty()) box.extend(Vector2(0.0, 0.0));
+  low_ = box.min();
+  extent_ = box.sizes().cwiseMax(1e-300);
   const double count = std::max<double>(1.0, static_cast<double>(F.rows())), aspect = extent_.x() / extent_.y();
   for (double bins = count;; bins /= 4) {  // coarser where many long triangles cross many bins each
     columns_ = bounded(std::sqrt(bins * aspect));

@@ -1,8 +1,9 @@
 #include "solver/region_report.h"
 
 #include <algorithm>
+#include <vector>
 
-#include "solver/face_count.h"
+#include "base/sort_unique.h"
 
 namespace reflines {
 namespace {
@@ -19,6 +20,16 @@ int count(const HeightField& field, VertexRole role) {
 }
 
 }  // namespace
+
+int count_faces(const Mask& triangles, const IndexVector& face_of_triangle) {
+  if (face_of_triangle.size() == 0) return static_cast<int>(triangles.count());
+  std::vector<int> faces;
+  for (Eigen::Index t = 0; t < triangles.size(); ++t) {
+    if (triangles(t)) faces.push_back(face_of_triangle(t));
+  }
+  sort_unique(faces);
+  return static_cast<int>(faces.size());
+}
 
 Region describe_region(const HeightField& field, const IndexVector& face_of_triangle, bool creases_held) {
   Region region;

@@ -1,4 +1,4 @@
-// Counts triangles and vertices of a region by their roles, and tells which faces and edges stay as they are.
+// Counts faces, triangles and vertices of a region by their roles, and tells which faces and edges stay as they are.
 #pragma once
 
 #include <string>
@@ -8,6 +8,10 @@
 #include "reflines/types.h"
 
 namespace reflines {
+
+// Returns the number of faces as the artist has them, from which triangles in the mask (#F) were cut.
+// `face_of_triangle`: see ShapeOptions.
+int count_faces(const Mask& triangles, const IndexVector& face_of_triangle);
 
 // Returns the counts and notes that follow from the height field. `face_of_triangle`: see ShapeOptions.
 // `creases_held`: creases are fixed; else they move with their vertices, as on the surface of a cage.

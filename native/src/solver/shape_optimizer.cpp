@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "geometry/bounding_box.h"
 #include "geometry/mesh.h"
 #include "optimization/linear/linear_solver.h"
 #include "optimization/report_sums.h"
@@ -12,7 +13,6 @@
 #include "reflines/errors.h"
 #include "solver/border_curvature.h"
 #include "solver/coupling.h"
-#include "solver/face_count.h"
 #include "solver/limited_move.h"
 #include "solver/mirror_coupling.h"
 #include "solver/optimizer_internals.h"

@@ -57,12 +57,6 @@ void check_surroundings(const Surroundings& around, Eigen::Index vertices) {
                      " vertices around the region have a coordinate that is not a finite number.");
 }
 
-Eigen::AlignedBox3d find_bounding_box(const Positions& V, const Triangles& F) {
-  Eigen::AlignedBox3d result;
-  for (const int v : F.reshaped()) result.extend(V.row(v).transpose());
-  return result;
-}
-
 void check_move_size(const Eigen::AlignedBox3d& region, double largest_move) {
   const double diagonal = region.diagonal().norm();
   const double farthest = region.min().cwiseAbs().cwiseMax(region.max().cwiseAbs()).maxCoeff() + largest_move;

@@ -25,9 +25,6 @@ void check_proximity(double proximity);
 // not finite.
 void check_surroundings(const Surroundings& around, Eigen::Index vertices);
 
-// Returns the box around the faces of a region V (#V x 3), F (#F x 3). Vertices in no face may be anywhere.
-Eigen::AlignedBox3d find_bounding_box(const Positions& V, const Triangles& F);
-
 // Throws SolverFailure where a solve moved a vertex of a region in this box along the view by more than ten of its
 // diagonals, or beyond the range of float32, in which Blender stores positions. NaN counts as too far.
 void check_move_size(const Eigen::AlignedBox3d& region, double largest_move);
