@@ -108,16 +108,11 @@ Stencils pack(const HeightField& field, std::vector<Chunk> chunks) {
 }  // namespace
 
 Mask held_at_border(const HeightField& field) {
-  const auto any_free = [&field](int t) {
-    bool free = false;
-    for (int i = 0; i < 3; ++i) free = free || field.role[field.F(t, i)] == VertexRole::kFree;
-    return free;
-  };
   Mask result(field.triangle_count());
   for (int t = 0; t < field.triangle_count(); ++t) {
-    result(t) = field.neighbors.row(t).minCoeff() < 0 && !any_free(t);
+    result(t) = field.neighbors.row(t).minCoeff() < 0 && !field.has_free_vertex(t);
     for (int i = 0; i < 3 && result(t); ++i) {
-      if (field.neighbors(t, i) >= 0) result(t) = !any_free(field.neighbors(t, i));
+      if (field.neighbors(t, i) >= 0) result(t) = !field.has_free_vertex(field.neighbors(t, i));
     }
   }
   return result;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "optimization/linear/linear_solver.h"
+#include "optimization/row_limits.h"
 #include "reflines/errors.h"
 #include "solver/cage_surface.h"
 #include "solver/optimizer_internals.h"
@@ -101,8 +102,7 @@ void CageOptimizer::fit(const Vector& heights, const Vector& weight) {
   ShapeOptimizer::Internals& own = surface().internals();
   const int n = static_cast<int>(own.free_unknowns.size());
   const SparseMatrix all = cage_surface_->S * cage_surface_->B;
-  SparseMatrix B(all.rows(), n);
-  for (int k = 0; k < n; ++k) B.col(k) = all.col(own.free_unknowns[k]);
+  const SparseMatrix B = select_columns(all, own.free_unknowns);
   const SparseMatrix WB = weight.asDiagonal() * B;
   SparseMatrix identity(n, n);
   identity.setIdentity();

@@ -149,11 +149,9 @@ class Cholmod final : public LinearBackend {
     const auto* order = static_cast<const int*>(factor_->Perm);
     double smallest = std::numeric_limits<double>::infinity();
     for (int s = 0; s < L.supernode_count; ++s) {
-      const auto height = static_cast<std::size_t>(L.row_start[s + 1] - L.row_start[s]);
-      for (int j = L.first_column[s]; j < L.first_column[s + 1]; ++j) {
-        const auto column = static_cast<std::size_t>(j - L.first_column[s]);
-        const double root = L.value[static_cast<std::size_t>(L.block_start[s]) + column * (height + 1)];
-        smallest = std::min(smallest, root * root / values[matrix.outerIndexPtr()[order[j]]]);
+      for (int k = 0; k < L.columns(s); ++k) {
+        const double root = L.block(s)[static_cast<std::ptrdiff_t>(k) * (L.height(s) + 1)];
+        smallest = std::min(smallest, root * root / values[matrix.outerIndexPtr()[order[L.first_column[s] + k]]]);
       }
     }
     return smallest;

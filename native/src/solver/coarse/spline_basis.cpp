@@ -46,12 +46,11 @@ void number_splines(const HeightField& field, double full_support, SplineBasis& 
 }
 
 PlanePositions collect_free_places(const HeightField& field) {
-  PlanePositions places(std::count(field.role.begin(), field.role.end(), VertexRole::kFree), 2);
-  int n = 0;
+  std::vector<int> free;
   for (int v = 0; v < field.vertex_count(); ++v) {
-    if (field.role[v] == VertexRole::kFree) places.row(n++) = field.xy.row(v);
+    if (field.role[v] == VertexRole::kFree) free.push_back(v);
   }
-  return places;
+  return field.xy(free, Eigen::all);
 }
 
 // Chooses for each part of a cell the triangle nearest to its middle, standing for all; cell by cell, with space for
