@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/smoothstep.h"
 #include "restoration/bump_removal.h"
 #include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/press_rules.h"
+#include "restoration/soft_step.h"
 
 namespace reflines {
 namespace {
@@ -104,12 +104,11 @@ Vector AdaptiveSmoother::weigh(const Vector& z, double smoothing_length) const {
     const double xx = mean(t, 0), yy = mean(t, 2), xy = mean(t, 1), trace = xx + yy;
     const double coherence = trace > 0 ? (square(xx - yy) + 4.0 * square(xy)) / square(trace) : 0.0;
     const double typical = std::exp(around(t, 1));
-    const double alike = smoothstep(kRules.scale.uneven, kRules.scale.even, typical / around(t, 0));
+    const double alike = soft_step(kRules.scale.even, typical / around(t, 0));
     const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
     const double spread =
         measure_spread(around.row(t), {std::cos(angle), std::sin(angle)}, kRules.scale.around * length_);
-    const double lone =
-        coherence * (1.0 - kRules.scale.waves * alike * smoothstep(kRules.scale.band, kRules.scale.spread, spread));
+    const double lone = coherence * (1.0 - kRules.scale.waves * alike * soft_step(kRules.scale.spread, spread));
     const double most = square(flaw * (1.0 - kRules.scale.across_one * lone)) +
                         square(kRules.scale.typical) * typical * alike * square(1.0 - coherence);
     const double weight = 1.0 / (1.0 + trace / most);
@@ -201,7 +200,7 @@ Vector AdaptiveSmoother::smooth_further(const Vector& z, Progress* progress) {
   const EdgeWeights weight = weight_;
   const Vector open = open_;
   further_ = true;
-  take_step(plane_.project_heights(z, field_.xy), kRules.scale.longest * length_, progress);
+  take_step(plane_.project_heights(z, field_.xy), 2.0 * std::end(kRules.scale.ladder)[-1] * length_, progress);
   weight_ = weight;
   open_ = open;
   return smooth_over_plane(z);

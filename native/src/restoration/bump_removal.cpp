@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "base/smoothstep.h"
 #include "restoration/centroids.h"
 #include "restoration/press_rules.h"
+#include "restoration/soft_step.h"
 #include "restoration/triangle_slopes.h"
 
 namespace reflines {
@@ -80,8 +80,7 @@ class BumpGain {
 // Returns how much of a bump is to go, 0 to 1: none where it is wide for the piece of the surface that it is on, of
 // which it is a shape, nor where the surface around it is hardly smoother without it.
 double weigh(const Bump& bump, double largest_radius, double gain) {
-  return bump.weight * smoothstep(kRules.bump.too_wide, 1.0, bump.radius / largest_radius) *
-         smoothstep(kRules.bump.no_gain, kRules.bump.whole_gain, gain);
+  return bump.weight * (1.0 - soft_step(largest_radius, bump.radius)) * soft_step(kRules.gain, gain);
 }
 
 Vector evaluate(const Bump& bump, const PlanePositions& xy) {
@@ -112,7 +111,7 @@ BumpRemoval remove_bumps(const CurvatureVariation& variation, const MeanPlane& p
       if (weight == 0) continue;
       removed.push_back(bump);
       result.heights -= weight * evaluate(bump, field.xy);
-      result.count += weight > kRules.bump.reported;
+      result.count += weight > 0.5;
     }
   }
   return result;

@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "base/parallel_failure.h"
-#include "base/smoothstep.h"
 #include "reflection/weighted_median.h"
 #include "restoration/grid_cell.h"
 #include "restoration/press_rules.h"
+#include "restoration/soft_step.h"
 
 namespace reflines {
 namespace {
@@ -170,8 +170,8 @@ Eigen::ArrayXd squared_misfit(const Disk& disk, const Fit& fit) {
   return result;
 }
 
-// Returns the plain fit, or the robust one where that explains more of a disk that is good surface for the most part: a
-// feature that crosses the disk's rim then does not count.
+// Returns the plain fit, or the robust one where that explains more, so that a feature which crosses the disk's rim
+// does not count. It explains the less, the more of the disk it leaves out.
 Fit measure_bump(const Disk& disk) {
   const Fit plain = fit_bump(disk, disk.area);
   Fit robust = plain;
@@ -182,10 +182,8 @@ Fit measure_bump(const Disk& disk) {
     weight = disk.area / (1.0 + misfit / scale).square();
     robust = fit_bump(disk, weight);
   }
-  const Eigen::ArrayXd core = (disk.x.square() + disk.y.square() < kRules.bump.core * kRules.bump.core).cast<double>();
-  const bool good = weight.sum() >= kRules.bump.inliers * disk.area.sum() &&
-                    (weight * core).sum() >= kRules.bump.core_inliers * (disk.area * core).sum();
-  return good && robust.explained > plain.explained ? robust : plain;
+  robust.explained *= std::sqrt(weight.sum() / disk.area.sum());
+  return robust.explained > plain.explained ? robust : plain;
 }
 
 // Fits a bump at p; its `explained` is 0 where the disk cannot be judged.
@@ -292,15 +290,14 @@ PlanePositions overlapping(const PlanePositions& places, double radius, const st
 }
 
 bool is_seen(const Bump& bump, const BumpSearchOptions& options) {
-  return bump.depth() >= options.least_height && bump.radius >= 0.999 * options.smallest_radius &&
+  return bump.depth() > begin_of_soft_step(options.least_height) && bump.radius >= 0.999 * options.smallest_radius &&
          bump.radius <= 1.001 * options.largest_radius;
 }
 
 // Returns how surely a bump is a flaw, 0 to 1.
 double weigh(const Bump& bump, const BumpSearchOptions& options) {
   const double steepness = std::max(1.0, bump.depth() / (options.steepness * bump.radius));
-  return smoothstep(kRules.bump.unexplained * steepness, kRules.bump.explained * steepness, bump.explained) *
-         smoothstep(options.least_height, kRules.bump.whole_height * options.least_height, bump.depth());
+  return soft_step(kRules.bump.explained * steepness, bump.explained) * soft_step(options.least_height, bump.depth());
 }
 
 bool is_apart(const Bump& bump, const std::vector<Bump>& others) {
@@ -330,8 +327,7 @@ std::vector<Candidate> search_places(const HessianSamples& samples, const DiskIn
   failure.rethrow();
   std::vector<Candidate> result;
   for (const Bump& bump : measured) {
-    if (bump.explained > kRules.bump.worth_refining * kRules.bump.unexplained && is_seen(bump, options))
-      result.push_back({bump, &index});
+    if (bump.explained > kRules.bump.worth_refining && is_seen(bump, options)) result.push_back({bump, &index});
   }
   return result;
 }
@@ -357,7 +353,8 @@ std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions
     if (progress) progress->enter(kRefining, "looking for dents");
     if (!is_apart(candidate.bump, found)) continue;
     Bump best = refine(samples, *candidate.index, options, candidate.bump);
-    if (best.explained < kRules.bump.unexplained || !is_seen(best, options) || !is_apart(best, found)) continue;
+    if (best.explained < begin_of_soft_step(kRules.bump.explained)) continue;
+    if (!is_seen(best, options) || !is_apart(best, found)) continue;
     best.weight = weigh(best, options);
     found.push_back(best);
     if (best.weight > 0) result.push_back(best);

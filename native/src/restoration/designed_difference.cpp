@@ -40,11 +40,10 @@ Mask find_designed_differences(const PlanePositions& xy, const Triangles& F, con
   columns << difference, find_vertex_gradients(xy, F, difference);
   columns = DiskMean(xy, one, kRules.symmetry.averaged * length).of_columns(columns);
   const Vector height = columns.col(0), size = height.cwiseAbs(), slope = columns.rightCols(2).rowwise().norm();
-  const double steepest = std::max(kRules.symmetry.design_slope, kRules.symmetry.typical * weighted_median(slope, one));
   const double floor = kRules.symmetry.floor * weighted_median(size, one);
   std::vector<int> seeds;
   for (int v = 0; v < size.size(); ++v) {
-    const bool steep = slope(v) > steepest && size(v) > kRules.symmetry.above_roughness * roughness(v);
+    const bool steep = slope(v) > kRules.symmetry.design_slope && size(v) > roughness(v);
     if (steep || std::abs(difference(v)) > deepest) seeds.push_back(v);
   }
   std::stable_sort(seeds.begin(), seeds.end(), [&](int a, int b) { return size(a) > size(b); });

@@ -12,7 +12,7 @@ namespace {
 
 // Returns the same for each triangle (#F).
 Vector find_even_triangles(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, double raised) {
-  const double nothing = kRules.verdict.seen * kRules.verdict.seen;
+  const double nothing = kRules.visible * kRules.visible;
   Vector result(before.rows());
   for (Eigen::Index t = 0; t < result.size(); ++t) {
     double rise = 0;

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/smoothstep.h"
 #include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/line_evenness.h"
 #include "restoration/press_rules.h"
+#include "restoration/soft_step.h"
 #include "restoration/triangle_slopes.h"
 #include "restoration/worse_place.h"
 #include "solver/families.h"
@@ -52,8 +52,7 @@ HealedPlaces sum_up(const Vector& before, const Vector& after, const Vector& are
   Vector healed(area.size());
   for (Eigen::Index t = 0; t < area.size(); ++t) {
     const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
-    healed(t) = smoothstep(kRules.verdict.seen, kRules.verdict.seen_whole, before(t)) *
-                smoothstep(kRules.verdict.healed, kRules.verdict.healed_whole, gone);
+    healed(t) = soft_step(kRules.visible, before(t)) * soft_step(kRules.verdict.healed, gone);
   }
   const Vector weight = area.cwiseProduct(healed);
   return {{weight.sum() / area.sum(),

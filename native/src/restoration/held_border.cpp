@@ -27,7 +27,7 @@ ShapeOptions clamp_instead(const ShapeOptions& shape) {
 
 // Compares two numbers in degrees.
 bool is_less_even(double one, double other) {
-  return one > std::max(kRules.border.less_even * other, other + kRules.border.less_even_degrees);
+  return one > std::max(kRules.verdict.worse * other, other + kRules.border.less_even);
 }
 
 struct Deviations {

@@ -104,7 +104,7 @@ void JointPress::turn_after() {
 bool JointPress::begin_turned() {
   if (is_limited()) return false;
   const std::vector<Turn> turns = find_turns(kRules.border.turned_before);
-  const auto is_kink = [](const Turn& turn) { return turn.degrees > kRules.joint.kink; };
+  const auto is_kink = [](const Turn& turn) { return turn.degrees > kRules.visible; };
   if (std::none_of(turns.begin(), turns.end(), is_kink)) return false;
   for (size_t k = 0; k < sides_.size(); ++k) {
     if (is_joint(k)) sides_[k]->begin_turned(is_kink(turns[k]) ? turns[k].change : 0 * turns[k].change);

@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "base/smoothstep.h"
 #include "geometry/bounding_box.h"
 #include "geometry/mesh.h"
 #include "geometry/open_border.h"
@@ -21,6 +20,7 @@
 #include "restoration/press_setup.h"
 #include "restoration/region_result.h"
 #include "restoration/rim_spread.h"
+#include "restoration/soft_step.h"
 #include "solver/mirror_coupling.h"
 
 namespace reflines {
@@ -198,7 +198,7 @@ UnevenFlush JointSide::find_uneven_flush(const Skin& others, const FlushPart& pa
   for (const RimRun& run : find_rim_runs(V, rim_, across)) {
     const Vector uneven = reflines::find_uneven_flush(V, run, found.flush);
     const double most = uneven.cwiseAbs().maxCoeff();
-    const double seen = smoothstep(least, kRules.bump.whole_height * least, most);
+    const double seen = soft_step(least, most);
     result.most = std::max(result.most, most);
     for (size_t k = 0; k < run.vertices.size(); ++k) {
       const int v = run.vertices[k];

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "base/parallel_failure.h"
-#include "base/smoothstep.h"
 #include "geometry/height_field.h"
 #include "restoration/disk_mean.h"
 #include "restoration/grid_cell.h"
 #include "restoration/press_rules.h"
 #include "restoration/smooth_difference.h"
+#include "restoration/soft_step.h"
 
 namespace reflines {
 namespace {
@@ -159,9 +159,9 @@ double find_images(const SeenPoints& points, const PointGrid& grid, double diago
 // Finds how surely the surface is symmetric around each place q (#V x 2), and how far aside images lie there.
 void weigh_around(const PlanePositions& q, double length, MirrorImages& images) {
   const Vector paired = images.paired.cast<double>();
-  const double whole = smoothstep(kRules.symmetry.least_paired, kRules.symmetry.most_paired, paired.mean());
+  const double whole = soft_step(kRules.symmetry.paired_in_all, paired.mean());
   images.weight = DiskMean(q, Vector::Ones(q.rows()), length).of(paired).unaryExpr([&](double fraction) {
-    return whole * smoothstep(kRules.symmetry.unpaired, kRules.symmetry.paired, fraction);
+    return whole * soft_step(kRules.symmetry.paired, fraction);
   });
   images.aside = DiskMean(q, paired, length).of(images.aside);
 }
@@ -213,7 +213,8 @@ std::vector<MirrorImages> find_mirror_images(const SeenPoints& points, double di
     MirrorImages images{.plane = plane};
     find_images(points, grid, diagonal, stride, images);
     const double sampled = static_cast<double>(images.paired.count() * stride) / count;
-    if (sampled < kRules.symmetry.least_paired) continue;  // no weight: the other points need not be looked at
+    if (sampled < begin_of_soft_step(kRules.symmetry.paired_in_all))
+      continue;  // no weight: the other points need not be looked at
     const double difference = find_images(points, grid, diagonal, 1, images);
     const auto is_same = [&](const auto& other) { return are_alike(images, other.second); };
     if (std::any_of(found.begin(), found.end(), is_same)) continue;

@@ -7,8 +7,7 @@
 
 namespace reflines {
 bool has_worse_place(const HealedFlaws& healed) {
-  return healed.worst_after >
-         kRules.verdict.worse_place * std::max(healed.worst_before, kRules.verdict.worse_place_degrees);
+  return healed.worst_after > kRules.verdict.worse * std::max(healed.worst_before, kRules.visible);
 }
 
 SmoothPanelResult take_region(const JoinedResult& result, const TangentMatch& match, const Vector& move,
@@ -22,7 +21,7 @@ SmoothPanelResult take_region(const JoinedResult& result, const TangentMatch& ma
   report.largest_move = report.largest_control_move = move.cwiseAbs().maxCoeff();
   if (!turned.isZero(0)) report.notes = tell_result(report);
   const double angle = find_turn(match, turned);
-  if (angle >= kRules.verdict.reported_turn) report.notes.push_back({.kind = NoteKind::kBorderTurned, .after = angle});
+  if (angle >= kRules.visible) report.notes.push_back({.kind = NoteKind::kBorderTurned, .after = angle});
   return own;
 }
 

@@ -12,6 +12,7 @@
 #include "restoration/line_fields.h"
 #include "restoration/press_notes.h"
 #include "restoration/press_rules.h"
+#include "restoration/soft_step.h"
 #include "solver/turned_faces.h"
 
 namespace reflines {
@@ -124,7 +125,7 @@ double Restoration::weigh_gain(const Vector& move) {
   double gain = 0;
   for (size_t k = 0; k < before.degrees.size(); ++k)
     gain += (1.0 - after.degrees[k] / std::max(before.degrees[k], 1e-300)) / static_cast<double>(before.degrees.size());
-  return smoothstep(kRules.cage.no_gain, kRules.cage.whole_gain, gain);
+  return soft_step(kRules.gain, gain);
 }
 
 bool Restoration::turns_faces(const Vector& move) const { return find_turned_by(move).any(); }

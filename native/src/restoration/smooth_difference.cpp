@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 
 #include "base/parallel_failure.h"
-#include "base/smoothstep.h"
 #include "restoration/disk_mean.h"
 #include "restoration/press_rules.h"
+#include "restoration/soft_step.h"
 
 namespace reflines {
 namespace {
@@ -83,7 +83,7 @@ Vector find_smooth_difference(const PlanePositions& q, const Vector& difference,
   squares = mean.of_columns(squares);
   for (Eigen::Index v = 0; v < result.size(); ++v) {
     const double explained = squares(v, 0) / (squares.row(v).sum() + least * least);
-    result(v) *= smoothstep(kRules.symmetry.unexplained, kRules.symmetry.explained, explained);
+    result(v) *= soft_step(kRules.symmetry.explained, explained);
   }
   return result;
 }
