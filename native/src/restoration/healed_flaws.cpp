@@ -52,7 +52,7 @@ HealedPlaces sum_up(const Vector& before, const Vector& after, const Vector& are
   Vector healed(area.size());
   for (Eigen::Index t = 0; t < area.size(); ++t) {
     const double gone = 1.0 - after(t) / std::max(before(t), 1e-300);
-    healed(t) = soft_step(kRules.visible, before(t)) * soft_step(kRules.verdict.healed, gone);
+    healed(t) = soft_step(kRules.verdict.seen, before(t)) * soft_step(kRules.verdict.healed, gone);
   }
   const Vector weight = area.cwiseProduct(healed);
   return {{weight.sum() / area.sum(),

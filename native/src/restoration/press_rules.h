@@ -109,7 +109,8 @@ struct VerdictRules {
   double even_radius = 0.5;    // lengths: of such a place
   double longer_waves = 0.32;  // degrees, root mean square: waves that are worth a word
   double place_radius = 0.35;  // lengths: a flaw is one place, the mesh's facets are none
-  double healed = 0.46;        // of that which went, soft
+  double seen = 0.4;           // degrees that lines deviate: flaws that are shown and told as healed, soft
+  double healed = 0.52;        // of that which went, soft
   double saturating = 0.6;     // of the limit: moves from here on are less, and come to it without an edge
 };
 
