@@ -257,13 +257,6 @@ def test_a_result_beyond_the_limit_is_put_back_first():
     assert np.abs(solver.cage_positions - afresh.cage_positions).max() < 1e-3 * limit
 
 
-def test_a_reset_leaves_the_bits_of_the_start():
-    solver, cage, _, _ = solved(None)
-    solver.reset()
-    fresh = optimizer(cage, level=LEVEL)
-    assert np.array_equal(solver.positions, fresh.positions) and np.array_equal(solver.heights, fresh.heights)
-
-
 def test_solved_again_it_stays():
     limit = 0.3 * largest_free_move()
     solver, _, target, first = solved(limit)

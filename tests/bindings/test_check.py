@@ -85,12 +85,17 @@ def test_a_line_is_worse_where_more_edges_are_worse_than_better() -> None:
     assert row.worse > row.better > 0 and row.change == "worse"
 
 
+NOWHERE = panel(8)[0]
+NOWHERE[80, 1] = np.nan  # a corner, of triangles beside the region
+
+
 @pytest.mark.parametrize(("change", "said"), [
     ({"after": np.zeros((3, 3))}, "vertices before and 3 after"),
     ({"region": np.ones(3, bool)}, "mask has 3 entries"),
     ({"region": None}, "no face"),
     ({"gap": -1.0}, "mark for the gap"),
-    ({"angle": float("nan")}, "mark for the angle"),
+    ({"angle": float("nan")}, "mark for the angle"), ({"angle": -1.0}, "mark for the angle"),
+    ({"curvature": float("nan")}, "mark for the curvature"),     ({"after": NOWHERE}, "not a finite number"),
     ({"deviation": -0.1}, "mark for the deviation"),
     ({"deviation": float("inf")}, "mark for the deviation"),
     ({"crease_angle": float("nan")}, "crease angle"),

@@ -35,13 +35,6 @@ def test_cancel_from_another_thread_leaves_every_bit():
     assert solver.solve(target).converged  # and the optimizer is as good as new
 
 
-def test_cancelled_before_it_is_made():
-    progress = reflines.Progress()
-    progress.cancel()
-    with pytest.raises(reflines.Cancelled):
-        made(*ripples(16), progress=progress)
-
-
 @pytest.mark.parametrize("work", [lambda solver: reflines.smooth(solver, length=0.3), lambda solver: solver.score(0.3)])
 def test_a_cancelled_smoothing_leaves_the_optimizer_as_it_was(work):
     positions, triangles = ripples(32)
@@ -68,23 +61,6 @@ def test_a_watcher_is_told_what_is_made():
     assert 0.0 < progress.fraction < 1.0
 
 
-def test_python_runs_while_the_solver_does():
-    positions, triangles = ripples(120)
-    solver = made(positions, triangles)
-    target = reflines.smooth(solver, length=0.3)
-    done, ticks = threading.Event(), 0
-
-    def solve():
-        solver.solve(target)
-        done.set()
-
-    threading.Thread(target=solve).start()
-    while not done.is_set():
-        ticks += 1
-        time.sleep(0.001)
-    assert ticks > 10
-
-
 def test_both_linear_solvers_find_the_same_surface():
     positions, triangles = ripples(32)
     heights = []
@@ -94,17 +70,6 @@ def test_both_linear_solvers_find_the_same_surface():
         assert report.linear_solver == name and report.converged
         heights.append(solver.heights)
     assert np.abs(heights[0] - heights[1]).max() < 1e-9
-
-
-def test_same_input_same_bits_and_the_callers_arrays_stay():
-    positions, triangles = ripples(24)
-    kept = positions.copy()
-    results = []
-    for _ in range(2):
-        solver = made(positions, triangles)
-        solver.solve(reflines.smooth(solver, length=0.3))
-        results.append(solver.positions)
-    assert np.array_equal(results[0], results[1]) and np.array_equal(positions, kept)
 
 
 def test_reset_brings_the_start_back_bit_for_bit():

@@ -232,12 +232,6 @@ def test_the_unit_of_length_does_not_matter(bonnet: tuple[np.ndarray, np.ndarray
     assert np.abs(millimetres / 1000 - metres).max() < 1e-7
 
 
-def test_the_same_panel_gives_the_same_bits(bonnet: tuple[np.ndarray, np.ndarray]) -> None:
-    V, F = bonnet
-    flawed = flaw_of("ripple", V)
-    assert np.array_equal(press(flawed, F)[0], press(flawed, F)[0])
-
-
 def test_one_light_can_be_asked_for(bonnet: tuple[np.ndarray, np.ndarray]) -> None:
     V, F = bonnet
     assert len(press(V, F, lights="single")[1].unevenness_after) == 1
@@ -256,13 +250,6 @@ def test_bad_input_gets_a_sentence(bonnet: tuple[np.ndarray, np.ndarray], settin
                                    sentence: str) -> None:
     with pytest.raises(reflines.InvalidInput, match=sentence):
         press(*bonnet, **settings)
-
-
-def test_a_cancelled_press_raises(bonnet: tuple[np.ndarray, np.ndarray]) -> None:
-    progress = reflines.Progress()
-    progress.cancel()
-    with pytest.raises(reflines.Cancelled):
-        press(*bonnet, progress=progress)
 
 
 @pytest.mark.skipif(not JUDGE.is_file(), reason="the judge's panels are not here")

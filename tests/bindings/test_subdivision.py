@@ -49,19 +49,46 @@ def test_creases_corners_scheme_and_boundary_arrive() -> None:
 
 
 @pytest.mark.parametrize(("settings", "said"), [
-    ({"level": 0}, "level is 0"),
-    ({"vertices": 15}, "names vertex 15"),
+    ({"level": 0}, "level is 0"), ({"level": -1}, "level is -1"), ({"level": 7}, "level is 7"),
+    ({"level": 6, "faces": np.tile(FACES, (1100, 1))}, "40 million faces"),
+    ({"vertices": 15}, "names vertex 15"), ({"corner": (5, -1)}, "names vertex -1"),
+    ({"corner": (1, 0)}, "uses vertex 0 twice"), ({"faces": np.zeros((0, 4), int)}, "no face"),
+    ({"faces": FACES[:, :2]}, "fewer than 3 vertices, the first is face 0"),
+    ({"offset": (9, 99)}, "to 99"), ({"offset": (2, 99)}, "fewer than 3 vertices, the first is face 2"),
     ({"scheme": "loop"}, "9 faces"),
-    ({"scheme": "bilinear"}, "'bilinear'"),
-    ({"boundary": "none"}, "'none'"),
+    ({"creases": [[0, 10]], "crease_sharpness": [1.0]}, "no edge"),
+    ({"creases": [[0, 99]], "crease_sharpness": [1.0]}, "no edge"),
+    ({"creases": [[0, 1]], "crease_sharpness": [-1.0]}, "-1"),
     ({"creases": [[0, 1]], "crease_sharpness": [np.nan]}, "nan"),
+    ({"creases": [[0, 1]], "crease_sharpness": []}, "1 crease"),
+    ({"corners": [16], "corner_sharpness": [3.0]}, "names vertex 16"),
+    ({"corners": [7], "corner_sharpness": [np.nan]}, "nan"),
+])
+def test_unusable_input_gets_one_sentence_with_advice(settings: dict, said: str) -> None:
+    faces = settings.pop("faces", FACES)
+    offsets, corners = np.arange(0, faces.size + 1, faces.shape[1]), faces.ravel().copy()
+    for name, array in (("offset", offsets), ("corner", corners)):
+        if name in settings:
+            place, array[place] = settings.pop(name)
+    with pytest.raises(reflines.InvalidInput) as caught:
+        reflines.Subdivision(offsets, corners, **{"vertices": 16} | settings)
+    assert said in str(caught.value) and ": " in str(caught.value)
+    assert str(caught.value).count("\n") == 0
+
+
+@pytest.mark.parametrize(("settings", "said"), [
+    ({"scheme": "bilinear"}, "'bilinear'"), ({"boundary": "none"}, "'none'"),
     ({"creases": [0, 1], "crease_sharpness": [1.0]}, "2 columns"),
 ])
-def test_unusable_input_gets_one_sentence(settings: dict, said: str) -> None:
+def test_options_that_are_none_get_one_sentence(settings: dict, said: str) -> None:
     with pytest.raises(reflines.InvalidInput) as caught:
         grid(**settings)
     assert said in str(caught.value)
     assert str(caught.value).count("\n") == 0
+
+
+def test_an_edge_may_be_infinitely_sharp() -> None:
+    assert len(grid(creases=[[0, 1]], crease_sharpness=[np.inf]).faces)
 
 
 @pytest.mark.parametrize("wrong", [V[:-1], V[:, :2], V.ravel()])

@@ -125,18 +125,5 @@ TEST(CheckPanel, DeviationIsTheDistanceFromTheSurfaceBefore) {
   EXPECT_FALSE(row_of(check, "deviation").passes);
 }
 
-TEST(CheckPanel, InputThatDoesNotFitIsRefused) {
-  const samples::Mesh mesh = samples::grid(4);
-  const Mask region = left_of(mesh, 0.5);
-  Positions nowhere = mesh.V;
-  nowhere(24, 1) = NAN;  // of a triangle beside the region
-  EXPECT_THROW(check_panel(mesh.V, mesh.V.topRows(5), mesh.F, region), InvalidInput);
-  EXPECT_THROW(check_panel(mesh.V, mesh.V, mesh.F, region.head(3)), InvalidInput);
-  EXPECT_THROW(check_panel(mesh.V, mesh.V, mesh.F, Mask::Constant(mesh.F.rows(), false)), InvalidInput);
-  EXPECT_THROW(check_panel(mesh.V, nowhere, mesh.F, region), InvalidInput);
-  EXPECT_THROW(check_panel(mesh.V, mesh.V, mesh.F, region, {.angle = -1}), InvalidInput);
-  EXPECT_THROW(check_panel(mesh.V, mesh.V, mesh.F, region, {.curvature = NAN}), InvalidInput);
-}
-
 }  // namespace
 }  // namespace reflines

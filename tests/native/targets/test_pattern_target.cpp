@@ -55,16 +55,5 @@ TEST(PatternTarget, TurnsThePictureCounterClockwise) {
   }
 }
 
-TEST(PatternTarget, ABrightCornerGoesFromTheRightToTheLeft) {
-  const RegionField region = flat_region();
-  Eigen::MatrixXd image = Eigen::MatrixXd::Zero(kPixels, kPixels);
-  image(kPixels - 1, kPixels - 1) = 1.0;  // the first row is the lowest
-  const Vector theta = lay_over(region, image, std::numbers::pi / 2);
-  const int left = (kPixels - 1) * kPixels;  // the vertex at the top left
-  for (int t = 0; t < theta.size(); ++t) {
-    EXPECT_NEAR(theta(t), (region.F.row(t).array() == left).any() ? 1.0 / 3 : 0.0, 1e-14);
-  }
-}
-
 }  // namespace
 }  // namespace reflines
