@@ -88,16 +88,6 @@ def test_a_border_that_flows_is_one_of_its_own_and_curvature_is_tangent() -> Non
     assert np.array_equal(moved["flow"] != 0.0, moved["clamped"] != 0.0)
 
 
-def test_one_undo_step() -> None:
-    ob = subdivided()
-    bpy.ops.ed.undo_push(message="start")
-    before = scenes.fingerprint(ob)
-    scenes.smooth()
-    assert scenes.fingerprint(ob) != before
-    bpy.ops.ed.undo()
-    assert scenes.fingerprint(bpy.data.objects["Panel"]) == before
-
-
 def test_below_a_hidden_modifier_the_mesh_is_solved_as_without_it() -> None:
     results = {}
     for kind in ("shown", "hidden", "missing"):

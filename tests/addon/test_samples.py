@@ -139,23 +139,6 @@ def test_smoothing_brings_the_door_nearer_to_the_clean_one_and_laplacian_smoothi
     assert errors[1] < 0.4 * errors[0] < errors[2]
 
 
-def press_door(flaw_size: float) -> tuple[float, str]:
-    """Returns the share of the door's waves that an automatic press leaves in the lines, and its notes."""
-    panel = opened("door.blend")
-    F, start = region_triangles(panel), positions(panel).astype(float)
-    wanted = line_field(np.column_stack([panel_shapes.door()[2], start[:, 1:]]), F)
-    bpy.ops.reflines.smooth(length=0.0, directional=False, flaw_size=flaw_size)
-    left = [np.linalg.norm(line_field(V, F) - wanted) for V in (positions(panel).astype(float), start)]
-    return left[0] / left[1], panel.reflection_lines.report.notes
-
-
-def test_an_automatic_press_takes_more_than_half_of_the_doors_waves() -> None:
-    """0.77 was left where the whole door was judged at once."""
-    for flaw_size in (1.0, 2.0):
-        left, _ = press_door(flaw_size)
-        assert left < 0.6
-
-
 @pytest.mark.parametrize(("name", "shape", "axis"), [("cage_hood.blend", cage_shapes.hood, 2),
                                                      ("cage_fender.blend", cage_shapes.fender, 0)])
 def test_the_cages_lines_come_back_to_the_clean_ones(name: str, shape: Callable, axis: int) -> None:
@@ -250,15 +233,6 @@ def test_clean_panel_is_mirrored_to_the_last_bit() -> None:
     grid = V.reshape(111, 137, 3)
     assert np.array_equal(grid[:, ::-1] * (-1.0, 1.0, 1.0), grid)
     assert len(quads) == 14960
-
-
-def test_hood_is_smoothed_by_one_call() -> None:
-    hood, panel = press_sample("hood.blend"), opened("hood.blend")
-    inside = selected(panel)
-    assert hood.report.score_after < 0.2 * hood.report.score_before
-    corners = np.array([tuple(face.vertices) for face in panel.data.polygons])
-    outside = np.setdiff1d(np.arange(len(hood.before)), corners[inside])
-    assert np.array_equal(hood.before[outside], hood.after[outside])
 
 
 def test_a_check_of_the_smoothed_hood_names_nothing_that_is_worse() -> None:

@@ -24,7 +24,9 @@ def in_picture(points: np.ndarray) -> np.ndarray:
 def is_framed(points: np.ndarray) -> bool:
     """All in the picture, with a margin; and the picture is no more than a fifth too large one way or the other."""
     seen = in_picture(points)
-    inside = (seen[:, :2] > 0.01).all() and (seen[:, :2] < 0.99).all() and (seen[:, 2] > 0.0).all()
+    camera = settings().camera.data
+    inside = (seen[:, :2] > 0.01).all() and (seen[:, :2] < 0.99).all() and (seen[:, 2] > camera.clip_start).all() and (
+        seen[:, 2] < camera.clip_end).all()
     return bool(inside and np.ptp(seen[:, :2], axis=0).max() > 0.8)
 
 

@@ -7,8 +7,7 @@ import numpy as np
 
 import sidebar
 import window
-from dragging import (adjust, dragged_length, ended, executed, moved, panel, settled, shown, taken_back,
-                      undone_and_redone)
+from dragging import dragged_length, ended, executed, moved, panel, settled, shown, taken_back, undone_and_redone
 from window import Steps
 
 HANDLE = "bpy.ops.reflines.smooth(follow_mouse=True)"
@@ -49,17 +48,6 @@ def test_the_button_solves_at_once_wherever_the_mouse_goes_then(driver: window.W
     assert bpy.context.active_operator.bl_idname == "REFLINES_OT_smooth"
     assert any(region.type == 'HUD' and region.height > 1 for region in driver.area().regions)
     yield from undone_and_redone(driver, before, expected)
-
-
-def test_the_redo_panel_is_there_after_the_button(driver: window.Window) -> Steps:
-    expected = executed(driver, strength=0.5, length=0.9)
-    panel(driver)
-    driver.move(300, 300)
-    with driver.override():
-        assert bpy.ops.reflines.smooth('INVOKE_DEFAULT', True) == {'FINISHED'}
-    yield 0.5
-    yield from adjust(driver, length=0.9, strength=0.5)
-    assert np.array_equal(shown(driver), expected)
 
 
 def test_the_handle_drags_from_the_present_value_wherever_the_mouse_is(driver: window.Window) -> Steps:

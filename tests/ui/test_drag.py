@@ -6,7 +6,6 @@ import blf
 import bpy
 import numpy as np
 
-import installation
 import scenes
 import window
 from dragging import (adjust, applied, dragged_length, ended, executed, moved, panel, press, settled, shown, struck,
@@ -251,21 +250,3 @@ def test_the_panel_moves_no_more_than_the_mouse_asks(driver: window.Window) -> S
     print(f"kick: steps of {min(moves):.2e} to {max(moves):.2e}")
     assert max(moves) < 1.5 * min(moves)
     yield from taken_back(driver)
-
-
-def test_disabling_the_add_on_takes_a_drag_back(driver: window.Window) -> Steps:
-    ob = panel(driver)
-    before = scenes.fingerprint(ob)
-    yield from press(driver)
-    assert scenes.fingerprint(ob) != before
-    with driver.override():
-        bpy.ops.preferences.addon_disable(module=installation.NAME)
-    yield 0.3
-    assert scenes.fingerprint(ob) == before
-    driver.move(200, 300)  # no handler of the drag is left
-    driver.key('RET')
-    yield 0.3
-    assert scenes.fingerprint(ob) == before
-    with driver.override():
-        installation.install()
-    yield 0.3

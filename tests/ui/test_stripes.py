@@ -35,11 +35,6 @@ def agrees_with_theta(driver: window.Window, ob: bpy.types.Object, share: float 
     assert good.mean() >= share
 
 
-def test_pixels_in_object_mode(driver: window.Window) -> Steps:
-    ob = striped_panel(driver, "Object Mode")
-    yield from agrees_with_theta(driver, ob)
-
-
 def test_pixels_of_a_turned_scaled_and_mirrored_object(driver: window.Window) -> Steps:
     ob = fresh_panel(driver, "Mirrored")
     # The normals are fitted in object space, so only a similarity leaves them the same to the last bit.
