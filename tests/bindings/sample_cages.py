@@ -14,9 +14,14 @@ def hood(columns: int = 16, rows: int = 14) -> tuple[Array, Array, Array]:
     right = np.linspace(0.0, 0.7, columns // 2 + 1)
     x, y = np.meshgrid(np.concatenate([-right[:0:-1], right]), np.linspace(-0.6, 0.6, rows + 1))
     V = np.stack([x, y, -0.13 * x**2 - 0.14 * x**4 - 0.06 * y**2 + 0.1 * y], axis=2).reshape(-1, 3)
+    return V, *sheet(columns, rows)
+
+
+def sheet(columns: int, rows: int) -> tuple[Array, Array]:
+    """Offsets and corners of quads in rows, of vertices that are numbered row by row."""
     corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
     quads = np.stack([corner, corner + 1, corner + columns + 2, corner + columns + 1], axis=1)
-    return V, np.arange(0, 4 * len(quads) + 1, 4), quads.ravel()
+    return np.arange(0, 4 * len(quads) + 1, 4), quads.ravel()
 
 
 def ball(around: int = 8, down: int = 8) -> tuple[Array, Array, Array]:

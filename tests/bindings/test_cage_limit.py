@@ -79,52 +79,6 @@ def test_it_beats_the_free_result_scaled_down_to_the_limit(share):
         assert bounded.energy_after - report.energy_after < 0.1 * (free.energy(target) - report.energy_after)
 
 
-def flat_problem(columns=8, rows=6):
-    """A cage that is nearly flat, so that its energy is quadratic: the matrix of its residuals, and those."""
-    V, offsets, corners = hood(columns, rows)
-    V[:, 2] = 1e-7 * np.random.default_rng(3).normal(size=len(V))
-
-    def made(positions):
-        return optimizer((positions, offsets, corners), np.array([0.0, 0.0, 1.0]), level=1, proximity=0.0)
-
-    solver = made(V)
-    target = reflines.Target(np.zeros((len(solver.triangles), 2)))
-    shares = np.array([solver.energy(reflines.Target(target.gradient, each)) for each in np.eye(len(solver.triangles))])
-    weight = np.sqrt(shares / (solver.field()**2).sum(1))[:, None]
-    residual, jacobian, free = (weight * solver.field()).ravel(), [], np.flatnonzero(solver.cage_free)
-    subdivision = reflines.Subdivision(offsets, corners, vertices=len(V), level=1)
-    rows_of = []
-    for v in free:
-        moved = V.copy()
-        moved[v, 2] += 1e-8
-        jacobian.append(((weight * made(moved).field()).ravel() - residual) / 1e-8)
-        unit = np.zeros_like(V)
-        unit[v, 2] = 1.0
-        rows_of.append(subdivision.positions(unit)[solver.refined, 2])
-    return solver, V, free, target, np.stack(jacobian, 1), residual, np.stack(rows_of, 1)
-
-
-@pytest.mark.parametrize(("low", "high"), [(-4e-8, 4e-8), (0.0, 6e-8), (-1e-8, 5e-8)])
-def test_nearly_flat_scipy_finds_the_same(low, high):
-    optimize = pytest.importorskip("scipy.optimize", reason="scipy is where the project is built, not where it is used")
-    solver, V, free, target, J, r, S = flat_problem()
-    report = solver.solve(target, limit=np.tile([low, high], (len(S), 1)), gradient_tolerance=1e-9)
-    assert report.converged and report.limited > 3
-    move = (solver.cage_positions - V)[free, 2] / high
-    S = S[np.abs(S).sum(1) > 0]
-    scale = np.abs(J.T @ r).max() * high
-    referee = optimize.minimize(
-        lambda x: 0.5 * ((high * (J @ x) + r)**2).sum() / scale, np.zeros(len(free)),
-        jac=lambda x: high * (J.T @ (high * (J @ x) + r)) / scale, method="SLSQP",
-        constraints={"type": "ineq", "fun": lambda x: np.concatenate([S @ x - low / high, 1.0 - S @ x]),
-                     "jac": lambda _x: np.concatenate([S, -S])}, options={"maxiter": 500, "ftol": 1e-15})
-    assert referee.success
-    ours, theirs = (0.5 * ((high * (J @ x) + r)**2).sum() / scale for x in (move, referee.x))
-    assert ours <= theirs + 1e-6
-    assert np.abs(S @ (move - referee.x)).max() < 1e-4  # as far as SLSQP goes with some hundred limits
-    assert ours == pytest.approx(theirs, rel=1e-6)
-
-
 def test_its_gradient_is_balanced_by_forces_into_the_limits():
     """The KKT conditions by finite differences and non-negative least squares: nothing but energies and Subdivision."""
     optimize = pytest.importorskip("scipy.optimize", reason="scipy is where the project is built, not where it is used")

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import reflines
+import sample_cages
 from sample_panels import LINE, VIEW, panel, rippled
 
 SLOWER = float(os.environ.get("REFLINES_SLOWER", "1"))  # times that the module is slower, as under sanitizers
@@ -54,11 +55,9 @@ def flawed_panel(cells: int) -> tuple[np.ndarray, np.ndarray]:
 
 def sheet(most: int) -> dict[str, np.ndarray]:
     cells = smaller(most)
-    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
-    quads = np.stack([corner, corner + 1, corner + cells + 2, corner + cells + 1], 1)
+    offsets, corners = sample_cages.sheet(cells, cells)
     x, y = (axis.ravel() for axis in np.meshgrid(np.linspace(-1, 1, cells + 1), np.linspace(-1, 1, cells + 1)))
-    return {"V": np.stack([x, y, -0.1 * x * x], 1), "face_offsets": np.arange(0, quads.size + 1, 4),
-            "face_vertices": quads.ravel()}
+    return {"V": np.stack([x, y, -0.1 * x * x], 1), "face_offsets": offsets, "face_vertices": corners}
 
 
 def press_of_a_mesh() -> Work:

@@ -12,13 +12,7 @@ Array = np.ndarray
 
 
 def region(kind: str, **options: object) -> tuple[Array, Array]:
-    if kind == "regular stretched":
-        i, j = np.meshgrid(np.arange(181), np.arange(46))
-        first = (np.arange(45)[:, None] * 181 + np.arange(180)).ravel()
-        triangles = np.concatenate([np.column_stack([first, first + 1, first + 182]),
-                                    np.column_stack([first, first + 182, first + 181])])
-        return crown((np.column_stack([i.ravel() / 180, j.ravel() / 45]) - 0.5) * (1.5, 1.2)), triangles
-    points, triangles = meshes.KINDS[kind](CELLS)
+    points, triangles = meshes.stretched(180, 45, "regular") if "stretched" in kind else meshes.KINDS[kind](CELLS)
     return crown(points * (1.5, 1.2)), triangles
 
 

@@ -1,6 +1,7 @@
 """Presses of Smooth on several panels of which some are cages: the cage takes what it can, and the meshes follow."""
 import numpy as np
 import reflines
+import sample_cages
 from meshes import KINDS
 from test_follow_border import DIRECTIONS, REACH, Array, cut, cylinder
 
@@ -23,17 +24,14 @@ def make_mesh(side: int) -> tuple[Array, Array]:
 def make_cage(side: int, cells: int = 16, share: float = 1.0) -> Cage:
     """A cage whose surface is the half with its share of the dent, at the places of the cage's vertices."""
     t = np.linspace(-0.5, 0.5, cells + 1)
-    row, count = cells + 1, cells * cells
-    first = (np.arange(cells)[:, None] * row + np.arange(cells)).ravel()
-    quads = np.column_stack([first, first + 1, first + row + 1, first + row])
+    offsets, corners = sample_cages.sheet(cells, cells)
     u, y = np.meshgrid(t, t)
     clean = place(u.ravel(), y.ravel(), side)
     wanted = V = clean + share * dent(clean)
-    surface = reflines.Subdivision(np.arange(0, 4 * count + 1, 4), quads.ravel(), vertices=len(V), level=2,
-                                   boundary="preserve_corners")
+    surface = reflines.Subdivision(offsets, corners, vertices=len(V), level=2, boundary="preserve_corners")
     for _ in range(60):
         V = V + wanted - surface.positions(V)[:len(V)]
-    return V, np.arange(0, 4 * count + 1, 4), quads.ravel()
+    return V, offsets, corners
 
 
 def dent(V: Array) -> Array:

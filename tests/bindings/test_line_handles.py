@@ -19,15 +19,9 @@ def crown(points: Array) -> Array:
 
 
 def mesh(kind: str) -> tuple[Array, Array]:
-    points, triangles = meshes.KINDS[kind.removesuffix(" stretched")](56)
-    size = (1.5, 1.2)
-    if kind.endswith("stretched"):  # four times longer triangles, on the same panel
-        i, j = np.meshgrid(np.arange(101), np.arange(26))
-        points = np.column_stack([i.ravel() / 100, j.ravel() / 25]) - 0.5
-        first = (np.arange(25)[:, None] * 101 + np.arange(100)).ravel()
-        triangles = np.concatenate([np.column_stack([first, first + 1, first + 102]),
-                                    np.column_stack([first, first + 102, first + 101])])
-    return crown(points * size), triangles
+    # Stretched are four times longer triangles, on the same panel.
+    points, triangles = meshes.stretched(100, 25, "regular") if "stretched" in kind else meshes.KINDS[kind](56)
+    return crown(points * (1.5, 1.2)), triangles
 
 
 def optimizer(kind: str = "irregular", **options: object) -> reflines.ShapeOptimizer:

@@ -91,28 +91,6 @@ TEST_P(SymmetricProblemTest, HessianIsThatOfTheWholeOverSharedMoves) {
   }
 }
 
-TEST_P(SymmetricProblemTest, TheMinimumHasNoSlopeAlongSharedMoves) {
-  const Vector first = half.unknowns();
-  Vector start(whole.size()), end(whole.size());
-  whole.evaluate(whole.unknowns(), &start);
-  const Report report = half.minimize({.gradient_tolerance = 1e-10}, nullptr);
-  ASSERT_TRUE(report.converged()) << report.message;
-  whole.evaluate(whole.unknowns() + spread * (half.unknowns() - first), &end);
-  EXPECT_LT((spread.transpose() * end).norm(), 1e-8 * (spread.transpose() * start).norm());
-  EXPECT_GT(end.norm(), 1e-3 * start.norm());  // the cut is not symmetric, and neither is the free minimum
-}
-
-TEST_P(SymmetricProblemTest, VerticesMoveWithTheirImagesToTheLastBit) {
-  half.minimize({}, nullptr);
-  const IndexVector partner = split_pieces(field, images(kCells)).front().partner;
-  double largest = 0;
-  for (int v = 0; v < partner.size(); ++v) {
-    EXPECT_EQ(half.move(v), half.move(partner(v)));
-    largest = std::max(largest, std::abs(half.move(v)));
-  }
-  EXPECT_GT(largest, 1e-4);
-}
-
 // Unknowns that are far apart in the plane would spoil the order of elimination.
 TEST_P(SymmetricProblemTest, UnknownsLieOnOneSideOfThePlane) {
   const PlanePositions places = half.places();
