@@ -1,5 +1,6 @@
 """Small panels as arrays, for tests: V (#V x 3), F (#F x 3), made afresh by every call."""
 import numpy as np
+import reflines
 
 VIEW = np.array([0.0, 0.3, 1.0]) / np.hypot(0.3, 1.0)
 LINE = np.array([1.0, 0.2, 0.1])
@@ -44,3 +45,24 @@ def rippled(positions: Array, *, amplitude: float, wavelength: float) -> Array:
 
 def rms(field: Array) -> float:
     return float(np.sqrt((field**2).sum(1).mean()))
+
+
+def optimizer(positions: Array, triangles: Array, **options: object) -> reflines.ShapeOptimizer:
+    return reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW, line_direction=LINE, **options)
+
+
+def find_normals(V: Array, F: Array) -> Array:
+    """Of triangles (#F x 3), twice as long as their areas."""
+    return np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
+
+
+def unit(vector: Array) -> Array:
+    return vector / np.linalg.norm(vector, axis=-1, keepdims=True)
+
+
+def theta_of(normals: Array, eye: Array, line: Array) -> Array:
+    """Returns equation 1 of the paper in space: the mirrored eye direction, projected along the lines, from its own."""
+    n, v, a = unit(normals), unit(eye), unit(line)
+    mirrored = 2 * (n @ v)[:, None] * n - v
+    start = unit(v - (v @ a) * a)
+    return np.arctan2(mirrored @ np.cross(a, start), mirrored @ start)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import reflines
 from real_meshes import triangles
-from sample_panels import LINE, VIEW, panel
+from sample_panels import optimizer, panel
 
 Array = np.ndarray
 SIDES = (12, 16, 24, 32, 48, 64)
@@ -129,10 +129,6 @@ def test_gaps_of_a_car_body_are_found() -> None:
     assert len(wanted) > 1000 and len(wanted - found) < 0.02 * len(wanted)
 
 
-def solver_of(mesh: tuple[Array, Array], **options: object) -> reflines.ShapeOptimizer:
-    return reflines.ShapeOptimizer(*mesh, view_direction=VIEW, line_direction=LINE, **options)
-
-
 def middle(V: Array) -> Array:
     """The edges of panel(24)'s middle column."""
     column = 12 + 25 * np.arange(25)
@@ -142,14 +138,14 @@ def middle(V: Array) -> Array:
 @pytest.mark.parametrize("rule", ["automatic", "marked"])
 def test_marked_edges_are_held_and_cut_the_lines(rule: str) -> None:
     mesh = panel(24)
-    solver = solver_of(mesh, marked_creases=middle(mesh[0])[:, ::-1], crease_rule=rule)
+    solver = optimizer(*mesh, marked_creases=middle(mesh[0])[:, ::-1], crease_rule=rule)
     assert solver.region.marked_creases == solver.region.creases == 24
     assert solver.region.pieces == 2 and not solver.free[middle(mesh[0])].any()
     assert [(note.kind, note.count) for note in solver.region.notes] == [("marked_edges", 24)]
 
 
 def test_marks_that_are_no_edges_are_ignored() -> None:
-    solver = solver_of(panel(24), marked_creases=np.array([[0, 300], [5, 5]]))
+    solver = optimizer(*panel(24), marked_creases=np.array([[0, 300], [5, 5]]))
     assert solver.region.creases == 0
 
 
@@ -166,15 +162,15 @@ def test_without_the_automatic_rule_no_bend_is_held(rule: str) -> None:
 def test_a_refusal_names_creases_where_they_hold_all_vertices() -> None:
     mesh = panel(24)
     with pytest.raises(reflines.InvalidInput, match=r"creases \(24 edges\).*hold fewer creases"):
-        solver_of((mesh[0], mesh[1][(mesh[1] % 25 >= 11).all(1) & (mesh[1] % 25 <= 13).all(1)]),
+        optimizer(mesh[0], mesh[1][(mesh[1] % 25 >= 11).all(1) & (mesh[1] % 25 <= 13).all(1)],
                   marked_creases=middle(mesh[0]))
     with pytest.raises(reflines.InvalidInput) as refused:
-        solver_of(panel(2))
+        optimizer(*panel(2))
     assert "crease" not in str(refused.value).lower()
 
 
 def test_rules_and_marks_that_cannot_be_are_refused() -> None:
     with pytest.raises(reflines.InvalidInput, match="automatic, marked, none"):
-        solver_of(panel(8), crease_rule="sharp")
+        optimizer(*panel(8), crease_rule="sharp")
     with pytest.raises(reflines.InvalidInput, match="2 columns"):
-        solver_of(panel(8), marked_creases=np.zeros((4, 3), int))
+        optimizer(*panel(8), marked_creases=np.zeros((4, 3), int))

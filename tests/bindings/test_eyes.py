@@ -2,22 +2,10 @@
 import numpy as np
 import pytest
 import reflines
-from sample_panels import LINE, VIEW, grid, panel, rippled
+from sample_panels import LINE, VIEW, find_normals, grid, panel, rippled, theta_of, unit
 
 Array = np.ndarray
 EYE, ASIDE = np.array([0.5, -0.2, 0.8]), np.array([0.3, 1.0, -0.2])
-
-
-def unit(vector: Array) -> Array:
-    return vector / np.linalg.norm(vector, axis=-1, keepdims=True)
-
-
-def theta_of(normals: Array, eye: Array, line: Array) -> Array:
-    """Returns equation 1 of the paper in space: the mirrored eye direction, projected along the lines, from its own."""
-    n, v, a = unit(normals), unit(eye), unit(line)
-    mirrored = 2 * (n @ v)[:, None] * n - v
-    start = unit(v - (v @ a) * a)
-    return np.arctan2(mirrored @ np.cross(a, start), mirrored @ start)
 
 
 def sphere(cells: int) -> tuple[Array, Array]:
@@ -47,9 +35,8 @@ def looking(positions: Array, triangles: Array, eyes: object, lines: object, vie
 def test_theta_is_that_of_equation_one_for_the_eye():
     positions, triangles = panel(24)
     solver = looking(positions, triangles, [VIEW, EYE], [LINE, ASIDE])
-    a, b, c = positions[triangles].transpose(1, 0, 2)
     for family, (eye, line) in enumerate(((VIEW, LINE), (EYE, ASIDE))):
-        expected = theta_of(np.cross(b - a, c - a), eye, line)
+        expected = theta_of(find_normals(positions, triangles), eye, line)
         assert np.abs(np.angle(np.exp(1j * (solver.theta(family) - expected)))).max() < 1e-12
 
 

@@ -95,27 +95,18 @@ def test_clean_panels_have_no_spots(make: Callable[[], Panel]) -> None:
     assert not found.spots and found.deviation.max() < FLOOR
 
 
-def theta(normal: Array, view: Array, line: Array) -> Array:
-    """Equation 1 of the paper, in degrees."""
-    n = normal / np.linalg.norm(normal, axis=1, keepdims=True)
-    r = 2.0 * (n @ view)[:, None] * n - view
-    third = view - (view @ line) * line
-    third /= np.linalg.norm(third)
-    return np.degrees(np.arctan2(r @ np.cross(line, third), r @ third))
-
-
 def test_maps_are_the_differences_of_theta_by_normals() -> None:
     """From every view in every light; the mean of the squares over a disk, as at its middle where they vary slowly."""
     V, F = lift(dome)
     dented = V.copy()
     dented[:, 2] += 1e-3 * np.exp(-(V[:, :2]**2).sum(axis=1) / 0.06**2)
     found = reflines.inspect_panel(dented, F, VIEWS, LINES, maps=True)
-    normals = [np.cross(P[F[:, 1]] - P[F[:, 0]], P[F[:, 2]] - P[F[:, 0]]) for P in (dented, V)]
+    normals = [sample_panels.find_normals(P, F) for P in (dented, V)]
     centers = V[F].mean(axis=1)
     near = np.argsort(np.linalg.norm(centers[:, :2] - (0.06, 0.03), axis=1))[:20]
     for k, view in enumerate(VIEWS):
         for n, line in enumerate(LINES):
-            off = (theta(normals[0], view, line) - theta(normals[1], view, line))**2
+            off = np.degrees(np.subtract(*(sample_panels.theta_of(n, view, line) for n in normals)))**2
             for t in near:
                 distance = np.linalg.norm((centers - centers[t])[:, :2], axis=1)
                 weight = np.maximum(1.0 - (distance / (0.35 * found.length))**2, 0.0)

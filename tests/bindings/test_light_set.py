@@ -6,7 +6,7 @@ import pytest
 import reflines
 import sample_cages
 from dented_dome import LIGHT, VIEW, clean, dented, grid
-from test_eyes import theta_of
+from sample_panels import find_normals, theta_of
 
 Array = np.ndarray
 EYES, LINES = reflines.walk_around(VIEW, LIGHT, (0, 1, 0))
@@ -26,10 +26,8 @@ def press(V: Array, F: Array, light_set: reflines.LightSet | None = None,
 
 def measure(V: Array, F: Array, eye: Array, line: Array) -> float:
     """Degrees of theta from the lines of the clean dome, root mean square over the triangles."""
-    a, b, c = V[F].transpose(1, 0, 2)
     x, y = V[:, :2].T
-    wanted = np.stack([x, y, clean(x, y)], 1)[F].transpose(1, 0, 2)
-    values = [theta_of(np.cross(two - one, three - one), eye, line) for one, two, three in ((a, b, c), wanted)]
+    values = [theta_of(find_normals(each, F), eye, line) for each in (V, np.stack([x, y, clean(x, y)], 1))]
     return float(np.degrees(np.sqrt(np.mean(np.angle(np.exp(1j * (values[0] - values[1]))) ** 2))))
 
 

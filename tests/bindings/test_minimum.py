@@ -4,12 +4,9 @@ import numpy as np
 import pytest
 import reflines
 from sample_panels import LINE, VIEW, inside, panel, rippled
+from sample_panels import optimizer as made
 
 STRATEGIES = ("adaptive", "linearized", "gauss_newton", "newton")
-
-
-def made(positions, triangles, **options):
-    return reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW, line_direction=LINE, **options)
 
 
 def test_every_strategy_ends_in_the_same_minimum():

@@ -7,10 +7,7 @@ import numpy as np
 import pytest
 import reflines
 from sample_panels import LINE, VIEW, inside, panel, rippled
-
-
-def made(positions, triangles, **options):
-    return reflines.ShapeOptimizer(positions, triangles, view_direction=VIEW, line_direction=LINE, **options)
+from sample_panels import optimizer as made
 
 
 def ripples(cells):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import reflines
 import sample_cages
+from sample_panels import find_normals, theta_of
 
 from bench.restoration import JUDGE, read_cage, read_panels
 
@@ -30,14 +31,6 @@ def press(cage: tuple | list, view: Array = VIEW, lines: Array = LINES,
     return reflines.smooth_cage_panel(*cage, view_direction=view, line_direction=lines, **settings)
 
 
-def theta(V: Array, F: Array, view: Array, a: Array) -> Array:
-    n = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    r = 2 * (n @ view)[:, None] * n / (n * n).sum(1)[:, None] - view
-    across = view - (view @ a) * a
-    across /= np.linalg.norm(across)
-    return np.arctan2(r @ np.cross(a, across), r @ across)
-
-
 class Surface:
     """The subdivided surface of a region, on which errors are read."""
 
@@ -56,7 +49,8 @@ class Surface:
     def error(self, V: Array, where: Array | float = 1.0) -> Array:
         """Degrees from the clean surface, root mean square by area, in both lights."""
         P = self.refined.positions(V)
-        off = np.array([theta(P, self.F, self.view, a) - theta(self.clean, self.F, self.view, a) for a in self.lights])
+        normals = [find_normals(V, self.F) for V in (P, self.clean)]
+        off = np.array([np.subtract(*(theta_of(n, self.view, a) for n in normals)) for a in self.lights])
         off = (off + np.pi) % (2 * np.pi) - np.pi
         weight = self.area * where
         return np.degrees(np.sqrt((off**2 * weight).sum(1) / weight.sum()))

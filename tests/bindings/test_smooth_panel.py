@@ -9,7 +9,7 @@ import pytest
 import reflines
 from sample_panels import LINE as PANEL_LINE
 from sample_panels import VIEW as PANEL_VIEW
-from sample_panels import grid, panel, rippled
+from sample_panels import find_normals, grid, panel, rippled, theta_of
 
 from bench.flawed_panels import list_panels
 from bench.restoration import JUDGE, load_judge, load_panel, read_panels
@@ -72,17 +72,11 @@ def flaw_of(kind: str, V: np.ndarray) -> np.ndarray:
     return V + plant(kind, V)[:, None] * VIEW
 
 
-def theta(V: np.ndarray, F: np.ndarray, a: np.ndarray) -> np.ndarray:
-    n = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    r = 2 * (n @ VIEW)[:, None] * n / (n * n).sum(1)[:, None] - VIEW
-    across = VIEW - (VIEW @ a) * a
-    return np.arctan2(r @ np.cross(a, across), r @ across)
-
-
 def error(V: np.ndarray, clean: np.ndarray, F: np.ndarray, where: np.ndarray | float = 1.0) -> np.ndarray:
     """Degrees, root mean square by area, for both lights."""
-    area = np.linalg.norm(np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), axis=1) * where
-    off = np.array([theta(V, F, a) - theta(clean, F, a) for a in LIGHTS])
+    normals = [find_normals(each, F) for each in (V, clean)]
+    area = np.linalg.norm(normals[0], axis=1) * where
+    off = np.array([np.subtract(*(theta_of(n, VIEW, a) for n in normals)) for a in LIGHTS])
     return np.degrees(np.sqrt((off**2 * area).sum(1) / area.sum()))
 
 
