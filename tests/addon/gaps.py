@@ -15,10 +15,7 @@ MEASURES = ("gap", "flush", "kink", "line_offset")
 def build_sheet(name: str, columns: Callable[[float], Array], rows: Array, height: scenes.Height) -> bpy.types.Object:
     """Builds a sheet of quads with columns that depend on y."""
     points = [(x, y, height(x, y)) for y in rows for x in columns(y)]
-    count = len(columns(0.0))
-    faces = [(i, i + 1, i + count + 1, i + count) for j in range(len(rows) - 1)
-             for i in range(j * count, (j + 1) * count - 1)]
-    return scenes.linked(name, points, faces)
+    return scenes.linked(name, points, scenes.quads(len(columns(0.0)), len(rows)))
 
 
 def find_moves(objects: Sequence[bpy.types.Object], was: Sequence[Array]) -> list[Array]:

@@ -27,9 +27,18 @@ def panel(name: str = "Panel", height: Height = rippled, cells: int = 16) -> bpy
     """A square of quads with a height, linked and active. The outermost ring of faces lies outside the usual region."""
     grid = np.linspace(-1.0, 1.0, cells + 1)
     vertices = [(x, y, height(x, y)) for y in grid for x in grid]
-    row = cells + 1
-    faces = [(i, i + 1, i + row + 1, i + row) for j in range(cells) for i in range(j * row, j * row + cells)]
-    return linked(name, vertices, faces)
+    return linked(name, vertices, quads(cells + 1, cells + 1))
+
+
+def quads(columns: int, rows: int) -> list[tuple[int, int, int, int]]:
+    """The faces of a sheet of so many columns and rows of vertices, which are numbered row by row."""
+    return [(i, i + 1, i + columns + 1, i + columns) for j in range(rows - 1)
+            for i in range(j * columns, (j + 1) * columns - 1)]
+
+
+def sphere() -> bpy.types.Object:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
+    return bpy.context.object
 
 
 def linked(name: str, vertices: list, faces: list) -> bpy.types.Object:
@@ -42,6 +51,14 @@ def linked(name: str, vertices: list, faces: list) -> bpy.types.Object:
     return ob
 
 
+def remove_all() -> None:
+    """Leaves Edit Mode, and no object in the file."""
+    if bpy.context.mode != 'OBJECT':
+        object_mode()
+    for old in list(bpy.data.objects):
+        bpy.data.objects.remove(old)
+
+
 def activate(ob: bpy.types.Object) -> None:
     ob.select_set(True)
     bpy.context.view_layer.objects.active = ob
@@ -52,6 +69,13 @@ def look_from_above(light_degrees: float = 70.0) -> None:
     bpy.ops.reflines.set_up(part='CAMERA', direction=(0.0, 0.0, 1.0))
     angle = radians(light_degrees)
     bpy.ops.reflines.set_up(part='LIGHT', direction=(np.sin(angle), 0.0, np.cos(angle)))
+
+
+def axis_z(ob: bpy.types.Object) -> np.ndarray:
+    """The direction of its own z axis in the world, of unit length."""
+    bpy.context.view_layer.update()
+    axis = np.array(ob.matrix_world, dtype=float)[:3, 2]
+    return axis / np.linalg.norm(axis)
 
 
 def settings() -> bpy.types.PropertyGroup:

@@ -29,8 +29,7 @@ def half(name: str, low: float, high: float, height: Callable, cells: int = CELL
     matrix = Matrix() if matrix is None else matrix
     inverse = np.array(matrix.inverted())
     points = points @ inverse[:3, :3].T + inverse[:3, 3]
-    row = cells + 1
-    faces = [(i, i + 1, i + row + 1, i + row) for j in range(2 * cells) for i in range(j * row, j * row + cells)]
+    faces = scenes.quads(len(columns), len(rows))
     if matrix.determinant() < 0.0:
         faces = [face[::-1] for face in faces]
     ob = scenes.linked(name, points.tolist(), faces)

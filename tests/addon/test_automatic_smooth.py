@@ -27,16 +27,12 @@ def ready() -> bpy.types.Object:
     return scenes.edited_panel(height=dented, cells=CELLS)
 
 
-def unit_axis(ob: bpy.types.Object) -> np.ndarray:
-    axis = np.array(ob.matrix_world, dtype=float)[:3, 2]
-    return axis / np.linalg.norm(axis)
-
-
 def expected(ob: bpy.types.Object, **settings: object) -> np.ndarray:
     """What the native function makes of the region that the last press took."""
     patch, scene = solve_history.find_last_solve(ob.name).patch, bpy.context.scene.reflection_lines
     positions, told = native.reflines.smooth_panel(
-        patch.V, patch.F, view_direction=unit_axis(scene.camera), line_direction=unit_axis(scene.light), **settings)
+        patch.V, patch.F, view_direction=scenes.axis_z(scene.camera), line_direction=scenes.axis_z(scene.light),
+        **settings)
     assert told.applied
     return positions
 
@@ -190,7 +186,7 @@ def test_a_cage_gets_what_the_native_function_gives() -> None:
     arguments = cage.build_arguments(symmetric=False)
     arguments["limit_surface"] = arguments.pop("limit")
     positions, told = native.reflines.smooth_cage_panel(
-        **arguments, view_direction=unit_axis(scene.camera), line_direction=unit_axis(scene.light))
+        **arguments, view_direction=scenes.axis_z(scene.camera), line_direction=scenes.axis_z(scene.light))
     assert told.applied and np.abs(positions - cage.V).max() > 1e-4
     assert np.array_equal(scenes.positions(ob), positions.astype(np.float32))
     assert report.largest_move == pytest.approx(told.largest_move, rel=1e-4)

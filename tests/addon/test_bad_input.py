@@ -146,11 +146,6 @@ def seen_from_above(ob: bpy.types.Object, *, edit: bool = True) -> bpy.types.Obj
     return ob
 
 
-def sphere() -> bpy.types.Object:
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
-    return bpy.context.object
-
-
 # What is done to a panel that is edited, and the sentence.
 CHANGED: dict[str, tuple[Callable[[bpy.types.Object], object], str]] = {
     "camera deleted": (lambda _: unlink("camera"), "No view camera"),
@@ -172,7 +167,7 @@ MADE: dict[str, tuple[Callable[[], bpy.types.Object], str]] = {
     "light along the view": (lambda: scenes.edited_panel(light_degrees=0.0), "parallel to the view"),
     "no stored region": (lambda: seen_from_above(scenes.panel(), edit=False),
                          "Panel has no stored region: select the faces of the panel in Edit Mode"),
-    "closed body": (lambda: seen_from_above(sphere()),
+    "closed body": (lambda: seen_from_above(scenes.sphere()),
                     "Sphere: the 384 selected faces are all of a closed body"),
     "one triangle": (lambda: seen_from_above(scenes.linked("Panel", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])),
                      "No vertex of the region is free to move"),

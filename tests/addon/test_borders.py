@@ -244,8 +244,7 @@ def test_both_halves_below_a_mirror_have_the_borders_of_the_meshs_own() -> None:
     """View and light are symmetric: the half is solved together with its image."""
     grid = np.linspace(0.0, 1.0, 9)
     vertices = [(x, y, scenes.rippled(x, 2 * y - 1)) for y in grid for x in grid]
-    faces = [(i, i + 1, i + 10, i + 9) for j in range(8) for i in range(9 * j, 9 * j + 8)]
-    ob = scenes.linked("Half", vertices, faces)
+    ob = scenes.linked("Half", vertices, scenes.quads(9, 9))
     ob.modifiers.new("Mirror", 'MIRROR')
     scenes.look_from_above()
     scenes.edit(ob)
@@ -324,9 +323,7 @@ def test_a_half_below_a_mirror_takes_the_curvature_on_both_sides() -> None:
     """The half is solved with its image, whose faces beside are the images of its own."""
     grid = np.linspace(-1.0, 1.0, CELLS + 1)
     half, row = grid[CELLS // 2:], CELLS // 2 + 1
-    ob = scenes.linked("Half", [(x, y, bent(x, y)) for y in grid for x in half],
-                       [(i, i + 1, i + row + 1, i + row) for j in range(CELLS)
-                        for i in range(j * row, j * row + row - 1)])
+    ob = scenes.linked("Half", [(x, y, bent(x, y)) for y in grid for x in half], scenes.quads(row, CELLS + 1))
     ob.modifiers.new("Mirror", 'MIRROR')
     scenes.look_from_above()
     results = []

@@ -78,7 +78,7 @@ def test_the_mark_of_the_gap_is_a_length_in_any_unit(system: str, unit: float) -
     assert marks.gap == pytest.approx(2e-5 * metre)
     steps = metre * np.linspace(0.0, 4e-3, 5)
     grid = [(x, y, 0.0) for y in steps for x in steps]
-    faces = [(5 * j + i, 5 * j + i + 1, 5 * j + i + 6, 5 * j + i + 5) for j in range(4) for i in range(4)]
+    faces = scenes.quads(5, 5)
     for gap, passes in ((1e-5, True), (4e-5, False)):
         beside = [(x + metre * (4e-3 + gap), y, z) for x, y, z in grid]
         ob = scenes.linked("Sheets", grid + beside, faces + [tuple(25 + i for i in face) for face in faces])

@@ -7,7 +7,6 @@ from reflection_lines import native
 from reflection_lines.state import solve_history
 
 import scenes
-from test_automatic_smooth import unit_axis
 from test_borders import set_border
 
 CELLS, MARGIN = 48, 10
@@ -42,7 +41,7 @@ def test_a_press_gives_the_positions_of_the_native_function_to_the_bit() -> None
     last, scene = solve_history.find_last_solve(ob.name), bpy.context.scene.reflection_lines
     patch = last.patch
     positions, told = native.reflines.smooth_panel(
-        patch.V, patch.F, view_direction=unit_axis(scene.camera), line_direction=unit_axis(scene.light),
+        patch.V, patch.F, view_direction=scenes.axis_z(scene.camera), line_direction=scenes.axis_z(scene.light),
         around=(patch.around.V, patch.around.F), fair_border=np.ones(len(patch.V), dtype=bool))
     assert told.applied and np.array_equal(last.positions, positions)
     moved = (scenes.positions(ob) != before).any(axis=1)
@@ -100,9 +99,7 @@ def half_below_a_mirror(height: scenes.Height) -> bpy.types.Object:
     """The half x >= 0 of the panel, rows of CELLS // 2 faces."""
     grid = np.linspace(-1.0, 1.0, ROW)
     half, row = grid[CELLS // 2:], CELLS // 2 + 1
-    ob = scenes.linked("Half", [(x, y, height(x, y)) for y in grid for x in half],
-                       [(i, i + 1, i + row + 1, i + row) for j in range(CELLS)
-                        for i in range(j * row, j * row + row - 1)])
+    ob = scenes.linked("Half", [(x, y, height(x, y)) for y in grid for x in half], scenes.quads(row, ROW))
     ob.modifiers.new("Mirror", 'MIRROR')
     return ob
 

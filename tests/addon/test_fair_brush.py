@@ -200,11 +200,10 @@ def test_both_halves_below_a_mirror_modifier_move_alike() -> None:
     """Painted on the image the mesh's own half moves, and the seam stays closed and smooth."""
     grid = np.linspace(0.0, 1.0, 9)
     vertices = [(x, y, scenes.rippled(x, 2 * y - 1)) for y in grid for x in grid]
-    faces = [(i, i + 1, i + 10, i + 9) for j in range(8) for i in range(9 * j, 9 * j + 8)]
     moves = []
     for x in (0.3, -0.3):
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-        ob = scenes.linked("Half", vertices, faces)
+        ob = scenes.linked("Half", vertices, scenes.quads(9, 9))
         ob.modifiers.new("Mirror", 'MIRROR')
         ob.modifiers.new("Subdivision", 'SUBSURF').levels = 2
         scenes.look_from_above(90.0)

@@ -57,7 +57,7 @@ def subdivide(cage: object, level: int) -> object:
 
 def start(kind: str = "straight", levels: int = 2) -> tuple[bpy.types.Object, bpy.types.Object]:
     """Left, which is active, and Right, all faces selected; their cages have other faces."""
-    panels.remove_all()
+    scenes.remove_all()
     middle = panels.bow if kind == "curved" else (lambda _y: 0.0)
     h = 0.5 * panels.GAP
     right = sheet("Right", lambda y: np.linspace(middle(y) + h, 1.0, 11), np.linspace(-1.0, 1.0, 19), levels)
@@ -175,7 +175,7 @@ def test_re_solve_moves_both_again_and_leaves_no_step(tool: str, begin: Callable
 
 @pytest.mark.parametrize("gap", [0.0, panels.GAP])
 def test_three_cages_that_meet_in_a_t_move_as_one(gap: float) -> None:
-    panels.remove_all()
+    scenes.remove_all()
     h = 0.5 * gap
     upper = sheet("Upper", lambda _y: np.linspace(h, 1.0, 9), np.linspace(h, 1.0, 11), 2)
     lower = sheet("Lower", lambda _y: np.linspace(h, 1.0, 11), np.linspace(-1.0, -h, 9), 2)

@@ -12,7 +12,7 @@ import pytest
 import gaps
 import scenes
 from test_across_gap import start_several
-from test_joined_panels import FIT, GAP, KINK, OFFSET, list_triangles, remove_all, straighten, turn
+from test_joined_panels import FIT, GAP, KINK, OFFSET, list_triangles, straighten, turn
 
 Array = np.ndarray
 VIEWS = {"even": ((0.0, 0.0, 1.0), (0.0, 0.9, 0.4)), "uneven": ((0.0, 0.0, 1.0), (0.7, 0.3, 0.4)),
@@ -39,7 +39,7 @@ COUNTS = {"Rear": (21, 22), "Front": (26, 25), "Bonnet": (16, 43), "Wing": (20, 
 def start(gap: str, view: str, build: Callable = sheet, counts: dict[str, tuple[int, int]] = COUNTS,
           ) -> tuple[bpy.types.Object, bpy.types.Object]:
     """The panels of a pair, the second of which is active and returned first. Nothing else is left."""
-    remove_all()
+    scenes.remove_all()
     second, first = (build(name, *(np.linspace(*ends, count) for ends, count in zip(sides, counts[name], strict=True)))
                      for name, sides in PAIRS[gap].items())
     start_several(second, first)

@@ -36,7 +36,7 @@ def sheet(name: str, columns: Callable[[float], Array], rows: Array, step: float
 
 def start(kind: str = "straight", gap: float = GAP) -> tuple[bpy.types.Object, bpy.types.Object]:
     """Left, which is active, and Right, all faces selected; both have other meshes. Nothing else is left."""
-    remove_all()
+    scenes.remove_all()
     middle = bow if kind == "curved" else (lambda _y: 0.0)
     step = 0.001 if kind == "step" else 0.0
     right = sheet("Right", lambda y: np.linspace(middle(y) + 0.5 * gap, 1.0, 18), np.linspace(-1.0, 1.0, 37), step)
@@ -44,13 +44,6 @@ def start(kind: str = "straight", gap: float = GAP) -> tuple[bpy.types.Object, b
     start_several(right, left)
     bpy.ops.ed.undo_push(message="Start")
     return left, right
-
-
-def remove_all() -> None:
-    if bpy.context.mode != 'OBJECT':
-        scenes.object_mode()
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
 
 
 def find_rim(ob: bpy.types.Object, kind: str = "straight") -> Array:

@@ -52,8 +52,7 @@ def add_light() -> bpy.types.PropertyGroup:
 def expected(light_set: object) -> np.ndarray:
     """What the native press makes of the region that the last press took."""
     patch = solve_history.find_last_solve(bpy.context.object.name).patch
-    axes = [np.array(ob.matrix_world)[:3, 2] for ob in (settings().camera, settings().light)]
-    view, line = (axis / np.linalg.norm(axis) for axis in axes)
+    view, line = scenes.axis_z(settings().camera), scenes.axis_z(settings().light)
     positions, told = native.reflines.smooth_panel(patch.V, patch.F, view_direction=view, line_direction=line,
                                                    light_set=light_set)
     assert told.applied

@@ -22,8 +22,7 @@ def region_arrays(ob: bpy.types.Object, cells: int, margin: int = 1) -> tuple[np
 
 def solved(V: np.ndarray, F: np.ndarray, length: float, strength: float, border: str) -> np.ndarray:
     settings = bpy.context.scene.reflection_lines
-    v, a = (np.array(ob.matrix_world, dtype=float)[:3, 2] for ob in (settings.camera, settings.light))
-    v, a = v / np.linalg.norm(v), a / np.linalg.norm(a)
+    v, a = scenes.axis_z(settings.camera), scenes.axis_z(settings.light)
     optimizer = native.reflines.ShapeOptimizer(V, F, view_direction=v, line_direction=[a, np.cross(v, a)],
                                                border=border)
     optimizer.solve([native.reflines.smooth(optimizer, length=length, strength=strength, family=k) for k in (0, 1)])

@@ -7,13 +7,7 @@ import pytest
 from mathutils import Euler
 
 import scenes
-from scenes import settings
-
-
-def axis_z(ob: bpy.types.Object) -> np.ndarray:
-    bpy.context.view_layer.update()
-    z = np.array(ob.matrix_world)[:3, 2]
-    return z / np.linalg.norm(z)
+from scenes import axis_z, settings
 
 
 @pytest.mark.parametrize("angles", [(0.0, 0.0, 0.0), (0.5, 0.3, 2.0), (np.pi / 2, 0.0, 0.0)])

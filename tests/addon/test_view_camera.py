@@ -7,12 +7,7 @@ from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
 
 import scenes
-from scenes import settings
-
-
-def axis_z(ob: bpy.types.Object) -> np.ndarray:
-    z = np.array(ob.matrix_world)[:3, 2]
-    return z / np.linalg.norm(z)
+from scenes import axis_z, settings
 
 
 def in_picture(points: np.ndarray) -> np.ndarray:
@@ -234,30 +229,25 @@ def test_a_flat_panel_turned_away_says_turn_the_camera() -> None:
     assert "turn the view camera" in refusal_from((0.0, 0.0, 1.0), ob, scenes.inner())
 
 
-def sphere() -> bpy.types.Object:
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
-    return bpy.context.object
-
-
 def cap(ob: bpy.types.Object, below: float) -> set[int]:
     return {face.index for face in ob.data.polygons if face.center.z < below}
 
 
 def test_the_back_of_a_closed_body_says_turn_the_camera() -> None:
-    ob = sphere()
+    ob = scenes.sphere()
     bottom = cap(ob, -0.5)
     assert "turn the view camera" in refusal_from((0.0, 0.0, 1.0), ob, lambda face: face in bottom)
 
 
 def test_a_closed_body_inside_out_says_flip() -> None:
-    ob = sphere()
+    ob = scenes.sphere()
     ob.data.flip_normals()
     top = set(range(len(ob.data.polygons))) - cap(ob, 0.5)
     assert "Mesh > Normals > Flip" in refusal_from((0.0, 0.0, 1.0), ob, lambda face: face in top)
 
 
 def test_flipped_faces_of_a_sound_body_say_flip() -> None:
-    ob = sphere()
+    ob = scenes.sphere()
     top = set(range(len(ob.data.polygons))) - cap(ob, 0.5)
     scenes.edit(ob)
     scenes.select_faces(ob, lambda face: face in top)

@@ -41,8 +41,7 @@ def milliseconds(work: Callable[[], object]) -> float:
 
 def measure() -> dict[str, list[float]]:
     read, model = (sys.modules[f"reflection_lines.{name}"] for name in ("read", "model"))
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
+    scenes.remove_all()
     ob, width = build_panel("Panel", 0.0, 0.0), STEP * ROWS
     for name, x, y in (("Above", 0.0, width + GAP), ("Below", 0.0, -width - GAP), ("Beyond", STEP * COLUMNS, 0.0)):
         build_panel(name, x, y)

@@ -34,10 +34,7 @@ def milliseconds(work: Callable[[], object]) -> float:
 
 
 def make_bumpy_panel(cells: int) -> bpy.types.Object:
-    if bpy.context.mode != 'OBJECT':
-        scenes.object_mode()
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
+    scenes.remove_all()
     random = np.random.default_rng(5)
     ob = scenes.panel(height=lambda x, y: scenes.rippled(x, y) + NOISE * random.standard_normal(), cells=cells)
     scenes.look_from_above()
@@ -79,10 +76,7 @@ def build_part(name: str, x: np.ndarray, y: np.ndarray) -> bpy.types.Object:
 
 def press_parts(cells: int, parts: int) -> float:
     """Builds the panel in parts x parts objects anew, and presses them as one problem."""
-    if bpy.context.mode != 'OBJECT':
-        scenes.object_mode()
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
+    scenes.remove_all()
     ends = np.linspace(-1.0, 1.0, parts + 1)
     sides = [np.linspace(low + 0.5 * GAP, high - 0.5 * GAP, cells // parts + 1)
              for low, high in zip(ends[:-1], ends[1:], strict=True)]

@@ -39,10 +39,7 @@ def milliseconds(work: Callable[[], object]) -> float:
 
 
 def fresh_panel(cells: int) -> bpy.types.Object:
-    if bpy.context.mode != 'OBJECT':
-        bpy.ops.object.mode_set(mode='OBJECT')
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
+    scenes.remove_all()
     ob = scenes.panel(cells=cells)
     scenes.look_from_above()
     scenes.edit_inner(ob, cells)

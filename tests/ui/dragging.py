@@ -17,10 +17,7 @@ def panel(driver: window.Window, cells: int = 16, levels: int = 0) -> bpy.types.
                          ("angle", settings.direction), ("strength", settings.pattern), ("amount", settings.warp)):
         values.property_unset(name)
     with driver.override():
-        if bpy.context.mode != 'OBJECT':
-            bpy.ops.object.mode_set(mode='OBJECT')
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
+        scenes.remove_all()
         ob = scenes.panel(cells=cells)
         if levels:
             ob.modifiers.new("Subdivision", 'SUBSURF').levels = levels
@@ -59,6 +56,15 @@ def press(driver: window.Window, operator: str = "smooth") -> Steps:
         getattr(bpy.ops.reflines, operator)('INVOKE_DEFAULT', True, follow_mouse=True)
     yield 0.2
     yield from settled(driver)
+
+
+def take_tool(driver: window.Window, name: str, place: tuple[float, float] = (300, 300)) -> Steps:
+    """Takes a tool of the toolbar, with the mouse at a place of the view."""
+    driver.move(*place)
+    with driver.override():
+        assert bpy.ops.wm.tool_set_by_id(name=name) == {'FINISHED'}
+    driver.redraw()
+    yield 0.3
 
 
 def is_running() -> bool:

@@ -43,10 +43,7 @@ def prepare(driver: window.Window, ob: bpy.types.Object) -> None:
 
 def fresh_panel(driver: window.Window, name: str) -> bpy.types.Object:
     with driver.override():
-        if bpy.context.mode != 'OBJECT':
-            bpy.ops.object.mode_set(mode='OBJECT')
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
+        scenes.remove_all()
         ob = scenes.panel(name, cells=CELLS)
         scenes.look_from_above(light_degrees=60.0)
         bpy.context.view_layer.update()

@@ -61,8 +61,7 @@ class Walker:
 def new_panel(walker: Walker, cells: int = CELLS) -> Steps:
     """Away with all, and a panel ready for work."""
     walker.to_mode('OBJECT')
-    for old in list(bpy.data.objects):
-        bpy.data.objects.remove(old)
+    scenes.remove_all()
     with walker.override():
         scenes.edited_panel(cells=cells)
         bpy.context.scene.reflection_lines.stripes.show = True

@@ -28,8 +28,7 @@ def show(cells: int) -> Generator[float, None, None]:
     area = next(area for area in window.screen.areas if area.type == 'VIEW_3D')
     region = next(region for region in area.regions if region.type == 'WINDOW')
     with bpy.context.temp_override(window=window, area=area, region=region):
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
+        scenes.remove_all()
         scenes.panel(cells=cells)
         scenes.look_from_above()
         bpy.context.scene.reflection_lines.stripes.show = True

@@ -41,8 +41,7 @@ def test_the_button_solves_at_once_wherever_the_mouse_goes_then(driver: window.W
     assert np.array_equal(shown(driver), expected)
     driver.move(300, 300)  # into the view and a click there, as a hand does that expects a drag
     yield 0.2
-    driver.event('MIDDLEMOUSE', 'PRESS')
-    driver.event('MIDDLEMOUSE', 'RELEASE')
+    driver.key('MIDDLEMOUSE')
     yield 0.3
     assert np.array_equal(shown(driver), expected)
     assert bpy.context.active_operator.bl_idname == "REFLINES_OT_smooth"

@@ -90,8 +90,7 @@ def test_escape_puts_it_back_and_a_press_beside_it_selects(driver: window.Window
     ob.select_set(False)
     driver.move(began + 20, driver.region().height // 2)
     yield 0.2
-    driver.event('LEFTMOUSE', 'PRESS')
-    driver.event('LEFTMOUSE', 'RELEASE')
+    driver.key('LEFTMOUSE')
     yield 0.4
     assert ob.select_get() and divider(driver) == began
 

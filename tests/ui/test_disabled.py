@@ -6,7 +6,7 @@ import numpy as np
 import installation
 import scenes
 import window
-from dragging import applied, panel, shown
+from dragging import applied, panel, shown, take_tool
 from errors import read_errors
 from pulling import MIDDLE, UP, pull, start
 from window import Steps
@@ -27,11 +27,7 @@ def without_the_addon(driver: window.Window) -> Steps:
 
 def test_the_cursor_of_fair_brush_is_not_drawn(driver: window.Window) -> Steps:
     panel(driver)
-    driver.move(300, 290)
-    with driver.override():
-        assert bpy.ops.wm.tool_set_by_id(name="reflection_lines.fair_brush") == {'FINISHED'}
-    driver.redraw()
-    yield 0.3
+    yield from take_tool(driver, "reflection_lines.fair_brush", (300, 290))
     written = yield from read_errors(without_the_addon(driver))
     assert "Traceback" not in written, written
 
@@ -54,11 +50,7 @@ def test_a_swept_light_is_turned_back(driver: window.Window) -> Steps:
 def test_a_stroke_is_taken_back(driver: window.Window) -> Steps:
     panel(driver, cells=24)
     before = shown(driver)
-    driver.move(*MIDDLE)
-    with driver.override():
-        bpy.ops.wm.tool_set_by_id(name="reflection_lines.fair_brush")
-    driver.redraw()
-    yield 0.3
+    yield from take_tool(driver, "reflection_lines.fair_brush", MIDDLE)
     driver.event('LEFTMOUSE', 'PRESS')
     yield 0.3
     assert not np.array_equal(shown(driver), before)

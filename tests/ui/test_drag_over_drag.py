@@ -9,7 +9,7 @@ import numpy as np
 
 import installation
 import window
-from dragging import is_running, panel, press, settled, shown
+from dragging import is_running, panel, press, settled, shown, struck
 from pulling import MIDDLE, UP, begin, pull
 from window import Steps
 
@@ -18,9 +18,7 @@ def press_half(driver: window.Window) -> Steps:
     """Begins a drag of Smooth with the strength 0.5, which is typed: the mouse does not change it."""
     yield from press(driver)
     for key in ('PERIOD', 'FIVE'):
-        driver.key(key)
-        yield 0.1
-    yield from settled(driver)
+        yield from struck(driver, key)
 
 
 def start_both(driver: window.Window) -> Generator[float, None, np.ndarray]:

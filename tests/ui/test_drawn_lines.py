@@ -62,9 +62,7 @@ def test_a_dot_of_the_curve_is_moved_and_moved_back(driver: window.Window) -> St
     moved = session().handles[0]
     assert len(session().handles) == 1
     assert [a == b for a, b in zip(drawn.curve, moved.curve, strict=True)].count(False) == 1
-    driver.key('Z', ctrl=True)
-    yield 0.1
-    yield from settled(driver)
+    yield from struck(driver, 'Z', ctrl=True)
     assert session().handles == (drawn,)
     yield from taken_back(driver)
 
@@ -86,9 +84,7 @@ def test_the_line_under_the_mouse_becomes_straight(driver: window.Window) -> Ste
     yield 0.2
     curve, = session().marks.curves
     crooked = bend(session().screen.find_pixels(curve.points))
-    driver.key('S')
-    yield 0.1
-    yield from settled(driver)
+    yield from struck(driver, 'S')
     own, = session().handles
     dots = session().screen.find_pixels(np.array([session().find_dot(dot) for dot in own.dots]))
     assert crooked > 4.0 and bend(dots) < 1.0
@@ -104,9 +100,7 @@ def test_the_line_under_the_mouse_follows_the_border(driver: window.Window) -> S
     gradually."""
     yield from start(driver, cells=48)
     yield from move(driver, 330, 315)
-    driver.key('E')
-    yield 0.1
-    yield from settled(driver)
+    yield from struck(driver, 'E')
     own, = session().handles
     dots = session().screen.find_pixels(np.array([session().find_dot(dot) for dot in own.dots]))
     assert len(dots) == 9 and np.ptp(dots[2:-2, 1]) < 1.0 and np.ptp(dots[2:-2, 0]) > 50.0, dots

@@ -7,7 +7,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import panel, shown, taken_back, undone_and_redone
+from dragging import panel, shown, take_tool, taken_back, undone_and_redone
 from window import Steps
 
 CELLS = 48
@@ -22,11 +22,7 @@ def begin(driver: window.Window, **panel_settings: int) -> Generator[float, None
     """A fresh panel with the tool at hand; returns its positions."""
     panel(driver, **{"cells": CELLS, **panel_settings})
     settings().size, settings().strength = 50, 0.8
-    driver.move(*LEFT)
-    with driver.override():
-        assert bpy.ops.wm.tool_set_by_id(name="reflection_lines.fair_brush") == {'FINISHED'}
-    driver.redraw()
-    yield 0.3
+    yield from take_tool(driver, "reflection_lines.fair_brush", LEFT)
     return shown(driver)
 
 
@@ -134,8 +130,7 @@ def test_f_changes_the_size(driver: window.Window) -> Steps:
     driver.x += 60
     driver.event('MOUSEMOVE')
     yield 0.2
-    driver.event('LEFTMOUSE', 'PRESS')
-    driver.event('LEFTMOUSE', 'RELEASE')
+    driver.key('LEFTMOUSE')
     yield 0.3
     assert settings().size > 80, settings().size
     end(driver)

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 
 import window
-from dragging import applied, is_running, panel, settled, shown, taken_back, undone_and_redone
+from dragging import applied, is_running, panel, shown, struck, taken_back, undone_and_redone
 from pulling import Steps, begin, missed, move, picture, session
 
 CELLS, MARGIN, ROW = 48, 6, 45  # of the panel; rings of faces around its region; the loop, beyond the region
@@ -55,9 +55,7 @@ def test_the_line_runs_parallel_to_the_selected_loop_and_keeps_its_place_under_t
     yield 0.2
     mouse = np.array([driver.x, driver.y])
     old = session().screen.find_pixels(session().marks.curves[0].points)
-    driver.key('E')
-    yield 0.1
-    yield from settled(driver)
+    yield from struck(driver, 'E')
     dots = find_dots()
     inner = dots[3:-3]  # before these the line leaves its ends, which the border holds
     assert len(dots) == 9 and abs(measure_slope(inner) - SLOPE) < 0.01, (measure_slope(inner), dots)
@@ -84,8 +82,6 @@ def test_without_selected_edges_it_follows_the_border(driver: window.Window) -> 
     bmesh.update_edit_mesh(bpy.data.objects["Panel"].data)
     yield from begin(driver)
     yield from move(driver, *MOUSE)
-    driver.key('E')
-    yield 0.1
-    yield from settled(driver)
+    yield from struck(driver, 'E')
     assert abs(measure_slope(find_dots()[3:-3])) < 0.01, find_dots()
     yield from taken_back(driver)

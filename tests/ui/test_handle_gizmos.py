@@ -9,19 +9,11 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 import picture as pixels
 import scenes
 import window
-from dragging import applied, is_running, settled, shown, taken_back
+from dragging import applied, is_running, settled, shown, take_tool, taken_back
 from pulling import MIDDLE, UP, Steps, begin, draw, move, picture, pull, session, start
 
 STROKE = ((270, 290), (290, 294), (310, 299), (330, 302), (350, 299), (370, 294), (390, 290))  # pixels
 PULL, DRAW, SELECT = "reflection_lines.pull_line", "reflection_lines.draw_highlight", "builtin.select_box"
-
-
-def take_tool(driver: window.Window, name: str) -> Steps:
-    driver.move(20, 300)
-    with driver.override():
-        assert bpy.ops.wm.tool_set_by_id(name=name) == {'FINISHED'}
-    driver.redraw()
-    yield 0.5
 
 
 def kept() -> tuple:

@@ -52,8 +52,7 @@ def all_panels_draw(driver: window.Window) -> Steps:
 def test_panels_before_anything_is_there(driver: window.Window) -> Steps:
     driver.move(400, 400)
     with driver.override():
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
+        scenes.remove_all()
     yield from all_panels_draw(driver)
 
 

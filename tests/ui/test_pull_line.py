@@ -5,7 +5,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import applied, panel, settled, shown, struck, taken_back, undone_and_redone
+from dragging import applied, panel, settled, shown, struck, take_tool, taken_back, undone_and_redone
 from pulling import MIDDLE, UP, begin, missed, move, picture, pull, session, start
 from window import Steps
 
@@ -61,9 +61,7 @@ def test_undo_steps_from_handle_to_handle(driver: window.Window) -> Steps:
         yield from pull(driver, first, last)
         shapes.append(shown(driver))
     for shift, expected in ((False, 1), (False, 0), (False, 0), (True, 1), (True, 2)):
-        driver.key('Z', ctrl=True, shift=shift)
-        yield 0.1
-        yield from settled(driver)
+        yield from struck(driver, 'Z', ctrl=True, shift=shift)
         assert len(session().handles) == expected
         assert np.abs(shown(driver) - shapes[expected]).max() < 3e-6
     yield from taken_back(driver)
@@ -97,9 +95,7 @@ def test_handles_are_taken_again_muted_and_deleted_and_the_wheel_changes_their_r
     assert len(session().handles) == 1 and session().handles[0].start == first.start != session().handles[0].end
     pulled = shown(driver)
     for expected in (before, pulled):
-        driver.key('M')
-        yield 0.1
-        yield from settled(driver)
+        yield from struck(driver, 'M')
         assert np.abs(shown(driver) - expected).max() < 3e-6
         dot, = session().marks.dots
         assert dot.hollow == session().handles[0].muted == (expected is before)
@@ -110,13 +106,10 @@ def test_handles_are_taken_again_muted_and_deleted_and_the_wheel_changes_their_r
     driver.key('F')
     yield 0.1
     yield from move(driver, 330 - 150, 302)
-    driver.event('LEFTMOUSE', 'PRESS')
-    driver.event('LEFTMOUSE', 'RELEASE')
+    driver.key('LEFTMOUSE')
     yield 0.1
     assert abs(session().handles[0].radius / first.radius - 0.55) < 1e-6
-    driver.key('X')
-    yield 0.1
-    yield from settled(driver)
+    yield from struck(driver, 'X')
     assert not session().handles and np.abs(shown(driver) - before).max() < 3e-6
     driver.key('RET')
     yield 0.3
@@ -129,8 +122,7 @@ def test_a_pinned_line_stays_beside_a_pull(driver: window.Window) -> Steps:
         yield from start(driver, cells=48)
         if pinned:
             yield from move(driver, *BESIDE)
-            driver.event('LEFTMOUSE', 'PRESS', alt=True)
-            driver.event('LEFTMOUSE', 'RELEASE', alt=True)
+            driver.key('LEFTMOUSE', alt=True)
             yield 0.2
             yield from settled(driver)
             assert [each.is_pin for each in session().handles] == [True]
@@ -170,15 +162,11 @@ def test_a_handle_that_is_refused_says_why_and_loses_no_other(driver: window.Win
     session().change_radius(1e-4)
     yield from settled(driver)
     for key in ('RET', 'NUMPAD_ENTER'):
-        driver.key(key)
-        yield 0.2
-        yield from settled(driver)
+        yield from struck(driver, key)
         assert len(session().handles) == 2 and "take a larger one" in session().texts[0], session().texts
     assert np.array_equal(shown(driver), good)
     for _ in range(2):
-        driver.key('Z', ctrl=True)
-        yield 0.1
-        yield from settled(driver)
+        yield from struck(driver, 'Z', ctrl=True)
     assert not session().handles and np.abs(shown(driver) - before).max() < 3e-6
     yield from taken_back(driver)
     assert np.array_equal(shown(driver), before)
@@ -207,10 +195,7 @@ def test_a_large_panel_follows_without_a_solve(driver: window.Window) -> Steps:
 def test_a_press_with_the_tool_of_the_toolbar_pulls_at_once(driver: window.Window) -> Steps:
     panel(driver, cells=24)
     before = shown(driver)
-    driver.move(*MIDDLE)
-    with driver.override():
-        assert bpy.ops.wm.tool_set_by_id(name="reflection_lines.pull_line") == {'FINISHED'}
-    yield 0.3
+    yield from take_tool(driver, "reflection_lines.pull_line", MIDDLE)
     yield from pull(driver, MIDDLE, UP)
     assert len(session().handles) == 1 and np.abs(shown(driver) - before).max() > 1e-4
     yield from picture("tool")

@@ -6,7 +6,7 @@ import numpy as np
 
 import scenes
 import window
-from dragging import adjust, applied, comes_to, panel, settled, shown, undone_and_redone
+from dragging import adjust, applied, comes_to, panel, shown, struck, undone_and_redone
 from window import Steps
 
 
@@ -23,9 +23,7 @@ def press_smooth(driver: window.Window) -> Steps:
     item = keymap.keymap_items.new("reflines.smooth", 'Y', 'PRESS', ctrl=True, alt=True)
     driver.move(300, 300)
     yield 0.2
-    driver.key('Y', ctrl=True, alt=True)
-    yield 0.2
-    yield from settled(driver)
+    yield from struck(driver, 'Y', ctrl=True, alt=True)
     yield from applied(driver)
     keymap.keymap_items.remove(item)
 

@@ -24,9 +24,7 @@ def rippled(x: float, y: float) -> float:
 def half(name: str, low: float, high: float, *, mirrored: bool) -> bpy.types.Object:
     columns, rows = np.linspace(low, high, CELLS + 1), np.linspace(0.0 if mirrored else -1.0, 1.0, 2 * CELLS + 1)
     points = [(x, y, rippled(x, y)) for y in rows for x in columns]
-    faces = [(i, i + 1, i + CELLS + 2, i + CELLS + 1) for j in range(2 * CELLS)
-             for i in range(j * (CELLS + 1), j * (CELLS + 1) + CELLS)]
-    ob = scenes.linked(name, points, faces)
+    ob = scenes.linked(name, points, scenes.quads(len(columns), len(rows)))
     if mirrored:
         ob.modifiers.new("Mirror", 'MIRROR').use_axis = (False, True, False)
     return ob
@@ -37,10 +35,7 @@ def start(driver: window.Window, levels: int = 0, *, mirrored: bool = False,
     """Builds both panels, of which the door is active, and with `levels` some of them cages; returns their positions.
     """
     with driver.override():
-        if bpy.context.mode != 'OBJECT':
-            bpy.ops.object.mode_set(mode='OBJECT')
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
+        scenes.remove_all()
         panels = [half("Wing", 0.5 * GAP, 1.0, mirrored=mirrored), half("Door", -1.0, -0.5 * GAP, mirrored=mirrored)]
         for ob in panels if levels else ():
             if ob.name in cages:
@@ -65,14 +60,6 @@ def shown() -> dict[str, np.ndarray]:
 def find_moved(before: dict[str, np.ndarray]) -> list[str]:
     now = shown()
     return [name for name, was in before.items() if not np.array_equal(now[name], was)]
-
-
-def take_tool(driver: window.Window, name: str) -> Steps:
-    driver.move(*LEFT)
-    with driver.override():
-        assert bpy.ops.wm.tool_set_by_id(name=name) == {'FINISHED'}
-    driver.redraw()
-    yield 0.3
 
 
 def paint(driver: window.Window, first: tuple[int, int], last: tuple[int, int]) -> Steps:
@@ -102,7 +89,7 @@ def comes_back(driver: window.Window, before: dict[str, np.ndarray]) -> Steps:
 def test_a_stroke_smooths_what_it_passes_over_on_both_sides_of_the_gap(driver: window.Window) -> Steps:
     for levels in (0, 2):
         before = start(driver, levels)
-        yield from take_tool(driver, BRUSH)
+        yield from dragging.take_tool(driver, BRUSH, LEFT)
         yield from window.take_picture(driver, f"brush_gap_before_{levels}")
         yield from paint(driver, LEFT, RIGHT)
         yield from window.take_picture(driver, f"brush_gap_{levels}")
@@ -117,7 +104,7 @@ def test_a_stroke_smooths_what_it_passes_over_on_both_sides_of_the_gap(driver: w
 
 def test_a_stroke_over_the_panel_that_is_not_active_smooths_that_one_alone(driver: window.Window) -> Steps:
     before = start(driver)
-    yield from take_tool(driver, BRUSH)
+    yield from dragging.take_tool(driver, BRUSH, LEFT)
     yield from paint(driver, RIGHT, (430, 290))
     assert find_moved(before) == ["Wing"]
     yield from comes_back(driver, before)
@@ -130,7 +117,7 @@ def test_a_panel_that_cannot_be_brushed_is_named_and_the_other_is_brushed(driver
         bmesh.ops.reverse_faces(edit, faces=edit.faces)
         bmesh.update_edit_mesh(bpy.data.objects["Wing"].data)
     before = shown()
-    yield from take_tool(driver, BRUSH)
+    yield from dragging.take_tool(driver, BRUSH, LEFT)
     yield from paint(driver, (270, 290), (290, 290))
     assert find_moved(before) == ["Door"]
     yield from paint(driver, RIGHT, (420, 290))
@@ -154,7 +141,7 @@ def pulled(driver: window.Window, tool: str, stroke: tuple[tuple[int, int], ...]
            border: str) -> Generator[float, None, list[str]]:
     """Presses over the wing while the door is active; returns what has moved once that is applied."""
     before, bpy.context.scene.reflection_lines.border = start(driver), border
-    yield from take_tool(driver, f"reflection_lines.{tool}")
+    yield from dragging.take_tool(driver, f"reflection_lines.{tool}", LEFT)
     yield from pulling.move(driver, *stroke[0])
     driver.event('LEFTMOUSE', 'PRESS')
     yield from lines_shown()

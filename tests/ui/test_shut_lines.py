@@ -19,9 +19,7 @@ PATIENCE = 60.0  # seconds
 def half(name: str, low: float, high: float, step: float) -> bpy.types.Object:
     columns, rows = np.linspace(low, high, CELLS + 1), np.linspace(-1.0, 1.0, 2 * CELLS + 1)
     points = [(x, y, scenes.crown(x, y) + step * (1.0 + y)) for y in rows for x in columns]
-    faces = [(i, i + 1, i + CELLS + 2, i + CELLS + 1) for j in range(2 * CELLS)
-             for i in range(j * (CELLS + 1), j * (CELLS + 1) + CELLS)]
-    return scenes.linked(name, points, faces)
+    return scenes.linked(name, points, scenes.quads(len(columns), len(rows)))
 
 
 def read_colors(driver: window.Window, ob: bpy.types.Object) -> Steps:
@@ -39,10 +37,7 @@ def read_colors(driver: window.Window, ob: bpy.types.Object) -> Steps:
 def build_halves(driver: window.Window) -> bpy.types.Object:
     """Builds two panels beside each other, and selects one in Edit Mode."""
     with driver.override():
-        if bpy.context.mode != 'OBJECT':
-            scenes.object_mode()
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
+        scenes.remove_all()
         half("Wing", 0.5 * GAP, 1.0, 0.0004)
         ob = half("Door", -1.0, -0.5 * GAP, 0.0)
         scenes.look_from_above()

@@ -377,8 +377,7 @@ LARGE = 160  # cells a side of a panel that is fitted in a thread
 
 def test_a_large_panel_is_drawn_at_once_and_then_better(driver: window.Window) -> Steps:
     with driver.override():
-        for old in list(bpy.data.objects):
-            bpy.data.objects.remove(old)
+        scenes.remove_all()
         ob = scenes.panel("Large", cells=LARGE)
         scenes.look_from_above(light_degrees=60.0)
         bpy.context.view_layer.update()

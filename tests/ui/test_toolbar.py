@@ -4,6 +4,7 @@ from collections.abc import Generator
 from math import radians
 
 import bpy
+import dragging
 import numpy as np
 
 import installation
@@ -17,11 +18,7 @@ from window import Steps
 
 def take_tool(driver: window.Window) -> Steps:
     driver.area().spaces.active.overlay.show_overlays = False  # no coloured pixels but the gizmos'
-    driver.move(300, 300)
-    with driver.override():
-        assert bpy.ops.wm.tool_set_by_id(name="reflection_lines.tool") == {'FINISHED'}
-    driver.redraw()
-    yield 0.5
+    return dragging.take_tool(driver, "reflection_lines.tool")
 
 
 def drawn(driver: window.Window) -> Generator[float, None, np.ndarray]:
