@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "geometry/centroids.h"
+
 namespace reflines {
 
 LocalMonomials local_monomials(const HeightField& field, int t, const std::vector<int>& vertex) {
   const auto at = [&field](int v) -> Vector2 { return field.xy.row(v); };
-  const Vector2 centre = (at(field.F(t, 0)) + at(field.F(t, 1)) + at(field.F(t, 2))) / 3.0;
+  const Vector2 centre = find_centroid(field.xy, field.F, t);
   LocalMonomials result;
   for (const int v : vertex) result.size = std::max(result.size, (at(v) - centre).norm());
   result.value.resize(10, static_cast<Eigen::Index>(vertex.size()));

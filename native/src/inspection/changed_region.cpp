@@ -3,7 +3,7 @@
 #include <set>
 #include <utility>
 
-#include "restoration/centroids.h"
+#include "geometry/centroids.h"
 #include "restoration/grid_cell.h"
 #include "restoration/triangle_slopes.h"
 

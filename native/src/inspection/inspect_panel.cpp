@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/bounding_box.h"
+#include "geometry/centroids.h"
 #include "geometry/height_field.h"
 #include "geometry/mesh.h"
 #include "geometry/sight.h"
@@ -88,7 +89,6 @@ struct Scene {
   auto panel_vertices() const { return V.topRows(own_vertices); }
   auto panel() const { return F.topRows(own_triangles); }
   Vector3 cross(int t) const { return area_normal(V, F, t); }
-  Vector3 middle(int t) const { return (V.row(F(t, 0)) + V.row(F(t, 1)) + V.row(F(t, 2))) / 3; }
 };
 
 Scene make_scene(const Positions& V, const UsedVertices& used, const InspectOptions& options) {
@@ -124,7 +124,7 @@ LineDeviation look_around(const Scene& scene, const HeightField& field, const Im
 
 WorstSpot make_spot(const Peak& peak, const Scene& scene, const HeightField& field, const LineDeviation& deviation,
                     const Vector& flaws, const Vector3& axis) {
-  WorstSpot spot{.place = scene.middle(field.source[peak.top]),
+  WorstSpot spot{.place = find_centroid(scene.V, scene.F, field.source[peak.top]),
                  .degrees = deviation.worst(peak.top),
                  .view = deviation.view(peak.top),
                  .light = deviation.light(peak.top),

@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/centroids.h"
 #include "geometry/height_field.h"
 #include "geometry/mesh.h"
 #include "inspection/changed_region.h"
 #include "inspection/reference_surface.h"
 #include "reflines/errors.h"
-#include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/triangle_slopes.h"
 #include "restoration/used_vertices.h"

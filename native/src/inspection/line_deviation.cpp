@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/centroids.h"
 #include "reflection/reflection_function.h"
-#include "restoration/centroids.h"
 #include "restoration/line_departure.h"
 #include "restoration/triangle_slopes.h"
 

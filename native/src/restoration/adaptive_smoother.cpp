@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/centroids.h"
 #include "restoration/bump_removal.h"
-#include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/press_rules.h"
 #include "restoration/soft_step.h"

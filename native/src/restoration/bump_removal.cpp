@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "restoration/centroids.h"
+#include "geometry/centroids.h"
 #include "restoration/press_rules.h"
 #include "restoration/soft_step.h"
 #include "restoration/triangle_slopes.h"

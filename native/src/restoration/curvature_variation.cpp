@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <numbers>
 
+#include "geometry/centroids.h"
 #include "restoration/mean_plane.h"
 
 namespace reflines {
@@ -10,10 +11,6 @@ namespace {
 
 // Weight, relative to the others, of a gradient of 0: it determines what one or two neighbours on a line leave open.
 constexpr double kUndetermined = 1e-3;
-
-Vector2 find_centroid(const HeightField& field, int t) {
-  return (field.xy.row(field.F(t, 0)) + field.xy.row(field.F(t, 1)) + field.xy.row(field.F(t, 2))).transpose() / 3.0;
-}
 
 Stencils make_tensor_stencils(const HeightField& field) {
   Stencils result = make_stencils(field, StencilKind::kConsistent);
@@ -41,7 +38,7 @@ Eigen::Matrix<double, 2, 3> fit_slope(const HeightField& field, int t) {
   for (int i = 0; i < 3; ++i) {
     const int other = field.neighbors(t, i);
     if (other < 0) continue;
-    const Vector2 across = find_centroid(field, other) - find_centroid(field, t);
+    const Vector2 across = find_centroid(field.xy, field.F, other) - find_centroid(field.xy, field.F, t);
     distance.col(i) = across / across.squaredNorm();
     moments += distance.col(i) * across.transpose();
   }

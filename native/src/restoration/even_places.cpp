@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/smoothstep.h"
-#include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/press_rules.h"
 
@@ -43,7 +42,7 @@ Vector find_even_places(ControlledSurface& surface, const Eigen::MatrixXd& befor
   const double radius = kRules.verdict.even_radius * length;
   const Vector area = surface.optimizer().area();
   const PlanePositions xy = surface.optimizer().xy();
-  const DiskMean around(find_centroids(xy, surface.triangles()), area, radius);
+  const DiskMean around(surface.optimizer().centers(), area, radius);
   const Vector even = find_even_triangles(around.of_columns(before), around.of_columns(after), raised);
   const Vector own = average_around(surface, even, area, xy, radius);
   Vector result = own;

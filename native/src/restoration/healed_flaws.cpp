@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "restoration/centroids.h"
 #include "restoration/disk_mean.h"
 #include "restoration/line_evenness.h"
 #include "restoration/press_rules.h"
@@ -85,8 +84,7 @@ HealedPlaces measure_healed(ControlledSurface& surface, const Vector& before, co
   const int lights = optimizer.family_count();
   Eigen::MatrixXd squares(area.size(), 2 * lights);
   squares << measure_squares(surface, before, course), measure_squares(surface, after, course);
-  const DiskMean around(find_centroids(optimizer.xy(), surface.triangles()), area,
-                        kRules.verdict.place_radius * length);
+  const DiskMean around(optimizer.centers(), area, kRules.verdict.place_radius * length);
   const Eigen::MatrixXd degrees = around.of_columns(squares).cwiseSqrt();
   const auto at_start = degrees.leftCols(lights), at_end = degrees.rightCols(lights);
   HealedPlaces result = sum_up(at_start.rowwise().maxCoeff(), at_end.rowwise().maxCoeff(), area);

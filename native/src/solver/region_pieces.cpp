@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "geometry/centroids.h"
 #include "reflection/strong_features.h"
 
 namespace reflines {
@@ -18,13 +19,7 @@ RegionPieces::RegionPieces(const Positions& V, const Triangles& F, const ImagePl
 
 PlanePositions RegionPieces::xy() const { return frame_.project(V_); }
 
-PlanePositions RegionPieces::centers() const {
-  const PlanePositions xy = this->xy();
-  PlanePositions result(triangle_count(), 2);
-  for (int t = 0; t < triangle_count(); ++t)
-    result.row(t) = (xy.row(F_(t, 0)) + xy.row(F_(t, 1)) + xy.row(F_(t, 2))) / 3.0;
-  return result;
-}
+PlanePositions RegionPieces::centers() const { return find_centroids(xy(), F_); }
 
 // Returns the rows of all triangles, zeros for those in no piece: of the others read(piece).
 template <typename Rows, typename Read>
