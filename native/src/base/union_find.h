@@ -24,6 +24,21 @@ class UnionFind {
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
+  // Returns the sets in the order of their smallest members, each with its members ascending.
+  std::vector<std::vector<int>> list_sets() {
+    std::vector<std::vector<int>> result;
+    std::vector<int> number(parent_.size());
+    for (int member = 0; member < static_cast<int>(parent_.size()); ++member) {
+      const int first = find(member);
+      if (first == member) {
+        number[first] = static_cast<int>(result.size());
+        result.emplace_back();
+      }
+      result[number[first]].push_back(member);
+    }
+    return result;
+  }
+
  private:
   std::vector<int> parent_;
 };

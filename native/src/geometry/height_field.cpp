@@ -71,17 +71,7 @@ void hold(std::vector<VertexRole>& role, int v, VertexRole how) {
   if (role[v] == VertexRole::kFree) role[v] = how;
 }
 
-// Returns the vertices of the region's border and of its creases, where the border's condition holds.
-Mask edge_vertices(const Triangles& F, const Triangles& neighbors, const Mask& on_crease) {
-  Mask result = on_crease;
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) < 0) result(F(t, (i + 1) % 3)) = result(F(t, (i + 2) % 3)) = true;
-    }
-  }
-  return result;
-}
-
+// Assigns roles by the vertices of the region's border and of its creases (#V), where the border's condition holds.
 void assign_roles(const Triangles& F, const Mask& edge, const Boundary& boundary, const Mask& always_fixed,
                   HeightField& field) {
   field.role.assign(field.vertex_count(), VertexRole::kUnused);
@@ -165,7 +155,10 @@ HeightField make_height_field(const Positions& V, const Triangles& F, const Imag
   Mask held = left_out;
   const Mask on_crease = cut_creases(V, boundary.creases, field);
   if (boundary.hold_creases) held = held || on_crease;
-  assign_roles(F, edge_vertices(F, neighbors, on_crease), boundary, held, field);
+  Mask edge = on_crease;
+  const Triangles border = find_border_edges(F, neighbors);
+  for (const int v : border.reshaped()) edge(v) = true;
+  assign_roles(F, edge, boundary, held, field);
   find_pieces(held, field);
   return field;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/sort_unique.h"
+#include "base/union_find.h"
 #include "reflines/errors.h"
 
 namespace reflines {
@@ -178,13 +179,43 @@ Triangles edge_neighbors(const Triangles& F) {
   return neighbors;
 }
 
-Mask find_border_vertices(const Triangles& F, int vertex_count) {
-  const Triangles neighbors = edge_neighbors(F);
-  Mask result = Mask::Constant(vertex_count, false);
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) < 0) result(F(t, (i + 1) % 3)) = result(F(t, (i + 2) % 3)) = true;
+std::vector<std::vector<int>> find_components(const Triangles& neighbors) {
+  UnionFind joined(neighbors.rows());
+  for (int t = 0; t < neighbors.rows(); ++t) {
+    for (const int other : neighbors.row(t)) {
+      if (other >= 0) joined.unite(t, other);
     }
+  }
+  return joined.list_sets();
+}
+
+Triangles find_border_edges(const Triangles& F, const Triangles& neighbors) {
+  Triangles result((neighbors.array() < 0).count(), 3);
+  Eigen::Index count = 0;
+  for (Eigen::Index t = 0; t < F.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (neighbors(t, i) < 0) result.row(count++) << F(t, (i + 1) % 3), F(t, (i + 2) % 3), F(t, (i + 2) % 3);
+    }
+  }
+  return result;
+}
+
+Mask find_border_vertices(const Triangles& F, int vertex_count) {
+  const Triangles edges = find_border_edges(F, edge_neighbors(F));
+  Mask result = Mask::Constant(vertex_count, false);
+  for (const int v : edges.reshaped()) result(v) = true;
+  return result;
+}
+
+Triangles list_points(const Mask& vertices) {
+  const std::vector<int> marked = list_marked(vertices);
+  return Eigen::Map<const IndexVector>(marked.data(), static_cast<Eigen::Index>(marked.size())).replicate(1, 3);
+}
+
+std::vector<int> list_marked(const Mask& marked) {
+  std::vector<int> result;
+  for (int k = 0; k < marked.size(); ++k) {
+    if (marked(k)) result.push_back(k);
   }
   return result;
 }

@@ -62,8 +62,22 @@ Mask find_unusable(const Positions& V, const Triangles& F);
 // triangles and more, where none is the one across.
 Triangles edge_neighbors(const Triangles& F);
 
+// Returns the numbers of triangles (#F x 3: those across their edges, or -1) in lists of those that edges join,
+// ascending.
+std::vector<std::vector<int>> find_components(const Triangles& neighbors);
+
+// Returns the edges with one triangle, in the order of their triangles, as triangles without area: first, second,
+// second.
+Triangles find_border_edges(const Triangles& F, const Triangles& neighbors);
+
 // Returns the vertices of edges with one triangle (#V).
 Mask find_border_vertices(const Triangles& F, int vertex_count);
+
+// Returns vertices that are marked (#V) as triangles without area, each at all of their corners.
+Triangles list_points(const Mask& vertices);
+
+// Returns the numbers of what is marked, ascending.
+std::vector<int> list_marked(const Mask& marked);
 
 // Returns for every vertex 0 .. vertex_count - 1 the triangles that touch it, ascending.
 Incidence vertex_triangles(const Triangles& F, int vertex_count);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/mesh.h"
+
 namespace reflines {
 namespace {
 
@@ -34,6 +36,9 @@ NearestSurface::NearestSurface(const Positions& V, const Triangles& F, std::vect
     : V_(V), F_(F), order_(std::move(chosen)) {
   if (!order_.empty()) build(0, static_cast<int>(order_.size()));
 }
+
+NearestSurface::NearestSurface(const Positions& V, const Triangles& F)
+    : NearestSurface(V, F, list_marked(Mask::Constant(F.rows(), true))) {}
 
 int NearestSurface::build(int begin, int end) {
   const int own = static_cast<int>(nodes_.size());

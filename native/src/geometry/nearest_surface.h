@@ -22,6 +22,7 @@ class NearestSurface {
  public:
   // Takes V (#V x 3) and the triangles of F (#F x 3) named by `chosen`; V and F by reference.
   NearestSurface(const Positions& V, const Triangles& F, std::vector<int> chosen);
+  NearestSurface(const Positions& V, const Triangles& F);  // all of F
 
   // Returns the nearest point among those no further than `within`, which may be infinite.
   NearestPoint find(const Vector3& point, double within) const;

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
-#include <utility>
 
-#include "base/union_find.h"
 #include "geometry/mesh.h"
 
 namespace reflines {
@@ -14,23 +11,11 @@ namespace {
 
 constexpr double kTurned = 0.5;  // cosine of 60 degrees
 
-// Returns the vertices of a mask as triangles without area, a vertex at each of their corners.
-Triangles list_points(const Mask& vertices) {
-  Triangles points(vertices.count(), 3);
-  Eigen::Index count = 0;
-  for (int v = 0; v < vertices.size(); ++v) {
-    if (vertices(v)) points.row(count++).setConstant(v);
-  }
-  return points;
-}
-
 // Returns the triangles (#F) that are within `distance` of the border and face as it does.
 Mask find_facing(const Positions& region, const OpenBorder& border, const Positions& V, const Triangles& F,
                  double distance) {
   const Triangles points = list_points(border.vertices);
-  std::vector<int> all(points.rows());
-  std::iota(all.begin(), all.end(), 0);
-  const NearestSurface rim(region, points, std::move(all));
+  const NearestSurface rim(region, points);
   Mask facing = Mask::Constant(F.rows(), false);
 #pragma omp parallel for schedule(static) if (F.rows() > kWorthThreads)
   for (Eigen::Index t = 0; t < F.rows(); ++t) {
@@ -53,20 +38,6 @@ void join_doubled(const Positions& V, Triangles& F) {
   }
 }
 
-std::vector<std::vector<int>> find_components(const Triangles& neighbors) {
-  UnionFind joined(neighbors.rows());
-  for (int t = 0; t < neighbors.rows(); ++t) {
-    for (const int other : neighbors.row(t)) {
-      if (other >= 0) joined.unite(t, other);
-    }
-  }
-  std::map<int, std::vector<int>> of_first;
-  for (int t = 0; t < neighbors.rows(); ++t) of_first[joined.find(t)].push_back(t);
-  std::vector<std::vector<int>> result;
-  for (auto& [first, triangles] : of_first) result.push_back(std::move(triangles));
-  return result;
-}
-
 }  // namespace
 
 bool Sheet::overlaps(const Vector3& at, const Vector3& outward, double inside) const {
@@ -77,12 +48,8 @@ void find_neighbor_sheets(const Positions& region, const OpenBorder& border, con
                           double distance, NeighborSheets& sheets) {
   const Mask facing = find_facing(region, border, V, F, distance);
   sheets.V = V;
-  sheets.F.resize(facing.count(), 3);
-  for (Eigen::Index t = 0, count = 0; t < F.rows(); ++t) {
-    if (!facing(t)) continue;
-    sheets.F.row(count++) = F.row(t);
-    sheets.source.push_back(static_cast<int>(t));
-  }
+  sheets.source = list_marked(facing);
+  sheets.F = F(sheets.source, Eigen::all);
   join_doubled(V, sheets.F);
   sheets.neighbors = edge_neighbors(sheets.F);
   for (const std::vector<int>& triangles : find_components(sheets.neighbors)) {

@@ -25,11 +25,7 @@ void check_sizes(const Positions& before, const Positions& after, const Triangle
 void check_compared(const Positions& before, const Positions& after, const Triangles& F, const Mask& region) {
   check_sizes(before, after, F, region);
   check_indices(before, F);
-  Triangles own(region.count(), 3);
-  int count = 0;
-  for (int t = 0; t < F.rows(); ++t) {
-    if (region(t)) own.row(count++) = F.row(t);
-  }
+  const Triangles own = F(list_marked(region), Eigen::all);
   check_surface(before, own);
   check_surface(after, own);
   int nowhere = 0;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "geometry/mesh.h"
 #include "geometry/nearest_surface.h"
 #include "inspection/check_input.h"
 #include "inspection/compare_values.h"
@@ -82,13 +83,11 @@ Vector judge_values(const PanelCheck& check, const Vector& before, const Vector&
 
 void measure_deviation(const Positions& before, const Positions& after, const Triangles& F, const Mask& region,
                        PanelCheck& check) {
-  std::vector<int> all(F.rows());
   Mask used = Mask::Constant(before.rows(), false);
   for (int t = 0; t < F.rows(); ++t) {
-    all[t] = t;
     for (int i = 0; i < 3 && region(t); ++i) used(F(t, i)) = true;
   }
-  const NearestSurface surface(before, F, std::move(all));
+  const NearestSurface surface(before, F);
   check.deviation = Vector::Zero(before.rows());
 #pragma omp parallel for schedule(dynamic, 256)
   for (int v = 0; v < static_cast<int>(before.rows()); ++v) {
@@ -96,9 +95,7 @@ void measure_deviation(const Positions& before, const Positions& after, const Tr
     if (used(v) && moved > 0) check.deviation(v) = surface.find(after.row(v), moved * (1 + 1e-12)).distance;
   }
   std::vector<double> sorted;
-  for (int v = 0; v < used.size(); ++v) {
-    if (used(v)) sorted.push_back(check.deviation(v));
-  }
+  for (const int v : list_marked(used)) sorted.push_back(check.deviation(v));
   std::sort(sorted.begin(), sorted.end());
   check.largest_deviation = sorted.back();
   check.deviation_95 = sorted[static_cast<size_t>(std::ceil(kMost * static_cast<double>(sorted.size()))) - 1];

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "geometry/mesh.h"
 
@@ -35,9 +34,7 @@ GapProbe::GapProbe(const Positions& V, const Triangles& F, const Surroundings& a
   own_.V = V;
   own_.F = F;
   own_.neighbors = edge_neighbors(F);
-  std::vector<int> all(F.rows());
-  std::iota(all.begin(), all.end(), 0);
-  own_rim_.emplace(own_.V, own_.F, own_.neighbors, all);
+  own_rim_.emplace(own_.V, own_.F, own_.neighbors, list_marked(Mask::Constant(F.rows(), true)));
   find_neighbor_sheets(V, border_, V_beside, F_beside, gap + kLayers * border_.edge, sheets_);
   for (const Sheet& sheet : sheets_.list) rims_.emplace_back(sheets_.V, sheets_.F, sheets_.neighbors, sheet.triangles);
 }

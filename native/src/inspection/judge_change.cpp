@@ -39,16 +39,6 @@ std::vector<Vector> choose(const std::vector<Vector>& every, const std::vector<i
   return result;
 }
 
-// Returns the rows of F for which `chosen` (#F) holds.
-Triangles choose(const Triangles& F, const Mask& chosen) {
-  Triangles result(chosen.count(), 3);
-  Eigen::Index row = 0;
-  for (Eigen::Index t = 0; t < F.rows(); ++t) {
-    if (chosen(t)) result.row(row++) = F.row(t);
-  }
-  return result;
-}
-
 // Lets triangles of the panel that are not judged hide those that are.
 void block(const Positions& V, const Triangles& F, Eyes& eyes) {
   const Eigen::Index vertices = eyes.blocker_vertices.rows(), triangles = eyes.blockers.rows();
@@ -88,8 +78,8 @@ WorsePlace judge(const Positions& before, const Positions& after, const Triangle
     return {};
   }
   LightSet own = lights;
-  if (!changed.all()) block(V, choose(used.F, !changed), own.eyes);
-  return judge_region(V, moved, choose(used.F, changed), frame, own, length, progress);
+  if (!changed.all()) block(V, used.F(list_marked(!changed), Eigen::all), own.eyes);
+  return judge_region(V, moved, used.F(list_marked(changed), Eigen::all), frame, own, length, progress);
 }
 
 }  // namespace

@@ -2,9 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
 
-#include "base/union_find.h"
 #include "geometry/mesh.h"
 
 namespace reflines {
@@ -14,28 +12,17 @@ constexpr size_t kMostParts = 64;
 
 // Numbers the largest parts in the order of their first triangles: #F, -1 elsewhere.
 IndexVector number_parts(const Triangles& F, const Mask& region) {
-  std::vector<int> own;
-  for (int t = 0; t < region.size(); ++t) {
-    if (region(t)) own.push_back(t);
-  }
-  const Triangles neighbors = edge_neighbors(F(own, Eigen::all));
-  UnionFind joined(neighbors.rows());
-  for (int k = 0; k < neighbors.rows(); ++k) {
-    for (const int other : neighbors.row(k)) {
-      if (other >= 0) joined.unite(k, other);
-    }
-  }
-  std::map<int, std::vector<int>> of_first;
-  for (size_t k = 0; k < own.size(); ++k) of_first[joined.find(static_cast<int>(k))].push_back(own[k]);
+  const std::vector<int> own = list_marked(region);
+  const std::vector<std::vector<int>> components = find_components(edge_neighbors(F(own, Eigen::all)));
   std::vector<size_t> sizes;
-  for (const auto& [first, triangles] : of_first) sizes.push_back(triangles.size());
+  for (const std::vector<int>& triangles : components) sizes.push_back(triangles.size());
   std::sort(sizes.rbegin(), sizes.rend());
   const size_t least = sizes.size() > kMostParts ? sizes[kMostParts] + 1 : 0;
   IndexVector part = IndexVector::Constant(F.rows(), -1);
   int number = 0;
-  for (const auto& [first, triangles] : of_first) {
+  for (const std::vector<int>& triangles : components) {
     if (triangles.size() < least) continue;
-    for (const int t : triangles) part(t) = number;
+    for (const int k : triangles) part(own[k]) = number;
     ++number;
   }
   return part;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace reflines {
@@ -78,9 +77,7 @@ RimCurve::RimCurve(const Positions& V, const Triangles& F, const Triangles& neig
   }
   edges_.resize(static_cast<Eigen::Index>(edges.size()), 3);
   for (size_t k = 0; k < edges.size(); ++k) edges_.row(static_cast<Eigen::Index>(k)) = edges[k];
-  std::vector<int> all(edges.size());
-  std::iota(all.begin(), all.end(), 0);
-  tree_.emplace(V_, edges_, std::move(all));
+  tree_.emplace(V_, edges_);
 }
 
 // Returns the vertex that follows on `at`, where the rim has no corner there.

@@ -7,14 +7,6 @@
 namespace reflines {
 namespace {
 
-std::vector<int> list_triangles(const Mask& wanted) {
-  std::vector<int> result;
-  for (int t = 0; t < wanted.size(); ++t) {
-    if (wanted(t)) result.push_back(t);
-  }
-  return result;
-}
-
 // Marks the creases within the region (#F x 3). The rule sees the region alone, as the solver does.
 EdgeMask find_creases(const Positions& V, const Triangles& F, const std::vector<int>& own,
                       const CreaseOptions& options) {
@@ -57,8 +49,8 @@ bool is_crowded(const Triangles& F, const Incidence& triangles_of_vertex, const 
 }  // namespace
 
 Seams find_seams(const Positions& before, const Triangles& F, const Mask& region, const CheckOptions& options) {
-  const std::vector<int> own = list_triangles(region);
-  const NearestSurface outside(before, F, list_triangles(!region));
+  const std::vector<int> own = list_marked(region);
+  const NearestSurface outside(before, F, list_marked(!region));
   const EdgeMask creases = find_creases(before, F, own, options.creases);
   const Incidence triangles_of_vertex = vertex_triangles(F, static_cast<int>(before.rows()));
   Seams seams{{}, pair_triangles(F, own)};

@@ -113,12 +113,8 @@ std::vector<std::vector<int>> join_edges(const Positions& V, const Edges& edges,
   for (int k = 0; k < edges.rows(); ++k) {
     if (next[k] >= 0) joined.unite(k, next[k]);
   }
-  std::map<int, std::vector<int>> of_first;
-  for (int k = 0; k < edges.rows(); ++k) of_first[joined.find(k)].push_back(k);
-  std::vector<std::vector<int>> lists;
-  for (auto& [first, list] : of_first) {
-    if (list.size() >= kFewest) lists.push_back(std::move(list));
-  }
+  std::vector<std::vector<int>> lists = joined.list_sets();
+  std::erase_if(lists, [](const std::vector<int>& list) { return list.size() < kFewest; });
   return lists;
 }
 

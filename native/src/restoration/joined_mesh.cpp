@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -10,17 +9,6 @@
 
 namespace reflines {
 namespace {
-
-// Returns the border vertices as triangles without area, a vertex at each of their corners.
-Triangles list_border_points(const Triangles& F, int vertex_count) {
-  const Mask on_border = find_border_vertices(F, vertex_count);
-  Triangles points(on_border.count(), 3);
-  Eigen::Index count = 0;
-  for (int v = 0; v < vertex_count; ++v) {
-    if (on_border(v)) points.row(count++).setConstant(v);
-  }
-  return points;
-}
 
 struct NearVertices {
   Mask near;  // #S
@@ -31,10 +19,8 @@ struct NearVertices {
 NearVertices find_near(const Positions& vertices, const Positions& V, const Triangles& F, double margin) {
   Mask near = Mask::Constant(vertices.rows(), false);
   int compared = 0;
-  const Triangles points = list_border_points(F, static_cast<int>(V.rows()));
-  std::vector<int> all(points.rows());
-  std::iota(all.begin(), all.end(), 0);
-  const NearestSurface border(V, points, std::move(all));
+  const Triangles points = list_points(find_border_vertices(F, static_cast<int>(V.rows())));
+  const NearestSurface border(V, points);
 #pragma omp parallel for schedule(static) reduction(+ : compared) if (vertices.rows() > kWorthThreads)
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     const Vector3 p = vertices.row(v);
@@ -57,11 +43,9 @@ Triangles take_near(const Surroundings& around, const Mask& near, int own) {
 
 // Returns the first `own` triangles and those of the others that are not marked (#F).
 Triangles leave_out(const Triangles& F, Eigen::Index own, const Mask& marked) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index t = 0; t < F.rows(); ++t) {
-    if (t < own || !marked(t)) kept.push_back(t);
-  }
-  return F(kept, Eigen::all);
+  Mask kept = !marked;
+  kept.head(own).setConstant(true);
+  return F(list_marked(kept), Eigen::all);
 }
 
 // Finds the triangles (#F) that no path over edges joins with one of the first `own`.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -29,20 +28,6 @@ namespace {
 constexpr double kHeldByCage = 1e-9;  // influence of the free vertices of a cage
 constexpr double kLeastFacing = 0.3;  // cosine of 73 degrees between view and normal: what is steeper moves no further
 constexpr double kWhole = std::numeric_limits<double>::infinity();
-
-// Returns the edges of the border as triangles without area: first, second, second.
-Triangles find_rim_edges(const Triangles& F) {
-  const Triangles neighbors = edge_neighbors(F);
-  std::vector<Eigen::RowVector3i> edges;
-  for (Eigen::Index t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) < 0) edges.emplace_back(F(t, (i + 1) % 3), F(t, (i + 2) % 3), F(t, (i + 2) % 3));
-    }
-  }
-  Triangles result(static_cast<Eigen::Index>(edges.size()), 3);
-  for (size_t k = 0; k < edges.size(); ++k) result.row(static_cast<Eigen::Index>(k)) = edges[k];
-  return result;
-}
 
 // Puts two kinds of surroundings of one region with `own` vertices together.
 Surroundings combine(const Surroundings& one, const Surroundings& other, Eigen::Index own) {
@@ -78,12 +63,10 @@ JointSide::JointSide(const CagePanel& panel, const PressAmount& amount)
       gap_(panel_.gap.gap > 0 ? panel_.gap.gap : kAutomaticGap * bounding_box_diagonal(V_)),
       joint_(Mask::Constant(V_.rows(), false)),
       still_(joint_),
-      rim_(find_rim_edges(F_)) {
+      rim_(find_border_edges(F_, edge_neighbors(F_))),
+      rim_tree_(V_, rim_) {
   set_restoration_rules(options_, panel_.line_direction, amount, kRules.proximity, shape_);
   options_.partner = shape_.partner;
-  std::vector<int> all(rim_.rows());
-  std::iota(all.begin(), all.end(), 0);
-  rim_tree_ = std::make_unique<NearestSurface>(V_, rim_, std::move(all));
 }
 
 Eigen::AlignedBox3d JointSide::box() const {
@@ -336,7 +319,7 @@ SmoothPanelResult JointSide::judge(const PressAmount& amount) {
 }
 
 RimPlace JointSide::find_rim(const Vector3& point, double within) const {
-  const NearestPoint nearest = rim_tree_->find(point, within);
+  const NearestPoint nearest = rim_tree_.find(point, within);
   if (nearest.triangle < 0) return {kWhole, -1, -1, 0};
   const int a = rim_(nearest.triangle, 0), b = rim_(nearest.triangle, 1);
   const Vector3 first = V_.row(a), second = V_.row(b);

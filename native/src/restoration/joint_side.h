@@ -132,7 +132,7 @@ class JointSide {
   Mask joint_, still_;            // #V: border vertices that follow the others, and what stays
   Rings rings_still_;             // of what stays, at the start
   Triangles rim_;                 // edges of the border: first, second, second
-  std::unique_ptr<NearestSurface> rim_tree_;
+  NearestSurface rim_tree_;
   std::vector<Border> turned_border_;  // #V: kFollow where it is turned
   std::unique_ptr<MeshSurface> region_;
   std::unique_ptr<Restoration> alone_;  // tells length and limit

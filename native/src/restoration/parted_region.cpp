@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <utility>
 
-#include "base/union_find.h"
 #include "geometry/bounding_box.h"
 #include "geometry/mesh.h"
 #include "reflines/errors.h"
@@ -22,32 +20,11 @@ constexpr double kMargin = 1.05;  // of what a press takes in
 
 using Lists = std::vector<std::vector<int>>;
 
-Lists find_parts(const Triangles& F) {
-  const Triangles neighbors = edge_neighbors(F);
-  UnionFind joined(F.rows());
-  for (int t = 0; t < F.rows(); ++t) {
-    for (const int other : neighbors.row(t)) {
-      if (other >= 0) joined.unite(t, other);
-    }
-  }
-  std::map<int, std::vector<int>> of_first;
-  for (int t = 0; t < F.rows(); ++t) of_first[joined.find(t)].push_back(t);
-  Lists parts;
-  for (auto& [first, triangles] : of_first) parts.push_back(std::move(triangles));
-  return parts;
-}
-
 double mean_border_edge(const Positions& V, const Triangles& F) {
-  const Triangles neighbors = edge_neighbors(F);
-  double sum = 0, count = 0;
-  for (Eigen::Index t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) >= 0) continue;
-      sum += (V.row(F(t, (i + 1) % 3)) - V.row(F(t, (i + 2) % 3))).norm();
-      ++count;
-    }
-  }
-  return sum / std::max(count, 1.0);
+  double sum = 0;
+  const Triangles edges = find_border_edges(F, edge_neighbors(F));
+  for (const auto& edge : edges.rowwise()) sum += (V.row(edge(0)) - V.row(edge(1))).norm();
+  return sum / std::max(static_cast<double>(edges.rows()), 1.0);
 }
 
 bool continues_curvature(const std::vector<Border>& border) {
@@ -213,7 +190,7 @@ std::unique_ptr<Press> prepare_parted_region(const Positions& V, const Triangles
                                              const Vector3& lines, const SmoothPanelOptions& options,
                                              const PressAmount& amount, const PreparePress& prepare_whole) {
   if (options.fair_border.any() || continues_curvature(options.border)) return nullptr;
-  Whole whole{V, F, options, find_parts(F), {}};
+  Whole whole{V, F, options, find_components(edge_neighbors(F)), {}};
   if (whole.parts.size() < 2 || static_cast<int>(whole.parts.size()) > kRules.joint.most_parts) return nullptr;
   whole.widest = options.parts_gap > 0 ? options.parts_gap : kRules.joint.touching * mean_border_edge(V, F);
   for (const std::vector<int>& part : whole.parts) {

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <vector>
 
-#include "geometry/mesh.h"
 #include "geometry/nearest_surface.h"
 
 namespace reflines {
@@ -16,9 +13,7 @@ Vector spread_from_rim(const PlanePositions& points, const Triangles& edges, con
                        const std::function<double(double distance)>& course) {
   Positions flat = Positions::Zero(points.rows(), 3);
   flat.leftCols<2>() = points;
-  std::vector<int> all(edges.rows());
-  std::iota(all.begin(), all.end(), 0);
-  const NearestSurface rim(flat, edges, std::move(all));
+  const NearestSurface rim(flat, edges);
   Vector result = Vector::Zero(points.rows());
 #pragma omp parallel for schedule(static) if (result.size() > kWorthThreads)
   for (Eigen::Index v = 0; v < result.size(); ++v) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/parallel_failure.h"
+#include "base/sort_unique.h"
 
 namespace reflines {
 namespace {
@@ -33,9 +34,8 @@ std::vector<int> Roughness::two_rings(int v) const {
     result.push_back(near);
     result.insert(result.end(), neighbors_[near].begin(), neighbors_[near].end());
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  result.erase(std::remove(result.begin(), result.end(), v), result.end());
+  sort_unique(result);
+  std::erase(result, v);
   return result;
 }
 

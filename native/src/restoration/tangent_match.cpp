@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/smoothstep.h"
+#include "base/sort_unique.h"
 #include "geometry/height_fit.h"
 #include "geometry/mesh.h"
 #include "restoration/press_rules.h"
@@ -32,11 +33,6 @@ Plane place(const TangentMatch& match, const Vector& move) {
   plane.z.head(match.vertices) += move;
   plane.triangles_of_vertex = vertex_triangles(match.joined.F, static_cast<int>(match.joined.V.rows()));
   return plane;
-}
-
-void sort_unique(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 // Returns the vertices of one side of a border vertex, itself among them.
@@ -71,23 +67,19 @@ struct Rim {
 };
 
 Rim find_rim(const TangentMatch& match, const Plane& plane) {
-  const Triangles F = match.joined.F.topRows(match.triangles), neighbors = edge_neighbors(F);
-  std::vector<Eigen::RowVector3i> edges;
+  const Triangles F = match.joined.F.topRows(match.triangles), border = find_border_edges(F, edge_neighbors(F));
+  std::vector<int> followed;
   Rim rim{{}, Positions::Zero(match.vertices, 3), Vector::Zero(match.vertices), {}};
-  for (int t = 0; t < F.rows(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) >= 0) continue;
-      const int a = F(t, (i + 1) % 3), b = F(t, (i + 2) % 3);
-      if (match.border[a] != Border::kFollow && match.border[b] != Border::kFollow) continue;
-      edges.emplace_back(a, b, b);
-      const Vector2 along = (plane.xy.row(b) - plane.xy.row(a)).transpose().normalized();
-      const Eigen::RowVector3d across(along.y(), -along.x(), 0);
-      rim.outward.row(a) += across;
-      rim.outward.row(b) += across;
-    }
+  for (int k = 0; k < border.rows(); ++k) {
+    const int a = border(k, 0), b = border(k, 1);
+    if (match.border[a] != Border::kFollow && match.border[b] != Border::kFollow) continue;
+    followed.push_back(k);
+    const Vector2 along = (plane.xy.row(b) - plane.xy.row(a)).transpose().normalized();
+    const Eigen::RowVector3d across(along.y(), -along.x(), 0);
+    rim.outward.row(a) += across;
+    rim.outward.row(b) += across;
   }
-  rim.edges.resize(static_cast<Eigen::Index>(edges.size()), 3);
-  for (size_t k = 0; k < edges.size(); ++k) rim.edges.row(static_cast<Eigen::Index>(k)) = edges[k];
+  rim.edges = border(followed, Eigen::all);
   return rim;
 }
 

@@ -6,6 +6,7 @@
 
 #include "geometry/cage_border.h"
 #include "geometry/cage_symmetry.h"
+#include "geometry/mesh.h"
 #include "reflines/errors.h"
 #include "solver/mirror_coupling.h"
 
@@ -207,11 +208,7 @@ void read_surroundings(const Subdivision& whole, const Mask& region, const std::
 Positions positions_in_faces(const Cage& cage, const Positions& V) {
   Mask in_face = Mask::Constant(V.rows(), false);
   for (const int v : cage.face_vertices) in_face(v) = true;
-  std::vector<int> used;
-  for (int v = 0; v < in_face.size(); ++v) {
-    if (in_face(v)) used.push_back(v);
-  }
-  return V(used, Eigen::all);
+  return V(list_marked(in_face), Eigen::all);
 }
 
 }  // namespace

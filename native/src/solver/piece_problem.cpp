@@ -23,14 +23,9 @@ constexpr double kKnotSpacing = 6.0;
 // Returns whether some border vertex is free. Creases that a cage moves are no border: the heights of both sides are
 // one.
 bool has_free_border(const HeightField& field) {
-  const Triangles neighbors = edge_neighbors(field.F);
-  for (int t = 0; t < field.triangle_count(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (neighbors(t, i) >= 0) continue;
-      for (int j = 1; j < 3; ++j) {
-        if (field.role[field.F(t, (i + j) % 3)] == VertexRole::kFree) return true;
-      }
-    }
+  const Mask border = find_border_vertices(field.F, field.vertex_count());
+  for (int v = 0; v < field.vertex_count(); ++v) {
+    if (border(v) && field.role[v] == VertexRole::kFree) return true;
   }
   return false;
 }
