@@ -3,9 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "base/parallel_failure.h"
@@ -27,8 +24,6 @@ constexpr double kBlended = 1.2 * kSpacing;  // in radii: how far from its centr
 constexpr size_t kNeeded[] = {16, 26, 40};   // vertices for degrees 2, 3 and 4: more than twice their terms
 
 using Terms = Eigen::Matrix<double, kTerms, 1>;
-using Cell = std::pair<int, int>;
-using Cells = std::map<Cell, std::vector<int>>;  // the vertices of one piece in the cells of a grid
 
 Terms evaluate_terms(const Vector2& p) {
   Terms result;
@@ -98,9 +93,10 @@ class LocalFit {
   int terms_ = 0;
 };
 
-std::vector<Cells> sort_vertices(const HeightField& field, double spacing) {
+// Returns the vertices of each piece in the cells of a grid.
+std::vector<GridCells> sort_vertices(const HeightField& field, double spacing) {
   const Incidence& around = field.triangles_of_vertex;
-  std::vector<Cells> result(field.piece_count);
+  std::vector<GridCells> result(field.piece_count);
   for (int v = 0; v < field.vertex_count(); ++v) {
     if (around.begin(v) == around.end(v)) continue;
     result[field.piece[around.items[around.begin(v)]]][find_grid_cell(field.xy.row(v), spacing)].push_back(v);
@@ -108,32 +104,19 @@ std::vector<Cells> sort_vertices(const HeightField& field, double spacing) {
   return result;
 }
 
-// Calls take(vertex) for the vertices in all cells up to so many away.
-template <typename Take>
-void for_each_near(const Cells& cells, const Cell& cell, int rings, const Take& take) {
-  for (int i = -rings; i <= rings; ++i) {
-    for (int j = -rings; j <= rings; ++j) {
-      const auto found = cells.find({cell.first + i, cell.second + j});
-      if (found != cells.end()) std::for_each(found->second.begin(), found->second.end(), take);
-    }
-  }
-}
-
 // Returns the vertices of a disk; of many some, picked at random.
-std::vector<int> gather(const HeightField& field, const Cells& cells, const Cell& cell, const Vector2& center,
+std::vector<int> gather(const HeightField& field, const GridCells& cells, const GridCell& cell, const Vector2& center,
                         double radius) {
   std::vector<int> found;
   for_each_near(cells, cell, static_cast<int>(std::ceil(1 / kSpacing)) + 1, [&](int v) {
     if ((field.xy.row(v).transpose() - center).squaredNorm() < radius * radius) found.push_back(v);
   });
-  std::uint32_t stride = 1;
-  while (found.size() > stride * kMostSamples) stride *= 2;
-  std::erase_if(found, [&](int v) { return ((static_cast<std::uint32_t>(v) * 2654435769U) >> 16) % stride != 0; });
+  thin_out(found, kMostSamples);
   return found;
 }
 
 // Fits a disk around the centre of each cell.
-std::vector<LocalFit> fit_disks(const HeightField& field, const Cells& cells, const std::vector<Cell>& keys,
+std::vector<LocalFit> fit_disks(const HeightField& field, const GridCells& cells, const std::vector<GridCell>& keys,
                                 double radius, const Progress* progress) {
   std::vector<LocalFit> result(keys.size());
   ParallelFailure failure;
@@ -153,8 +136,8 @@ std::vector<LocalFit> fit_disks(const HeightField& field, const Cells& cells, co
 
 Vector fit_local_surface(const HeightField& field, double radius, const Progress* progress) {
   Vector sum = Vector::Zero(field.vertex_count()), weights = sum;
-  for (const Cells& cells : sort_vertices(field, kSpacing * radius)) {
-    std::vector<Cell> keys;
+  for (const GridCells& cells : sort_vertices(field, kSpacing * radius)) {
+    std::vector<GridCell> keys;
     for (const auto& entry : cells) keys.push_back(entry.first);
     const std::vector<LocalFit> fits = fit_disks(field, cells, keys, radius, progress);
     for (size_t k = 0; k < keys.size(); ++k) {

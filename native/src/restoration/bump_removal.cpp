@@ -94,8 +94,6 @@ Vector evaluate(const Bump& bump, const PlanePositions& xy) {
 BumpRemoval remove_bumps(const CurvatureVariation& variation, const MeanPlane& plane, const Vector& z, double length,
                          const std::function<Vector(const Vector&)>& smooth, Progress* progress) {
   const HeightField& field = variation.field();
-  const BumpSearchOptions options{kRules.bump.smallest_radius * length, kRules.bump.largest_radius * length,
-                                  kRules.bump.least_height * length, kRules.bump.steepest};
   const PlanePositions seeds = free_vertices(field), centers = find_centroids(field.xy, field.F);
   const PlaneVectors slope = find_slopes(field.xy, field.F, z);
   const Vector largest = largest_radii(field);
@@ -103,7 +101,7 @@ BumpRemoval remove_bumps(const CurvatureVariation& variation, const MeanPlane& p
   std::vector<Bump> removed;
   for (int round = 0; round < kRules.bump.rounds && (round == 0 || !removed.empty()); ++round) {
     const HessianSamples samples{centers, field.area, variation.read_hessians(smooth(result.heights)), slope, plane};
-    const std::vector<Bump> found = find_bumps(samples, seeds, removed, options, progress);
+    const std::vector<Bump> found = find_bumps(samples, seeds, removed, length, progress);
     removed.clear();
     const BumpGain gain(variation, centers, samples.hessian);
     for (const Bump& bump : found) {

@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <deque>
 #include <map>
 #include <numbers>
@@ -22,33 +21,22 @@ namespace {
 constexpr int kSpare = 4;                            // times most_samples, in a cell of the index
 constexpr double kSearching = 0.2, kRefining = 0.3;  // of a press, for the bar of its progress
 
-// Returns a pseudo-random number for an index (Fibonacci hashing, with the high bits first).
-std::uint32_t hash_index(int index) { return (static_cast<std::uint32_t>(index) * 2654435769U) >> 16; }
-
 // The samples in square cells, for disks of one size.
 class DiskIndex {
  public:
   DiskIndex(const HessianSamples& samples, double cell) : samples_(samples), cell_(cell) {
     const int stride = choose_stride(samples, cell);
-    for (int t = 0; t < samples.area.size(); t += stride) cells_[key(samples.center.row(t))].push_back(t);
+    for (int t = 0; t < samples.area.size(); t += stride)
+      cells_[find_grid_cell(samples.center.row(t), cell)].push_back(t);
   }
 
   // Samples within `radius` of p, ascending by cell; at most about kRules.bump.most_samples, picked at random.
   std::vector<int> gather(const Vector2& p, double radius) const {
     std::vector<int> found;
-    const auto [i, j] = key(p);
-    for (int di = -1; di <= 1; ++di) {
-      for (int dj = -1; dj <= 1; ++dj) {
-        const auto cell = cells_.find({i + di, j + dj});
-        if (cell == cells_.end()) continue;
-        for (const int t : cell->second) {
-          if ((samples_.center.row(t).transpose() - p).squaredNorm() < radius * radius) found.push_back(t);
-        }
-      }
-    }
-    std::uint32_t stride = 1;  // a power of two: what is picked hangs on the triangle, not on the others in the disk
-    while (found.size() > stride * static_cast<size_t>(kRules.bump.most_samples)) stride *= 2;
-    std::erase_if(found, [&](int t) { return hash_index(t) % stride != 0; });
+    for_each_near(cells_, find_grid_cell(p, cell_), 1, [&](int t) {
+      if ((samples_.center.row(t).transpose() - p).squaredNorm() < radius * radius) found.push_back(t);
+    });
+    thin_out(found, kRules.bump.most_samples);
     return found;
   }
 
@@ -59,10 +47,9 @@ class DiskIndex {
     return std::max(1, static_cast<int>(in_cell / (kSpare * kRules.bump.most_samples)));
   }
 
-  std::pair<int, int> key(const Vector2& p) const { return find_grid_cell(p, cell_); }
   const HessianSamples& samples_;
   double cell_;
-  std::map<std::pair<int, int>, std::vector<int>> cells_;
+  GridCells cells_;
 };
 
 // The surface in one disk around the centre, in radii. A column is a number of all samples, so that loops over them are
@@ -234,7 +221,7 @@ Vector3 find_top(const Bump& middle, const std::vector<Bump>& found) {
 
 // Searches for the centre and radius that explain most, by Newton's method with finite differences whose step shrinks,
 // so that what is found does not depend on where the search began.
-Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSearchOptions& options, Bump best) {
+Bump refine(const HessianSamples& samples, const DiskIndex& index, double length, Bump best) {
   static const std::vector<Vector3> kProbes = list_probes();
   std::vector<Bump> found(kProbes.size());
   for (double step = 0.3; step > 1e-3;) {
@@ -242,8 +229,8 @@ Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSea
     const Eigen::Matrix2d from_tangent = middle.map.stretch.inverse();
     const auto measure = [&](const Vector3& steps) {
       const Vector2 center = middle.center + step * middle.radius * (from_tangent * steps.head<2>());
-      const double radius = std::clamp(middle.radius * std::pow(1.0 + step / 2, steps.z()), options.smallest_radius,
-                                       options.largest_radius);
+      const double radius = std::clamp(middle.radius * std::pow(1.0 + step / 2, steps.z()),
+                                       kRules.bump.smallest_radius * length, kRules.bump.largest_radius * length);
       return measure_at(samples, index, center, radius);
     };
     ParallelFailure failure;
@@ -264,7 +251,7 @@ Bump refine(const HessianSamples& samples, const DiskIndex& index, const BumpSea
 
 // Keeps one seed a cell of a grid, the first of each.
 PlanePositions thin(const PlanePositions& seeds, double spacing) {
-  std::map<std::pair<int, int>, int> first;
+  std::map<GridCell, int> first;
   for (int s = 0; s < seeds.rows(); ++s) {
     first.try_emplace(find_grid_cell(seeds.row(s), spacing), s);
   }
@@ -289,15 +276,17 @@ PlanePositions overlapping(const PlanePositions& places, double radius, const st
   return result.topRows(count);
 }
 
-bool is_seen(const Bump& bump, const BumpSearchOptions& options) {
-  return bump.depth() > begin_of_soft_step(options.least_height) && bump.radius >= 0.999 * options.smallest_radius &&
-         bump.radius <= 1.001 * options.largest_radius;
+bool is_seen(const Bump& bump, double length) {
+  return bump.depth() > begin_of_soft_step(kRules.bump.least_height * length) &&
+         bump.radius >= 0.999 * (kRules.bump.smallest_radius * length) &&
+         bump.radius <= 1.001 * (kRules.bump.largest_radius * length);
 }
 
 // Returns how surely a bump is a flaw, 0 to 1.
-double weigh(const Bump& bump, const BumpSearchOptions& options) {
-  const double steepness = std::max(1.0, bump.depth() / (options.steepness * bump.radius));
-  return soft_step(kRules.bump.explained * steepness, bump.explained) * soft_step(options.least_height, bump.depth());
+double weigh(const Bump& bump, double length) {
+  const double steepness = std::max(1.0, bump.depth() / (kRules.bump.steepest * bump.radius));
+  return soft_step(kRules.bump.explained * steepness, bump.explained) *
+         soft_step(kRules.bump.least_height * length, bump.depth());
 }
 
 bool is_apart(const Bump& bump, const std::vector<Bump>& others) {
@@ -314,7 +303,7 @@ struct Candidate {
 
 // Returns the bumps of one radius, at a grid of places, that are worth refining.
 std::vector<Candidate> search_places(const HessianSamples& samples, const DiskIndex& index,
-                                     const PlanePositions& places, double radius, const BumpSearchOptions& options,
+                                     const PlanePositions& places, double radius, double length,
                                      const Progress* progress) {
   std::vector<Bump> measured(places.rows());
   ParallelFailure failure;
@@ -327,7 +316,7 @@ std::vector<Candidate> search_places(const HessianSamples& samples, const DiskIn
   failure.rethrow();
   std::vector<Candidate> result;
   for (const Bump& bump : measured) {
-    if (bump.explained > kRules.bump.worth_refining && is_seen(bump, options)) result.push_back({bump, &index});
+    if (bump.explained > kRules.bump.worth_refining && is_seen(bump, length)) result.push_back({bump, &index});
   }
   return result;
 }
@@ -335,15 +324,16 @@ std::vector<Candidate> search_places(const HessianSamples& samples, const DiskIn
 }  // namespace
 
 std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions& seeds,
-                             const std::vector<Bump>& removed, const BumpSearchOptions& options, Progress* progress) {
+                             const std::vector<Bump>& removed, double length, Progress* progress) {
   if (progress) progress->enter(kSearching, "looking for dents");
   std::deque<DiskIndex> indexes;
   std::vector<Candidate> candidates;
-  for (double radius = options.smallest_radius; radius < 1.01 * options.largest_radius;
+  const double largest = kRules.bump.largest_radius * length;
+  for (double radius = kRules.bump.smallest_radius * length; radius < 1.01 * largest;
        radius *= kRules.bump.radius_step) {
     indexes.emplace_back(samples, 1.5 * kRules.bump.disk * radius);  // refined radii are up to 1.3 times larger
     const PlanePositions places = overlapping(thin(seeds, kRules.bump.seed_spacing * radius), radius, removed);
-    const std::vector<Candidate> found = search_places(samples, indexes.back(), places, radius, options, progress);
+    const std::vector<Candidate> found = search_places(samples, indexes.back(), places, radius, length, progress);
     candidates.insert(candidates.end(), found.begin(), found.end());
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -352,10 +342,10 @@ std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions
   for (const Candidate& candidate : candidates) {
     if (progress) progress->enter(kRefining, "looking for dents");
     if (!is_apart(candidate.bump, found)) continue;
-    Bump best = refine(samples, *candidate.index, options, candidate.bump);
+    Bump best = refine(samples, *candidate.index, length, candidate.bump);
     if (best.explained < begin_of_soft_step(kRules.bump.explained)) continue;
-    if (!is_seen(best, options) || !is_apart(best, found)) continue;
-    best.weight = weigh(best, options);
+    if (!is_seen(best, length) || !is_apart(best, found)) continue;
+    best.weight = weigh(best, length);
     found.push_back(best);
     if (best.weight > 0) result.push_back(best);
   }

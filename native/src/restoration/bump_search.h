@@ -34,22 +34,16 @@ struct HessianSamples {
   const MeanPlane& plane;
 };
 
-struct BumpSearchOptions {
-  double smallest_radius = 0.0, largest_radius = 0.0;
-  double least_height = 0.0;  // a flatter bump is not seen
-  double steepness = 0.0;     // depth over radius, > 0: of steeper bumps more has to be explained
-};
-
 // Bumps around which the surface is good: within 2.5 radii a bump and a background that is linear in the Hessian
 // explain it, and the bump's fraction is at least 0.42; from 0.52 on it has its full weight. On 12 designed panels no
 // place of 200 a panel reaches 0.36 by itself (ridges, fillets and scoops are no bumps: their Hessian goes on beyond
 // the disk), planted dents come to 0.4 to 0.9 where a disk of their size is free of strong features. Of a bump that is
-// n times as steep as the options say, n times that fraction has to be explained, for what a design has pressed into a
+// n times as steep as the rules say, n times that fraction has to be explained, for what a design has pressed into a
 // panel is steep, and has a floor, a rim or a direction of its own; where it is not, the bump is design, and so is what
-// overlaps it. `seeds` (#S x 2): where a bump may be centred. Of bumps that overlap the best is taken. Where `removed`
-// has bumps that an earlier search found, only disks that these overlap are looked at: the surface of the others is as
-// it was. Deterministic; throws Cancelled.
+// overlaps it. `seeds` (#S x 2): where a bump may be centred; `length`: the size of flaws. Of bumps that overlap the
+// best is taken. Where `removed` has bumps that an earlier search found, only disks that these overlap are looked at:
+// the surface of the others is as it was. Deterministic; throws Cancelled.
 std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions& seeds,
-                             const std::vector<Bump>& removed, const BumpSearchOptions& options, Progress* progress);
+                             const std::vector<Bump>& removed, double length, Progress* progress);
 
 }  // namespace reflines

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <map>
 #include <numbers>
 #include <utility>
 
@@ -109,11 +108,11 @@ class PointGrid {
   }
 
  private:
-  std::pair<int, int> key(const Vector3& p) const { return find_grid_cell(p.head<2>(), cell_); }
+  GridCell key(const Vector3& p) const { return find_grid_cell(p.head<2>(), cell_); }
 
   const Positions& P_;
   double cell_;
-  std::map<std::pair<int, int>, std::vector<int>> cells_;
+  GridCells cells_;
 };
 
 // The mirrored tangent plane at a point's image, beside the point.
