@@ -30,22 +30,6 @@ Eigen::MatrixXd measure_squares(ControlledSurface& surface, const Vector& z, con
   return result;
 }
 
-// Finds the place that got worse by most; `before` and `after` (#F x lights) are degrees.
-WorsePlace find_worse(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, const ControlledSurface& surface) {
-  WorsePlace result;
-  double most = kWorsened;
-  for (Eigen::Index k = 0; k < before.cols(); ++k) {
-    for (Eigen::Index t = 0; t < before.rows(); ++t) {
-      if (after(t, k) < kWorst || after(t, k) - before(t, k) < most) continue;
-      most = after(t, k) - before(t, k);
-      const auto corners = surface.triangles().row(t);
-      result = {static_cast<int>(k), before(t, k), after(t, k),
-                surface.positions()(corners, Eigen::all).colwise().mean().transpose()};
-    }
-  }
-  return result;
-}
-
 // Sums deviations (#F) up; `area` (#F) is that of the triangles.
 HealedPlaces sum_up(const Vector& before, const Vector& after, const Vector& area) {
   Vector healed(area.size());
@@ -88,7 +72,7 @@ HealedPlaces measure_healed(ControlledSurface& surface, const Vector& before, co
   const Eigen::MatrixXd degrees = around.of_columns(squares).cwiseSqrt();
   const auto at_start = degrees.leftCols(lights), at_end = degrees.rightCols(lights);
   HealedPlaces result = sum_up(at_start.rowwise().maxCoeff(), at_end.rowwise().maxCoeff(), area);
-  result.flaws.worse = find_worse(at_start, at_end, surface);
+  take_worse(at_start, at_end, 0, surface.positions(), surface.triangles(), kWorsened, result.flaws.worse);
   if (judges.exist()) result.flaws.worse_for_judges = judge(surface, before, after, course, around, judges);
   return result;
 }

@@ -3,9 +3,9 @@
 namespace reflines {
 
 UsedVertices find_used_vertices(const Triangles& F, int vertex_count) {
-  IndexVector number = IndexVector::Constant(vertex_count, -1);
+  UsedVertices used{{}, {}, IndexVector::Constant(vertex_count, -1)};
+  IndexVector& number = used.number;
   for (const int v : F.reshaped()) number(v) = 0;
-  UsedVertices used;
   for (int v = 0; v < vertex_count; ++v) {
     if (number(v) < 0) continue;
     number(v) = static_cast<int>(used.index.size());
@@ -16,21 +16,16 @@ UsedVertices find_used_vertices(const Triangles& F, int vertex_count) {
 }
 
 IndexVector renumber_partners(const IndexVector& partner, const UsedVertices& used) {
-  IndexVector number = IndexVector::Constant(partner.size(), -1);
-  const int kept = static_cast<int>(used.index.size());
-  for (int k = 0; k < kept; ++k) number(used.index[k]) = k;
-  return partner(used.index).unaryExpr([&number](int v) { return v < 0 ? -1 : number(v); });
+  return partner(used.index).unaryExpr([&used](int v) { return v < 0 ? -1 : used.number(v); });
 }
 
 Surroundings renumber_surroundings(const Surroundings& around, const UsedVertices& used, int vertex_count) {
   const int kept = static_cast<int>(used.index.size());
-  IndexVector number = IndexVector::Constant(vertex_count, -1);
-  for (int k = 0; k < kept; ++k) number(used.index[k]) = k;
   Surroundings result{around.V, Triangles(around.F.rows(), 3)};
   int count = 0;
   for (const auto& triangle : around.F.rowwise()) {
     const Eigen::RowVector3i renumbered =
-        triangle.unaryExpr([&](int v) { return v < vertex_count ? number(v) : v - vertex_count + kept; });
+        triangle.unaryExpr([&](int v) { return v < vertex_count ? used.number(v) : v - vertex_count + kept; });
     if (renumbered.minCoeff() >= 0) result.F.row(count++) = renumbered;
   }
   result.F.conservativeResize(count, 3);

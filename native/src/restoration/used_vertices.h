@@ -12,6 +12,7 @@ namespace reflines {
 struct UsedVertices {
   std::vector<int> index;  // ascending, in the given mesh
   Triangles F;             // #F x 3, into `index`
+  IndexVector number;      // #V of the given mesh, into `index`, or -1
 };
 
 // Finds the vertices of F (#F x 3), which must have passed check_indices against `vertex_count`.

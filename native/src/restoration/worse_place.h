@@ -13,6 +13,12 @@ struct ChangedSlopes {
   PlaneVectors before, course_before, after, course_after;
 };
 
+// Replaces `worst` by the place (by V, #V x 3, and F, #F x 3) where lines got worse by more: by at least `least`
+// degrees, and off their course by kWorst or more. `before` and `after` (#F x lights) are degrees in lights whose
+// numbers begin at `first`.
+void take_worse(const Eigen::Ref<const Eigen::MatrixXd>& before, const Eigen::Ref<const Eigen::MatrixXd>& after,
+                int first, const Positions& V, const Triangles& F, double least, WorsePlace& worst);
+
 // Returns the place (by V, #V x 3, and F, #F x 3) where lines got worse by most in one of the lights: by at least
 // `least` degrees, means `around` each place, and off their course by kWorst or more.
 WorsePlace find_worse_place(const Families& lights, const ChangedSlopes& slopes, const DiskMean& around,
