@@ -8,7 +8,7 @@
 #include "reflection/weighted_median.h"
 #include "restoration/disk_mean.h"
 #include "restoration/press_rules.h"
-#include "restoration/vertex_gradients.h"
+#include "restoration/triangle_slopes.h"
 
 namespace reflines {
 namespace {

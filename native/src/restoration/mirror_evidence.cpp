@@ -9,7 +9,7 @@
 #include "restoration/mean_plane.h"
 #include "restoration/press_rules.h"
 #include "restoration/roughness.h"
-#include "restoration/vertex_gradients.h"
+#include "restoration/triangle_slopes.h"
 
 namespace reflines {
 namespace {

@@ -7,7 +7,7 @@
 #include "restoration/mean_plane.h"
 #include "restoration/mirror_evidence.h"
 #include "restoration/press_rules.h"
-#include "restoration/vertex_gradients.h"
+#include "restoration/triangle_slopes.h"
 
 namespace reflines {
 namespace {
