@@ -8,7 +8,9 @@
 #include "reflines/errors.h"
 #include "restoration/controlled_surface.h"
 #include "restoration/press_rules.h"
+#include "restoration/press_setup.h"
 #include "restoration/restoration.h"
+#include "solver/mirror_coupling.h"
 #include "solver/optimizer_internals.h"
 
 namespace reflines {
@@ -97,25 +99,28 @@ using MakeSurface = std::function<std::unique_ptr<ControlledSurface>()>;
 
 class HeldBorderPress : public Press {
  public:
-  // `make_clamped` is asked where the border of `surface` continues the curvature.
+  // `make_clamped` is asked where the border of `surface` continues the curvature; `partner` (#C or empty) are the
+  // mirror images of control vertices by whose limits amounts are narrowed.
   HeldBorderPress(std::unique_ptr<ControlledSurface> surface, const MakeSurface& make_clamped,
-                  const SmoothPanelOptions& options)
-      : surface_(std::move(surface)), press_(*surface_, options) {
+                  const SmoothPanelOptions& options, IndexVector partner = {})
+      : surface_(std::move(surface)), press_(*surface_, options), partner_(std::move(partner)) {
     if (surface_->optimizer().internals().border.empty()) return;
     clamped_surface_ = make_clamped();
     clamped_press_ = std::make_unique<Restoration>(*clamped_surface_, options);
   }
 
   SmoothPanelResult run(const PressAmount& amount) override {
-    if (!clamped_press_) return press_.run(amount);
-    PressAmount judged = amount;  // the measures choose between both
-    judged.judged = true;
-    return press_both(press_, *clamped_press_, judged);
+    PressAmount own = amount;
+    own.limit_range = intersect_limits(amount.limit_range, partner_);
+    if (!clamped_press_) return press_.run(own);
+    own.judged = true;  // the measures choose between both
+    return press_both(press_, *clamped_press_, own);
   }
 
  private:
   std::unique_ptr<ControlledSurface> surface_;
   Restoration press_;
+  IndexVector partner_;
   std::unique_ptr<ControlledSurface> clamped_surface_;  // or none
   std::unique_ptr<Restoration> clamped_press_;
 };
@@ -130,16 +135,18 @@ std::unique_ptr<Press> prepare_held_border(const Positions& V, const Triangles& 
       make(shape), [&] { return make(clamp_instead(shape)); }, options);
 }
 
-std::unique_ptr<Press> prepare_held_cage_border(const Cage& cage, const Positions& V, const Vector3& view,
-                                                const std::vector<Vector3>& families, const CageOptions& cage_options,
-                                                const SmoothPanelOptions& options) {
-  const auto make = [&](const CageOptions& own) {
-    return std::make_unique<CageControlledSurface>(cage, V, view, families, own);
+std::unique_ptr<Press> prepare_cage(const JointCage& cage, const Vector3& view, const Vector3& lines,
+                                    const SmoothPanelOptions& options, const PressAmount& amount) {
+  CageOptions own = cage.options;
+  set_restoration_rules(options, lines, amount, kRules.cage.proximity, own.shape);
+  const auto make = [&](const CageOptions& chosen) {
+    return std::make_unique<CageControlledSurface>(cage.cage, cage.V, view, make_families(view, lines, options),
+                                                   chosen);
   };
-  CageOptions clamped = cage_options;
+  CageOptions clamped = own;
   clamp_all(clamped.border);
   return std::make_unique<HeldBorderPress>(
-      make(cage_options), [&] { return make(clamped); }, options);
+      make(own), [&] { return make(clamped); }, options, cage.options.partner);
 }
 
 }  // namespace reflines

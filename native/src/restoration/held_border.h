@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "reflines/cage_optimizer.h"
+#include "reflines/joint_smoother.h"
+#include "reflines/panel_smoother.h"
 #include "reflines/shape_optimizer.h"
 #include "reflines/smooth_panel.h"
 #include "restoration/press.h"
@@ -18,9 +19,9 @@ std::unique_ptr<Press> prepare_held_border(const Positions& V, const Triangles& 
                                            const std::vector<Vector3>& families, const ShapeOptions& shape,
                                            const SmoothPanelOptions& options);
 
-// Prepares presses of the region of a cage's surface with `cage_options.border` likewise.
-std::unique_ptr<Press> prepare_held_cage_border(const Cage& cage, const Positions& V, const Vector3& view,
-                                                const std::vector<Vector3>& families, const CageOptions& cage_options,
-                                                const SmoothPanelOptions& options);
+// Prepares presses of the region of a cage's surface with the cage's border likewise. Throws what smooth_cage_panel
+// throws.
+std::unique_ptr<Press> prepare_cage(const JointCage& cage, const Vector3& view, const Vector3& lines,
+                                    const SmoothPanelOptions& options, const PressAmount& amount);
 
 }  // namespace reflines

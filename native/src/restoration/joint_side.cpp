@@ -9,7 +9,6 @@
 #include "geometry/bounding_box.h"
 #include "geometry/mesh.h"
 #include "geometry/open_border.h"
-#include "restoration/cage_press.h"
 #include "restoration/even_flush.h"
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
@@ -79,15 +78,14 @@ void JointSide::widen_flaws(double diagonal) {
   joint_options_.flaw_size *= widened_;
 }
 
-JointSide::Rings JointSide::continue_region(const Positions& V, const Surroundings& around, const Skin& beside,
-                                            double margin) const {
-  const GapOptions options{gap_, margin};
-  GapContinuation found = continue_over_gap(V, F_, around, beside.V, beside.F, options);
-  return {std::move(found.around), std::move(found.followed)};
+GapContinuation JointSide::continue_region(const Positions& V, const Surroundings& around, const Skin& beside,
+                                           double margin) const {
+  return continue_over_gap(V, F_, around, beside.V, beside.F, {gap_, margin});
 }
 
-JointSide::Rings JointSide::take_around() const {
-  Rings rings{shape_.around, Mask::Constant(V_.rows(), false)};
+GapContinuation JointSide::take_around() const {
+  GapContinuation rings{
+      .around = shape_.around, .followed = Mask::Constant(V_.rows(), false), .width = {}, .flush = {}};
   for (const int v : shape_.around.F.reshaped()) {
     if (v < V_.rows()) rings.followed(v) = true;
   }
@@ -98,7 +96,7 @@ void JointSide::face(const Skin& others) {
   if (!follows(shape_.border)) return;
   Mask wanted(V_.rows());
   for (Eigen::Index v = 0; v < wanted.size(); ++v) wanted(v) = shape_.border[v] == Border::kFollow;
-  const Rings joint = continue_region(V_, shape_.around, others, panel_.gap.margin);
+  const GapContinuation joint = continue_region(V_, shape_.around, others, panel_.gap.margin);
   joint_ = joint.followed && wanted;
   rings_still_ = panel_.around_is_followed ? take_around()
                                            : continue_region(V_, combine(shape_.around, joint.around, V_.rows()),
@@ -174,7 +172,7 @@ Skin JointSide::skin(double fraction) const { return {present(fraction), F_}; }
 UnevenFlush JointSide::find_uneven_flush(const Skin& others, const FlushPart& part, double fraction) const {
   const Positions V = present(fraction);
   const Positions normal = find_open_border(V, F_, shape_.around).normal;
-  const GapContinuation found = continue_over_gap(V, F_, shape_.around, others.V, others.F, {gap_, 0});
+  const GapContinuation found = continue_region(V, shape_.around, others, 0);
   const double least = kRules.bump.least_height * alone_->report().length;
   UnevenFlush result{0, Vector::Zero(V.rows())};
   const IndexVector across = found.followed.select(part.across.array(), -1);
@@ -193,7 +191,7 @@ UnevenFlush JointSide::find_uneven_flush(const Skin& others, const FlushPart& pa
 }
 
 JoinedMesh JointSide::join(const Positions& V, const Skin& others) const {
-  const Rings rings = continue_region(V, shape_.around, others, widened_ * panel_.gap.margin);
+  const GapContinuation rings = continue_region(V, shape_.around, others, widened_ * panel_.gap.margin);
   return join_surroundings(V, F_, combine(rings.around, rings_still_.around, V.rows()), kWhole);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/nearest_surface.h"
+#include "reflines/gap_continuation.h"
 #include "reflines/joint_smoother.h"
 #include "restoration/cage_panel.h"
 #include "restoration/control_range.h"
@@ -105,12 +106,9 @@ class JointSide {
   RimPlace find_rim(const Vector3& point, double within) const;
 
  private:
-  struct Rings {
-    Surroundings around;
-    Mask followed;  // #V
-  };
-  Rings continue_region(const Positions& V, const Surroundings& around, const Skin& beside, double margin) const;
-  Rings take_around() const;  // the faces around, which are followed
+  GapContinuation continue_region(const Positions& V, const Surroundings& around, const Skin& beside,
+                                  double margin) const;
+  GapContinuation take_around() const;  // the faces around, which are followed
   JoinedMesh join(const Positions& V, const Skin& others) const;
   ShapeOptions choose_joined_shape(const JoinedMesh& joined) const;
   ShapeOptions clamp_joint() const;
@@ -130,7 +128,7 @@ class JointSide {
   SmoothPanelOptions options_, joint_options_;
   double gap_ = 0, widened_ = 1;  // see widen_flaws
   Mask joint_, still_;            // #V: border vertices that follow the others, and what stays
-  Rings rings_still_;             // of what stays, at the start
+  GapContinuation rings_still_;   // of what stays, at the start
   Triangles rim_;                 // edges of the border: first, second, second
   NearestSurface rim_tree_;
   std::vector<Border> turned_border_;  // #V: kFollow where it is turned

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "reflines/errors.h"
-#include "restoration/cage_press.h"
 #include "restoration/faired_border.h"
 #include "restoration/followed_border.h"
 #include "restoration/held_border.h"
