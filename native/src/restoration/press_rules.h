@@ -20,7 +20,7 @@ struct ScaleRules {
   double around = 3.0;                  // lengths: of "around a place"
   double even = 0.46;                   // geometric over arithmetic mean of squares there, soft
   double nothing = 0.05;                // of a flaw's variation: what counts as none in the geometric mean
-  double spread = 0.75;                 // variance across a line's direction over the disk's: a line or waves, soft
+  double spread = 0.8;                  // variance across a line's direction over the disk's: a line or waves, soft
   double waves = 0.28;                  // of such waves that counts as flaws: more bends clean flutes
   double slope_weight = 0.5;            // lengths: weight of slopes beside heights where flaws are kept out
   double design_slope_weight = 7.0;     // lengths: likewise on design, whose thin triangles would turn far
