@@ -86,6 +86,8 @@ MODULES = [importlib.import_module(f"{__name__}.{name}") for name in NAMES]
 
 if "REGISTERED_BEFORE" in globals():  # Blender reloads this file only; its parts must follow, in the same order.
     for module in MODULES:
+        for name in [name for name in vars(module) if not name.startswith("__")]:  # a reload keeps what is gone
+            delattr(module, name)
         importlib.reload(module)
 REGISTERED_BEFORE = True
 running_operators = importlib.import_module(f"{__name__}.interactive.running_operators")

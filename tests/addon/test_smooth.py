@@ -64,6 +64,12 @@ def test_undo_gives_back_the_identical_mesh_and_redo_the_result(panel, mode) -> 
     assert scenes.fingerprint(bpy.context.view_layer.objects.active) == after
 
 
+def test_a_strength_of_zero_changes_no_bit(panel) -> None:
+    before = scenes.positions(panel)
+    assert scenes.smooth(strength=0.0) == {'FINISHED'}
+    assert np.array_equal(scenes.positions(panel), before)
+
+
 def test_settings_are_the_scenes_unless_given(panel) -> None:
     settings = bpy.context.scene.reflection_lines
     settings.length, settings.strength, settings.border = 0.4, 0.6, 'fixed'

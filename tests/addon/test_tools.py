@@ -80,6 +80,7 @@ def test_every_tool_comes_nearer_to_what_it_was_asked_for_and_is_undone(panel, c
     moved = (scenes.positions(panel) != before).any(axis=1)
     inside = (np.abs(before[:, :2]) < 1.0 - 1.5 / CELLS * 2.0).all(axis=1)
     assert moved.any() and not moved[~inside].any()
+    assert np.array_equal(scenes.positions(panel)[:, :2], before[:, :2])  # along the view only
     bpy.ops.ed.undo()
     assert scenes.fingerprint(bpy.context.view_layer.objects.active) == start
 

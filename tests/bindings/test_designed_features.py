@@ -6,8 +6,8 @@ triangles' normals, which shares no code with the solver.
 import numpy as np
 import pytest
 import reflines
-from sample_panels import Array, grid
-from test_smooth_panel import VIEW, theta
+from sample_panels import Array, find_normals, grid, theta_of
+from test_smooth_panel import VIEW
 
 LINES = np.array([0.0, -1.0, 0.0])
 SIZE = np.array([1.4, 1.0])
@@ -63,9 +63,10 @@ def noise(V: Array, F: Array) -> Array:
 def error(V: Array, clean: Array, F: Array, where: Array | float = 1.0) -> float:
     """Degrees of theta, root mean square by area, of both lights."""
     squared = 0.0
-    area = np.linalg.norm(np.cross(*(clean[F[:, k]] - clean[F[:, 0]] for k in (1, 2))), axis=1) * where
+    normals = [find_normals(each, F) for each in (V, clean)]
+    area = np.linalg.norm(normals[1], axis=1) * where
     for light in (LINES, np.array([1.0, 0.0, 0.0])):
-        off = theta(V, F, light) - theta(clean, F, light)
+        off = np.subtract(*(theta_of(n, VIEW, light) for n in normals))
         squared += (off**2 * area).sum() / area.sum() / 2
     return float(np.degrees(np.sqrt(squared)))
 

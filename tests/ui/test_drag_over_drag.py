@@ -55,6 +55,9 @@ def test_disabling_the_add_on_takes_both_back(driver: window.Window) -> Steps:
     with driver.override():
         bpy.ops.preferences.addon_disable(module=installation.NAME)
     yield 0.5
+    driver.move(200, 300)
+    driver.key('RET')
+    yield 0.3
     after = shown(driver)
     with driver.override():
         installation.install()

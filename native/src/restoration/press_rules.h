@@ -95,7 +95,7 @@ struct JointRules {
 
 // Rules of cages, which have few unknowns.
 struct CageRules {
-  double proximity = 1e4;  // see Proximity: each unknown lifts much surface and drifts less
+  double proximity = 1e4;  // see PressRules: each unknown lifts much surface and drifts less
 };
 
 // Rules of the verdict and of what is reported of a result; see healed_flaws.h and line_evenness.h.
@@ -109,7 +109,7 @@ struct VerdictRules {
   double even_radius = 0.5;    // lengths: of such a place
   double longer_waves = 0.32;  // degrees, root mean square: waves that are worth a word
   double place_radius = 0.35;  // lengths: a flaw is one place, the mesh's facets are none
-  double seen = 0.4;           // degrees that lines deviate: flaws that are shown and told as healed, soft
+  double seen = 0.4;           // degrees that lines deviate: flaws that are shown and reported, soft
   double healed = 0.52;        // of that which went, soft
   double saturating = 0.6;     // of the limit: moves from here on are less, and come to it without an edge
 };
@@ -122,9 +122,12 @@ struct PressRules {
   JointRules joint;
   CageRules cage;
   VerdictRules verdict;
-  double visible = 0.3;    // degrees that lines deviate, or tangents turn: less is not seen
-  double gain = 0.19;      // of unevenness that goes with a bump, or with a cage's move: less is not worth it, soft
-  double proximity = 1e6;  // stiffness that holds a mesh to the smoothed heights, relative to that of the lines
+  double visible = 0.3;    // degrees that lines deviate, or tangents turn: less is not seen; see even_places.h,
+                           // region_result.h and joint_press.h
+  double gain = 0.19;      // of unevenness that goes with a bump, or with a cage's move: less is not worth it, soft;
+                           // see bump_removal.h and restoration.h
+  double proximity = 1e6;  // stiffness that holds a mesh to the smoothed heights, relative to that of the lines; see
+                           // press_setup.h
 };
 
 inline constexpr PressRules kRules;

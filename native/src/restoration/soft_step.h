@@ -8,7 +8,7 @@ namespace reflines {
 // The factor between a threshold and the ends of its smoothstep: from 0.82 to 1.22 thresholds.
 inline constexpr double kSoftness = 1.22;
 
-// Returns how surely x > 0 is above a threshold, 0 to 1; 0.5 is just below it.
+// Returns how surely x > 0 is above a threshold, 0 to 1; half is reached just above it.
 inline double soft_step(double threshold, double x) {
   return smoothstep(threshold / kSoftness, threshold * kSoftness, x);
 }
