@@ -57,17 +57,17 @@ def test_a_press_gives_the_positions_of_the_native_function_to_the_bit(settings:
 
 
 def test_another_strength_takes_what_the_first_press_found() -> None:
-    """As the redo panel does: the mesh is put back, and the press repeated with another strength and limit."""
+    """As the redo panel does: the mesh is put back, and the press repeated with another strength, limit or symmetry."""
     ob = ready()
     before = scenes.positions(ob)
     scenes.smooth()
     kept = press_cache._presses[ob.name]
-    for settings in ({"strength": 0.5}, {"strength": 0.5, "limit": 2.0**-10}):
+    for settings in ({"strength": 0.5}, {"strength": 0.5, "limit": 2.0**-10}, {"symmetric": False}):
         scenes.object_mode()
         ob.data.vertices.foreach_set("co", before.ravel())
         scenes.edit_inner(ob, CELLS)
         assert scenes.smooth(**settings) == {'FINISHED'}
-        assert press_cache._presses[ob.name].smoother is kept.smoother
+        assert (press_cache._presses[ob.name].smoother is kept.smoother) == ("symmetric" not in settings)
         assert np.array_equal(solve_history.find_last_solve(ob.name).positions, expected(ob, **settings))
     scenes.smooth()  # of the mesh as it is now
     assert press_cache._presses[ob.name].smoother is not kept.smoother
