@@ -100,6 +100,8 @@ NOWHERE[80, 1] = np.nan  # a corner, of triangles beside the region
     ({"deviation": float("inf")}, "mark for the deviation"),
     ({"crease_angle": float("nan")}, "crease angle"),
     ({"crease_rule": "some"}, "'some'"),
+    ({"marked_creases": [[0, 10**6]]}, "1 of the 1 marked creases name a vertex beyond"),
+    ({"marked_creases": [[0, 1], [-5, 2]]}, "1 of the 2 marked creases name a vertex beyond"),
 ])
 def test_unusable_input_gets_one_sentence(change: dict, said: str) -> None:
     V, F = panel(8)

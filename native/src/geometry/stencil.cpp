@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/parallel_failure.h"
 #include "geometry/stencil_quality.h"
 #include "reflines/errors.h"
 
@@ -63,15 +64,14 @@ constexpr int kChunkSize = 4096;
 
 std::vector<Chunk> make_chunks(const HeightField& field, StencilKind kind) {
   std::vector<Chunk> chunks((field.triangle_count() + kChunkSize - 1) / kChunkSize);
-#pragma omp parallel for schedule(dynamic) if (field.triangle_count() > kWorthThreads)
-  for (int c = 0; c < static_cast<int>(chunks.size()); ++c) {
+  run_parallel(static_cast<int>(chunks.size()), 1, [&](int c) {
     const int end = std::min((c + 1) * kChunkSize, field.triangle_count());
     for (int t = c * kChunkSize; t < end; ++t) {
       bool fell_back = false;
       chunks[c].add(compute_with_fallback(field, t, kind, fell_back));
       chunks[c].fallback_count += fell_back;
     }
-  }
+  });
   return chunks;
 }
 

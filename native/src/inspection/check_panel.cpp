@@ -6,12 +6,14 @@
 #include <numbers>
 #include <string>
 
+#include "base/parallel_failure.h"
 #include "geometry/mesh.h"
 #include "geometry/nearest_surface.h"
 #include "inspection/check_input.h"
 #include "inspection/compare_values.h"
 #include "inspection/seams.h"
 #include "inspection/side_fit.h"
+#include "solver/solve_checks.h"
 
 namespace reflines {
 namespace {
@@ -22,6 +24,7 @@ constexpr double kMost = 0.95;  // fraction of the vertices that deviation_95 st
 void check_input(const Positions& before, const Positions& after, const Triangles& F, const Mask& region,
                  const CheckOptions& options) {
   check_compared(before, after, F, region);
+  check_marked_creases(options.creases.marked, before.rows());
   check_mark(options.gap, "gap");
   check_mark(options.angle, "angle");
   check_mark(options.curvature, "curvature");
@@ -39,10 +42,9 @@ std::vector<Sides> measure_sides(const Positions& V, const Triangles& F, const S
   std::vector<Sides> sides(count);
   measures = {Vector::Zero(count), Vector::Zero(count), Vector::Zero(count)};
   const CutSurface cut{F, seams.neighbors};
-#pragma omp parallel for schedule(dynamic, 64)
-  for (int k = 0; k < count; ++k) {
+  run_parallel(count, 64, [&](int k) {
     const Seam& seam = seams.list[k];
-    if (seam.other < 0) continue;
+    if (seam.other < 0) return;
     const Vector3 a = V.row(seam.first), b = V.row(seam.second), middle = 0.5 * (a + b);
     const Vector3 across = seam.is_joined ? middle
                                           : nearest_in_triangle(middle, V.row(F(seam.other, 0)),
@@ -51,7 +53,7 @@ std::vector<Sides> measure_sides(const Positions& V, const Triangles& F, const S
     const Vector3 &n = sides[k].own.normal, &m = sides[k].other.normal;
     measures.gap(k) = (across - middle).norm();
     measures.angle(k) = std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi;
-  }
+  });
   return sides;
 }
 
@@ -89,11 +91,10 @@ void measure_deviation(const Positions& before, const Positions& after, const Tr
   }
   const NearestSurface surface(before, F);
   check.deviation = Vector::Zero(before.rows());
-#pragma omp parallel for schedule(dynamic, 256)
-  for (int v = 0; v < static_cast<int>(before.rows()); ++v) {
+  run_parallel(static_cast<int>(before.rows()), 256, [&](int v) {
     const double moved = (after.row(v) - before.row(v)).norm();
     if (used(v) && moved > 0) check.deviation(v) = surface.find(after.row(v), moved * (1 + 1e-12)).distance;
-  }
+  });
   std::vector<double> sorted;
   for (const int v : list_marked(used)) sorted.push_back(check.deviation(v));
   std::sort(sorted.begin(), sorted.end());
