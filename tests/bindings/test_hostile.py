@@ -146,6 +146,18 @@ def test_settings_of_a_pattern_that_are_no_numbers_are_refused(solver, name, val
         reflines.pattern(solver, image=np.random.default_rng(0).random((8, 8)), **{name: value})
 
 
+@pytest.mark.parametrize("length", [5e-324, 2e-308])
+def test_a_length_too_small_to_compute_with_is_refused(length) -> None:
+    """A tenth more of it is the same number, so that no circle grows from it."""
+    with pytest.raises(reflines.InvalidInput, match="too small to compute with; give a longer one, or 0 for automatic"):
+        reflines.smooth_panel(*panel(12), view_direction=VIEW, line_direction=LINE, length=length)
+
+
+@pytest.mark.parametrize("settings", [{"length": 2.3e-308}, {"flaw_size": 5e-324}, {"parts_gap": 5e-324}])
+def test_the_smallest_settings_of_a_press_come_to_an_end(settings) -> None:
+    reflines.smooth_panel(*panel(12), view_direction=VIEW, line_direction=LINE, **settings)
+
+
 @pytest.mark.parametrize("length", [1e8, 1e100, 1e300])
 def test_a_length_far_beyond_the_panel_smooths_as_a_long_one(solver, length) -> None:
     """The fourth power of 1e100 is no number."""

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "reflines/errors.h"
@@ -55,6 +56,9 @@ void check_amount(const PressAmount& amount, Eigen::Index vertex_count) {
 void check_press_options(const SmoothPanelOptions& options, Eigen::Index vertex_count) {
   require(options.length >= 0 && std::isfinite(options.length),
           "The length must be a positive length, or 0 for automatic.");
+  // The search for bumps grows their radius from a part of the length, which stands still where that rounds.
+  require(options.length == 0 || options.length >= std::numeric_limits<double>::min(),
+          "The length is too small to compute with; give a longer one, or 0 for automatic.");
   require(options.parts_gap >= 0 && std::isfinite(options.parts_gap),
           "The gap between parts must be a positive length, or 0 for automatic.");
   require(options.flaw_size > 0 && std::isfinite(options.flaw_size), "The flaw size must be a number above 0.");
