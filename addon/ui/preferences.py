@@ -5,7 +5,7 @@ import rna_keymap_ui
 from .. import bl_info, native
 from . import keymaps, manual_links
 
-# Texts of buttons, and the keys of bl_info that hold their addresses. Only packages have some, by .ci/addresses.py.
+# Texts of buttons, and the keys of bl_info that hold their addresses, where the project has some.
 # bl_info is imported, not looked up when drawing, because Blender removes it from an extension that it enables.
 LINKS = (("Website", "website"), ("Report a Problem", "tracker_url"))
 

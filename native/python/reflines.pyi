@@ -243,7 +243,7 @@ class SmoothPanelReport:
                                # takes them for flaws
     score_before: list[LineScore]  # one for each light, at `length`
     score_after: list[LineScore]
-    unevenness_before: list[float]  # one for each light: how far the lines stray from their smoothed selves within one
+    unevenness_before: list[float]  # one for each light: how far the lines are from their smoothed selves within one
     unevenness_after: list[float]   # length, degrees, root mean square; creases are those of both shapes
     seen: list[float]          # one for each light: fraction of the panel's area that its eye sees; 1 along the view
     healed: HealedFlaws

@@ -14,6 +14,7 @@ from tree import ROOT
 PAGE = Path("tests/README.md")
 MANUAL = Path("addon/manual/index.html")
 FILES = [file for file in files_below(PYTHON_FOLDERS, ".py") if file.parts[0] == "addon"]
+STUB = Path("native/python/reflines.pyi")
 CPP_FILES = files_below(CPP_FOLDERS, ".h", ".cpp")
 WORDS = re.compile(r"[a-z]+")
 NO_NAME = re.compile(r'"(?:[^"\\]|\\.)*"|^\s*#include.*')
@@ -69,6 +70,12 @@ def test_no_other_word_is_used_in_native_code(file: Path) -> None:
 def test_no_other_word_is_used_in_code(file: Path) -> None:
     found = [*remarks(file), *own_names(ast.parse((ROOT / file).read_text()))]
     wrong = [f"{file}:{line} {word}" for line, text in found for word in sorted(split(text) & replaced_words())]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_no_other_word_is_used_in_what_the_module_says_of_itself() -> None:
+    wrong = [f"{STUB}:{line} {word}" for line, text in remarks(STUB)
+             for word in sorted(split(text) & replaced_words())]
     assert not wrong, "\n".join(wrong)
 
 
