@@ -55,7 +55,7 @@ def draw_legend() -> None:
     if full is None:
         return
     scale = context.preferences.system.ui_scale
-    left = view_region.find_view_left(context.area) - context.region.x + MARGIN * scale
+    left = view_region.find_view_left(context.area, context.region) - context.region.x + MARGIN * scale
     low = LOW * scale
     draw_bar(settings.mode, left, low, scale)
     ends = describe_ends(context.scene, settings.mode, full)

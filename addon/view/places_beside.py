@@ -25,7 +25,7 @@ def find_place(area: bpy.types.Area, region: bpy.types.Region, region_3d: bpy.ty
     """
     seen = [place for corner in corners
             if (place := view3d_utils.location_3d_to_region_2d(region, region_3d, corner)) is not None]
-    free_low, free_high = view_region.find_free_width(area)
+    free_low, free_high = view_region.find_free_width(area, region)
     low, high = max(free_low - region.x, 0), min(free_high - region.x, region.width)
     x, y = high, 0.5 * region.height
     if seen:
@@ -41,7 +41,7 @@ def find_span(area: bpy.types.Area, region: bpy.types.Region, region_3d: bpy.typ
     """
     seen = [place.x for corner in corners
             if (place := view3d_utils.location_3d_to_region_2d(region, region_3d, corner)) is not None]
-    free_low, free_high = view_region.find_free_width(area)
+    free_low, free_high = view_region.find_free_width(area, region)
     low, high = max(free_low - region.x, 0), min(free_high - region.x, region.width)
     if len(seen) == len(corners):  # else the view is within the box
         low, high = max(low, min(seen)), min(high, max(seen))

@@ -30,23 +30,22 @@ def find_view_at(area: bpy.types.Area, x: int, y: int) -> View | None:
     return next((view for view in list_views(area) if covers(view[0], x, y)), None)
 
 
-def find_view_left(area: bpy.types.Area) -> int:
-    """Returns where the view begins beside the toolbar, in pixels of the window."""
+def find_view_left(area: bpy.types.Area, view: bpy.types.Region) -> int:
+    """Returns where one of the area's views begins beside the toolbar, in pixels of the window."""
     tools = [region for region in area.regions if region.type == 'TOOLS' and region.width > 1]
-    return max([find_view_region(area).x, *(region.x + region.width for region in tools)])
+    return max([view.x, *(region.x + region.width for region in tools)])
 
 
-def find_free_width(area: bpy.types.Area) -> tuple[int, int]:
-    """Returns where the view begins and ends between toolbar and sidebar, in pixels of the window."""
-    view = find_view_region(area)
+def find_free_width(area: bpy.types.Area, view: bpy.types.Region) -> tuple[int, int]:
+    """Returns where one of the area's views begins and ends between toolbar and sidebar, in pixels of the window."""
     sidebars = [region for region in area.regions if region.type == 'UI' and region.width > 1]
-    return find_view_left(area), min([view.x + view.width, *(region.x for region in sidebars)])
+    return find_view_left(area, view), min([view.x + view.width, *(region.x for region in sidebars)])
 
 
 def find_view_middle(area: bpy.types.Area) -> tuple[int, int]:
     """Returns the middle of the view between toolbar and sidebar, in pixels of the window."""
     view = find_view_region(area)
-    return sum(find_free_width(area)) // 2, view.y + view.height // 2
+    return sum(find_free_width(area, view)) // 2, view.y + view.height // 2
 
 
 def redraw_views(context: bpy.types.Context) -> None:

@@ -1,4 +1,5 @@
-"""Quad View: tools work with the view that the mouse is over."""
+"""Quad View: tools work with the view that the mouse is over, and each view has its own legend and divider."""
+import sys
 
 import bpy
 import numpy as np
@@ -93,4 +94,51 @@ def test_fair_brush_paints_where_the_mouse_is_in_each_view(driver: window.Window
         yield from click(driver, 'RELEASE')
     with driver.override():
         bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+    yield from toggle(driver)
+
+
+def find_sides(driver: window.Window, region: bpy.types.Region) -> tuple[int, int]:
+    """What toolbar and sidebar leave of a view, in its own pixels."""
+    tools, sidebar = driver.region('TOOLS'), driver.region('UI')
+    low = tools.x + tools.width - region.x if tools.width > 1 else 0
+    high = sidebar.x - region.x if sidebar.width > 1 else region.width
+    return max(low, 0), min(high, region.width)
+
+
+def find_panel_sides(driver: window.Window, region: bpy.types.Region) -> tuple[float, float]:
+    """From where to where a view shows the panel, in its own pixels."""
+    with override(driver, region):
+        places = [location_3d_to_region_2d(region, bpy.context.region_data, Vector(vertex)).x
+                  for vertex in scenes.world(bpy.context.view_layer.objects.active)]
+    return min(places), max(places)
+
+
+def test_each_view_has_legend_and_divider_within_it(driver: window.Window) -> Steps:
+    panel(driver, cells=24)
+    with driver.override():
+        scenes.smooth(length=1.0)
+        scenes.object_mode()
+    stripes = bpy.context.scene.reflection_lines.stripes
+    stripes.before, stripes.side_by_side = True, True
+    addon = sys.modules["reflection_lines"]
+    legend, lefts = addon.overlay.legend, {}
+    draw_bar = legend.draw_bar
+    legend.draw_bar = lambda mode, left, *rest: lefts.update({bpy.context.region.as_pointer(): left})
+    yield from four_views(driver)
+    driver.redraw()
+    yield 0.8
+    dividers = [addon.state.compared.find_divider(region) for region in regions(driver)]
+    stripes.before, stripes.mode = False, 'DEVIATION'
+    driver.redraw()
+    yield 0.5
+    legend.draw_bar = draw_bar
+    margin = legend.MARGIN * bpy.context.preferences.system.ui_scale
+    for number, region in enumerate(regions(driver)):
+        low, high = find_sides(driver, region)
+        assert lefts[region.as_pointer()] == low + margin, (number, lefts, low)
+        left, right = find_panel_sides(driver, region)
+        expected = 0.5 * (max(left, low) + min(right, high))
+        assert dividers[number] is not None and abs(dividers[number] - expected) < 2.0, (number, dividers, expected)
+        assert low < expected < high, number
+    stripes.mode = 'REFLECTION'
     yield from toggle(driver)
