@@ -35,14 +35,14 @@ struct HessianSamples {
 };
 
 // Bumps around which the surface is good: within 2.5 radii a bump and a background that is linear in the Hessian
-// explain it by 0.43 of its variance, softly from 0.35 to 0.52, times the root of the fraction of samples that are no
-// outliers. Ridges, fillets and scoops are no bumps: their Hessian goes on beyond the disk. Planted dents come to 0.4
-// to 0.9 where a disk of their size is free of strong features. Of a bump that is n times as steep as the rules say, n
-// times that fraction has to be explained, for what a design has pressed into a panel is steep, and has a floor, a rim
-// or a direction of its own; where it is not, the bump is design, and so is what overlaps it. `seeds` (#S x 2): where a
-// bump may be centred; `length`: the size of flaws. Of bumps that overlap the best is taken. Where `removed` has bumps
-// that an earlier search found, only disks that these overlap are looked at: the surface of the others is as it was.
-// Deterministic; throws Cancelled.
+// explain it, by a soft fraction of its variance (BumpRules::explained) times the root of the fraction of samples that
+// are no outliers. Ridges, fillets and scoops are no bumps: their Hessian goes on beyond the disk. Planted dents come
+// to 0.4 to 0.9 where a disk of their size is free of strong features. Of a bump that is n times as steep as the rules
+// say, n times that fraction has to be explained, for what a design has pressed into a panel is steep, and has a floor,
+// a rim or a direction of its own; where it is not, the bump is design, and so is what overlaps it. `seeds` (#S x 2):
+// where a bump may be centred; `length`: the size of flaws. Of bumps that overlap the best is taken. Where `removed`
+// has bumps that an earlier search found, only disks that these overlap are looked at: the surface of the others is as
+// it was. Deterministic; throws Cancelled.
 std::vector<Bump> find_bumps(const HessianSamples& samples, const PlanePositions& seeds,
                              const std::vector<Bump>& removed, double length, Progress* progress);
 
